@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+/// The operations that kernels are written in, on one float. XsimdLanes says the same with an xsimd batch.
+
+namespace goffer::simd {
+
+struct ScalarLanes {
+    using Vec = float;
+    static constexpr std::size_t width = 1;
+
+    static Vec set(float value) { return value; }
+    static Vec load(const float* from) { return *from; }
+    static void store(float* to, Vec value) { *to = value; }
+    /// a b + c
+    static Vec madd(Vec a, Vec b, Vec c) { return a * b + c; }
+    /// c - a b
+    static Vec nmadd(Vec a, Vec b, Vec c) { return c - a * b; }
+    static Vec abs(Vec a) { return std::fabs(a); }
+    static Vec clamp(Vec a, Vec low, Vec high) { return a < low ? low : a > high ? high : a; }
+    /// 1 / sqrt(a), a > 0, to about the last bit
+    static Vec rsqrt(Vec a) { return 1.0f / std::sqrt(a); }
+    /// a < b ? yes : no
+    static Vec where_less(Vec a, Vec b, Vec yes, Vec no) { return a < b ? yes : no; }
+};
+
+}  // namespace goffer::simd
