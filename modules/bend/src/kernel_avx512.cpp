@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "kernel.hpp"
+
+#include <goffer/simd/avx512_lanes.hpp>
+
+namespace goffer::bend {
+
+extern constexpr KernelSet kernels_avx512 = kernel_set<simd::Avx512Lanes>();
+
+}  // namespace goffer::bend

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "kernel.hpp"
+
+#include <goffer/simd/scalar_lanes.hpp>
+
+namespace goffer::bend {
+
+extern constexpr KernelSet kernels_scalar = kernel_set<simd::ScalarLanes>();
+
+}  // namespace goffer::bend

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "kernel.hpp"
+
+#include <goffer/simd/xsimd_lanes.hpp>
+
+namespace goffer::bend {
+
+extern constexpr KernelSet kernels_sse42 = kernel_set<simd::XsimdLanes<xsimd::sse4_2>>();
+
+}  // namespace goffer::bend
