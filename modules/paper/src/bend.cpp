@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "bend.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace goffer::paper {
+namespace {
+
+double sinc(double x) {
+    return x == 0 ? 1 : std::sin(x) / x;
+}
+
+void require(const Body& body, const Pose& pose) {
+    std::ostringstream text;
+    if (!(body.length > 0 && std::isfinite(body.length))) {
+        text << "length is " << body.length << ": it must be a positive number";
+    } else if (!(body.radius > 0 && std::isfinite(body.radius))) {
+        text << "radius is " << body.radius << ": it must be a positive number";
+    } else if (body.folds < 0) {
+        text << "folds is " << body.folds << ": it must be 0 (no wrinkle) or more";
+    } else if (!(std::abs(pose.angle) < body.length / (2 * body.radius))) {
+        text << "angle is " << pose.angle
+             << " rad: it must be below length / (2 radius) = " << body.length / (2 * body.radius);
+    } else if (!std::isfinite(pose.direction)) {
+        text << "direction is " << pose.direction << ": it must be a finite number of radians";
+    } else {
+        return;
+    }
+    throw std::invalid_argument(text.str());
+}
+
+}  // namespace
+
+Bend bend_of(const Body& body, const Pose& pose) {
+    require(body, pose);
+    const double theta = pose.angle < 0 ? pose.direction + std::numbers::pi : pose.direction;
+    return {body.length, body.radius, std::abs(pose.angle), theta};
+}
+
+// Eq 2-5 give the centre line X = z (1 - cos phi) / phi, Z = z sin phi / phi, both times 1 - kappa, and the
+// turned cross-section on it. What is computed is the displacement from rest, so that it vanishes with alpha
+// to the last bit.
+glm::dvec3 Bend::position(const Cylindrical& rest, double wrinkle) const {
+    const double c = std::cos(rest.beta - theta), s = std::sin(rest.beta - theta);
+    const double phi = alpha * rest.z / length;
+    const double half_sine = std::sin(phi / 2), half_sinc = sinc(phi / 2);
+    const double x = rest.z * phi / 2 * half_sinc * half_sinc;
+    const double z = rest.z * sinc(phi);
+    const double out = (rest.rho + wrinkle) * c;
+    return from_cylindrical(rest) + turned({(1 - kappa()) * x + wrinkle * c - 2 * out * half_sine * half_sine,
+                                            wrinkle * s, (z - rest.z) - kappa() * z - out * std::sin(phi)},
+                                           theta);
+}
+
+glm::dvec3 turned(const glm::dvec3& vector, double theta) {
+    const double c = std::cos(theta), s = std::sin(theta);
+    return {c * vector.x - s * vector.y, s * vector.x + c * vector.y, vector.z};
+}
+
+}  // namespace goffer::paper

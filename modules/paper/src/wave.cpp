@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "goffer/paper/wave.hpp"
+
+#include "quadrature.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace goffer::paper {
+namespace {
+
+void require_folds(int folds) {
+    if (folds < 1) {
+        throw std::invalid_argument("folds is " + std::to_string(folds) + ": a wrinkle needs 1 or more");
+    }
+}
+
+void require_squeeze(double squeeze) {
+    if (!(squeeze >= 0 && squeeze < 1)) {
+        throw std::invalid_argument(
+            "squeeze is " + std::to_string(squeeze) +
+            ": it must be 0 or more and below 1 (bend by less than length / (2 radius))");
+    }
+}
+
+// Where the wave turns: g' vanishes once shortly before each multiple j of a half wave, j = 1 .. 2k. How far
+// before is tan(v) = 1 / ((1 - u) w) for `damped` and 4 u / ((1 - u^2) w) for `smooth`, both below 1.3 rad.
+std::vector<double> pieces_between_extrema(Profile profile, int folds) {
+    const double frequency = 2 * std::numbers::pi * folds;
+    std::vector<double> ends{0};
+    for (int j = 1; j <= 2 * folds; ++j) {
+        double low = (j * std::numbers::pi - 1.3) / frequency;
+        double high = j * std::numbers::pi / frequency;
+        const bool rises = shape_slope(profile, folds, low) > 0;
+        for (int step = 0; step < 40; ++step) {
+            const double middle = (low + high) / 2;
+            ((shape_slope(profile, folds, middle) > 0) == rises ? low : high) = middle;
+        }
+        ends.push_back(low);
+    }
+    ends.push_back(1);
+    return ends;
+}
+
+// sqrt(1 + a^2 g'^2) has a branch point about S away from every extremum: the steeper the curve, the closer.
+Rule rule_for(double squeeze, Accuracy accuracy) {
+    const bool full = accuracy == Accuracy::full;
+    if (squeeze <= 0.1) return gauss_legendre(full ? 16 : 12);
+    if (squeeze <= 0.3) return gauss_legendre(full ? 24 : 16);
+    if (squeeze <= 0.6) return gauss_legendre(full ? 32 : 24);
+    if (squeeze <= 0.9) return clustered(full ? 48 : 28);
+    return clustered(full ? 96 : 36);
+}
+
+// Excess length of the curve, the integral of sqrt(1 + a^2 g'^2) - 1, and its derivative by a.
+struct Excess {
+    double length = 0;
+    double slope = 0;
+};
+
+Excess excess(std::span<const Wave::Node> nodes, double a) {
+    Excess sum;
+    for (const Wave::Node& node : nodes) {
+        const double rise = a * node.slope;
+        const double root = std::sqrt(1 + rise * rise);
+        sum.length += node.weight * rise * rise / (1 + root);
+        sum.slope += node.weight * rise * node.slope / root;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Wave::Wave(Profile profile, int folds, double largest_squeeze, Accuracy accuracy) {
+    require_folds(folds);
+    require_squeeze(largest_squeeze);
+    const Rule rule = rule_for(largest_squeeze, accuracy);
+    const std::vector<double> ends = pieces_between_extrema(profile, folds);
+    nodes_.reserve((ends.size() - 1) * rule.at.size());
+    for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
+        const double width = ends[piece + 1] - ends[piece];
+        for (std::size_t i = 0; i < rule.at.size(); ++i) {
+            const double u = ends[piece] + width * rule.at[i];
+            nodes_.push_back(
+                {width * rule.weight[i], paper::shape(profile, folds, u), shape_slope(profile, folds, u)});
+        }
+    }
+    for (const Node& node : nodes_) {
+        shape_power_ += node.weight * node.shape * node.shape;
+        slope_power_ += node.weight * node.slope * node.slope;
+    }
+}
+
+double Wave::relative_amplitude(double squeeze) const {
+    require_squeeze(squeeze);
+    // Excess length is a^2 G / 2 for a small a, with G the integral of g'^2; the next term is q smaller.
+    if (squeeze < 1e-14) return std::sqrt(2 * squeeze / slope_power_);
+    const double scale = 1 - squeeze;
+    const double target = squeeze / scale;
+    // The length is convex in a and (by Jensen) at most sqrt(1 + a^2 G). The start is therefore below the
+    // root, the first step of Newton lands above it, and from there the steps can only descend to it.
+    double a = std::sqrt(squeeze * (2 - squeeze) / slope_power_) / scale;
+    for (int step = 0; step < 50; ++step) {
+        const Excess now = excess(nodes_, a);
+        const double change = (now.length - target) / now.slope;
+        a -= change;
+        if (std::abs(change) <= 1e-7 * a) break;  // quadratic: the next step would be near 1e-14
+    }
+    return a;
+}
+
+Column Wave::column(double squeeze) const {
+    const double a = relative_amplitude(squeeze);
+    const double scale = 1 - squeeze;
+    if (squeeze < 1e-14) return {scale * a, std::sqrt(2 / slope_power_)};
+    // Eq 7 by the chain rule: length'(a) da/dq = 1 / S^2.
+    const double by_squeeze = 1 / (scale * excess(nodes_, a).slope) - a;
+    return {scale * a, 2 * std::sqrt(squeeze) * by_squeeze};
+}
+
+}  // namespace goffer::paper

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "surface.hpp"
+
+#include <goffer/paper/grid.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace goffer::paper;
+using goffer::test::degrees;
+
+namespace {
+
+constexpr double length = 10, radius = 1;
+
+double column_length(const BentGrid& bent, std::uint32_t column, std::uint32_t rows) {
+    double sum = 0;
+    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+        sum += glm::length(bent.node(column, row + 1) - bent.node(column, row));
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("P3: every column of the wrinkled base keeps its length") {
+    const std::uint32_t columns = 48;
+    for (const Profile profile : {Profile::damped, Profile::smooth}) {
+        for (const int folds : {6, 8, 12}) {
+            for (const double angle : {10.0, 30.0, 90.0, 180.0}) {
+                const auto rows = static_cast<std::uint32_t>(512 * folds + 1);
+                const BentGrid bent =
+                    Grid({length, radius, folds, profile}, columns, rows).bend({angle * degrees, 0});
+                double worst = 0;
+                for (std::uint32_t column = 0; column < columns; ++column) {
+                    worst = std::max(worst, std::abs(column_length(bent, column, rows) / length - 1));
+                }
+                std::printf("columns, %s, k = %2d, %3.0f deg: within %.4f %%\n",
+                            profile == Profile::damped ? "damped" : "smooth", folds, angle, 100 * worst);
+                CHECK(worst < 1e-3);
+            }
+        }
+    }
+}
+
+TEST_CASE("columns of the bare bend are as long as eq 9 and 10 say; the outer one keeps its length") {
+    const std::uint32_t columns = 16, rows = 2001;
+    const double angle = 2.5, theta = 2 * std::numbers::pi * 3 / 16;
+    const BentGrid bent = Grid({length, radius, 0}, columns, rows).bend({angle, theta});
+    for (std::uint32_t column = 0; column < columns; ++column) {
+        const double q = squeeze(angle * radius / length, 2 * std::numbers::pi * column / columns, theta);
+        CHECK(column_length(bent, column, rows) / length == doctest::Approx(1 - q).epsilon(1e-6));
+    }
+    CHECK(column_length(bent, 11, rows) / length == doctest::Approx(1).epsilon(1e-6));
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/job.hpp>
+#include <goffer/engine/columns.hpp>
+#include <goffer/fit/bind.hpp>
+#include <goffer/paper/closed_form.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+/// Random bodies and the double reference of their deformation.
+
+namespace goffer::test {
+
+using Random = std::mt19937;
+
+inline double uniform(Random& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+inline glm::dmat3 random_rotation(Random& random) {
+    const auto direction = [&] {
+        std::normal_distribution<double> normal;
+        return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    };
+    const glm::dvec3 z = direction();
+    const glm::dvec3 x = glm::normalize(glm::cross(direction(), z));
+    return {x, glm::cross(z, x), z};
+}
+
+/// A mesh in memory with its base cylinder. Bumpy skin, both caps, some inner vertices, vertices on the axis,
+/// on the outer line and at mid-height: everywhere where the map is special.
+struct Subject {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::vector<std::uint32_t> triangles;
+    fit::Cylinder cylinder;
+
+    [[nodiscard]] fit::Geometry geometry() const { return {positions, triangles, normals, tangents}; }
+};
+
+inline void add_vertex(Subject& subject, Random& random, const glm::dmat3& axes, double beta, double z,
+                       double rho) {
+    const glm::dvec3 local(rho * std::cos(beta), rho * std::sin(beta), z);
+    subject.positions.emplace_back(subject.cylinder.origin + axes * local);
+    const glm::dmat3 frame =
+        random_rotation(random);  // any normal will do: the map does not ask where it comes from
+    subject.normals.emplace_back(frame[0]);
+    subject.tangents.emplace_back(glm::vec3(frame[1]), random() % 2 == 0 ? 1.0f : -1.0f);
+}
+
+/// `slenderness` is L / r; `scale` the length. At least 8 x 9 vertices on the skin, and about `extra`
+/// elsewhere.
+inline Subject random_subject(Random& random, double slenderness, double scale, int columns = 24,
+                              int rows = 33, int extra = 100) {
+    Subject subject;
+    const glm::dmat3 axes = random_rotation(random);
+    fit::Cylinder& c = subject.cylinder;
+    c.length = scale;
+    c.radius = scale / slenderness;
+    c.axis = axes[2];
+    c.zero = axes[0];
+    c.origin = scale * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double beta = 2 * std::numbers::pi * column / columns;
+            add_vertex(subject, random, axes, beta, scale * row / (rows - 1),
+                       c.radius * uniform(random, 0.9, 1.1));
+            if (row + 1 == rows) continue;
+            const auto index = [&](int r, int k) {
+                return static_cast<std::uint32_t>(r * columns + k % columns);
+            };
+            const std::uint32_t a = index(row, column), b = index(row, column + 1),
+                                d = index(row + 1, column);
+            subject.triangles.insert(subject.triangles.end(), {a, b, d, b, index(row + 1, column + 1), d});
+        }
+    }
+    for (int i = 0; i < extra; ++i) {
+        const double rho = i % 10 == 0 ? 0 : c.radius * uniform(random, 0, 1.1);
+        const double z = i % 7 == 0 ? scale / 2 : i % 11 == 0 ? 0 : scale * uniform(random, 0, 1);
+        add_vertex(subject, random, axes, uniform(random, -4, 4), z, rho);
+    }
+    return subject;
+}
+
+/// Planar output of every stream, with room to see writes out of bounds.
+struct Output {
+    Columns columns;
+
+    explicit Output(std::size_t count) : columns(10, count) {}
+
+    [[nodiscard]] glm::dvec3 vector(std::size_t first, std::size_t i) const {
+        return {columns[first][i], columns[first + 1][i], columns[first + 2][i]};
+    }
+    [[nodiscard]] glm::dvec3 position(std::size_t i) const { return vector(0, i); }
+    [[nodiscard]] glm::dvec3 normal(std::size_t i) const { return vector(3, i); }
+    [[nodiscard]] glm::dvec3 tangent(std::size_t i) const { return vector(6, i); }
+};
+
+inline bend::DeformJob make_job(const bend::Body& body, const bend::Pose& pose, Isa isa, Output& out) {
+    bend::DeformJob job;
+    job.body = &body;
+    job.pose = pose;
+    job.isa = isa;
+    job.positions = planar(out.columns[0], out.columns[1], out.columns[2]);
+    job.normals = planar(out.columns[3], out.columns[4], out.columns[5]);
+    if (body.has_tangents()) {
+        job.tangents = planar(out.columns[6], out.columns[7], out.columns[8], out.columns[9]);
+    }
+    return job;
+}
+
+/// The closed form of `subject`'s deformation in double, in model space, from the positions as float holds
+/// them.
+class Reference {
+public:
+    Reference(const Subject& subject, const fit::BindOptions& options, int folds, const bend::Pose& pose)
+        : subject_(subject),
+          axes_(subject.cylinder.zero, glm::cross(subject.cylinder.axis, subject.cylinder.zero),
+                subject.cylinder.axis),
+          map_({subject.cylinder.length, subject.cylinder.radius, folds, options.profile, options.amplitude},
+               {static_cast<double>(pose.angle), static_cast<double>(pose.direction)}) {}
+
+    [[nodiscard]] glm::dvec3 position(std::size_t i) const {
+        return subject_.cylinder.origin + axes_ * map_.position(rest(i));
+    }
+    [[nodiscard]] glm::dvec3 normal(std::size_t i) const {
+        return axes_ * map_.normal(rest(i), components(glm::dvec3(subject_.normals[i]), rest(i).beta));
+    }
+    [[nodiscard]] glm::dvec3 tangent(std::size_t i) const {
+        return axes_ * map_.tangent(rest(i), components(glm::dvec3(subject_.tangents[i]), rest(i).beta));
+    }
+
+private:
+    [[nodiscard]] paper::Cylindrical rest(std::size_t i) const {
+        return paper::to_cylindrical(glm::transpose(axes_) *
+                                     (glm::dvec3(subject_.positions[i]) - subject_.cylinder.origin));
+    }
+    [[nodiscard]] paper::CylindricalVector components(const glm::dvec3& vector, double beta) const {
+        const glm::dvec3 v = glm::transpose(axes_) * glm::normalize(vector);
+        const double c = std::cos(beta), s = std::sin(beta);
+        return {c * v.x + s * v.y, c * v.y - s * v.x, v.z};
+    }
+
+    const Subject& subject_;
+    glm::dmat3 axes_;
+    paper::ClosedForm map_;
+};
+
+inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+}
+
+}  // namespace goffer::test
