@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "camera.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::view {
+namespace {
+
+constexpr float margin = 0.92f;   // of the picture's half width or height, at the outermost point
+constexpr float nearest = 0.02f;  // from the eye to the first point; the scene measures 2
+
+glm::vec3 unit(const glm::vec3& v) {
+    const glm::dvec3 d(v);  // in double, no length is too small or too large
+    return glm::vec3(d / glm::length(d));
+}
+
+glm::vec3 upright(const glm::vec3& up, const glm::vec3& forward) {
+    const glm::vec3 across = glm::cross(forward, unit(up));
+    if (glm::length(across) > 1e-3f) return across;
+    return glm::cross(forward, std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
+}
+
+// Along one axis of the picture, a point p is inside where |p - c| <= t (depth - eye depth). Over all points
+// that is c - t e >= high and -c - t e >= low: `mid` is the best c, and `depth` the largest e.
+struct Fit {
+    float mid, depth;
+};
+
+Fit fit(std::span<const glm::vec3> points, const glm::vec3& axis, const glm::vec3& forward, float tangent) {
+    float high = -std::numeric_limits<float>::infinity();
+    float low = high;
+    for (const glm::vec3& p : points) {
+        const float across = glm::dot(p, axis);
+        const float depth = tangent * glm::dot(p, forward);
+        high = std::max(high, across - depth);
+        low = std::max(low, -across - depth);
+    }
+    return {(high - low) / 2, -(high + low) / (2 * tangent)};
+}
+
+}  // namespace
+
+Ray View::ray(const glm::vec2& place) const {
+    return {eye, glm::normalize(forward + place.x * tangent.x * right + place.y * tangent.y * up)};
+}
+
+View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {
+    const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); };
+    if (!(length(camera.towards) > 0) || !std::isfinite(length(camera.towards)))
+        throw Error("the camera looks nowhere: towards must be a finite vector other than 0");
+    if (!(length(camera.up) > 0) || !std::isfinite(length(camera.up)))
+        throw Error("the camera has no up: give a finite vector other than 0");
+    if (!(camera.field_of_view >= 0.01f && camera.field_of_view <= 3.0f))
+        throw Error("the camera's field of view must be from 0.01 to 3 rad");
+
+    View view{};
+    view.forward = unit(camera.towards);
+    view.right = unit(upright(camera.up, view.forward));
+    view.up = glm::cross(view.right, view.forward);
+    view.tangent.y = std::tan(camera.field_of_view / 2);
+    view.tangent.x = view.tangent.y * aspect;
+
+    const Fit x = fit(points, view.right, view.forward, margin * view.tangent.x);
+    const Fit y = fit(points, view.up, view.forward, margin * view.tangent.y);
+    float first = std::numeric_limits<float>::infinity();
+    for (const glm::vec3& p : points) first = std::min(first, glm::dot(p, view.forward));
+    view.eye =
+        x.mid * view.right + y.mid * view.up + std::min({x.depth, y.depth, first - nearest}) * view.forward;
+    return view;
+}
+
+}  // namespace goffer::view

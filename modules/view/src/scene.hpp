@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "embree.hpp"
+
+#include <goffer/view/picture.hpp>
+
+#include <limits>
+
+namespace goffer::view {
+
+struct Ray {
+    glm::vec3 origin;
+    glm::vec3 direction;  ///< unit
+    float length = std::numeric_limits<float>::infinity();
+};
+
+struct Hit {
+    std::uint32_t model;
+    std::uint32_t triangle;
+    float u, v;  ///< barycentric, of the triangle's second and third corner
+    float distance;
+};
+
+/// What is to be shaded. Normals are unit and look to where the ray came from.
+struct Surface {
+    glm::vec3 position;
+    glm::vec3 outside;  ///< a little off the surface: where shadow rays start
+    glm::vec3 face;     ///< normal of the triangle
+    glm::vec3 normal;   ///< normal to shade with
+    glm::vec4 color;
+};
+
+/// The models, moved and scaled into [-1, 1]^3, so that every tolerance below is a plain number.
+/// Throws Error where the models are not fit to be seen. Ray queries may run in any number of threads.
+class Scene {
+public:
+    explicit Scene(std::span<const Model> models);
+
+    [[nodiscard]] std::span<const glm::vec3> points() const { return points_; }  ///< those that triangles use
+    [[nodiscard]] std::optional<Hit> solid(const Ray& ray) const { return nearest(solids_.get(), ray); }
+    [[nodiscard]] bool occluded(const Ray& ray) const;
+    [[nodiscard]] Surface surface(const Hit& hit, const Ray& ray) const;
+
+    /// The first surface of every translucent model along `ray`, from far to near.
+    void ghosts(const Ray& ray, std::vector<Hit>& hits) const;
+
+private:
+    struct Body {
+        Model model;
+        const glm::vec3* points;
+    };
+
+    [[nodiscard]] static std::optional<Hit> nearest(RTCScene scene, const Ray& ray);
+    const glm::vec3* add(RTCScene scene, std::size_t index, const glm::dvec3& centre, double scale);
+
+    EmbreeDevice device_;
+    EmbreeScene solids_;
+    std::vector<EmbreeScene> ghosts_;
+    std::vector<Body> bodies_;
+    std::vector<glm::vec3> points_;
+};
+
+}  // namespace goffer::view

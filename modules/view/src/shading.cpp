@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "shading.hpp"
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace goffer::view {
+namespace {
+
+// Light is in units of the reflection of a white wall; lengths are of a scene that measures 2.
+constexpr glm::vec3 key_colour{0.94f, 0.90f, 0.83f};
+constexpr float key_spread = 0.20f;  // tangent of the light's angular radius: how soft shadows are
+constexpr std::uint32_t key_rays = 2;
+constexpr glm::vec3 zenith{0.34f, 0.37f, 0.42f};
+constexpr glm::vec3 nadir{0.16f, 0.13f, 0.12f};
+constexpr float sky_reach = 1.0f;  // what is further away does not darken
+constexpr std::uint32_t sky_rays = 2;
+constexpr float bounce = 0.45f;     // of its own colour that a crease gets back where it does not see the sky
+constexpr float glow = 0.30f;       // light that comes through the material rather than off it
+constexpr float ghost_fade = 0.5f;  // how far a ghost must be in front of a solid to be seen over it
+
+struct Frame {
+    glm::vec3 a, b;
+};
+
+// Two vectors at right angles to the unit vector n, without a branch cut through the picture (Duff et al.
+// 2017).
+Frame around(const glm::vec3& n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1 / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+glm::vec2 on_disc(const glm::vec2& u) {
+    const float angle = 2 * std::numbers::pi_v<float> * u.y;
+    return std::sqrt(u.x) * glm::vec2(std::cos(angle), std::sin(angle));
+}
+
+glm::vec3 key_direction(const View& view) {
+    return glm::normalize(-0.60f * view.right + 0.75f * view.up - 0.55f * view.forward);
+}
+
+glm::vec3 background(const glm::vec2& place) {
+    const glm::vec2 from_centre = place - glm::vec2(0, 0.25f);
+    return glm::mix(glm::vec3(0.915f, 0.920f, 0.925f), glm::vec3(0.70f, 0.715f, 0.735f),
+                    std::min(1.0f, 0.36f * glm::dot(from_centre, from_centre)));
+}
+
+glm::vec3 sky(const glm::vec3& direction, const View& view) {
+    return glm::mix(nadir, zenith, 0.5f + 0.5f * glm::dot(direction, view.up));
+}
+
+// The shading normal, leaned towards the eye where interpolation has turned it away.
+glm::vec3 towards_eye(const Surface& s, const glm::vec3& to_eye) {
+    const float cosine = glm::dot(s.normal, to_eye);
+    return cosine > 0.01f ? s.normal : glm::normalize(s.normal + (0.01f - cosine) * to_eye);
+}
+
+// Share of the key light, seen as a disc, that reaches the surface.
+float key_light(const Scene& scene, const View& view, const Surface& s, const glm::vec3& normal,
+                Sampler& sampler) {
+    const glm::vec3 axis = key_direction(view);
+    const Frame frame = around(axis);
+    float sum = 0;
+    for (std::uint32_t i = 0; i < key_rays; ++i) {
+        const glm::vec2 disc = key_spread * on_disc(sampler.next(i, key_rays));
+        const glm::vec3 direction = glm::normalize(axis + disc.x * frame.a + disc.y * frame.b);
+        const float cosine = glm::dot(normal, direction);
+        if (cosine > 0 && !scene.occluded({s.outside, direction})) sum += cosine;
+    }
+    return sum / key_rays;
+}
+
+// Light of the sky over the hemisphere, cosine-weighted; near surfaces hide it and give a little of their own
+// colour.
+glm::vec3 sky_light(const Scene& scene, const View& view, const Surface& s, const glm::vec3& normal,
+                    Sampler& sampler) {
+    const Frame frame = around(normal);
+    glm::vec3 sum(0);
+    for (std::uint32_t i = 0; i < sky_rays; ++i) {
+        const glm::vec2 disc = on_disc(sampler.next(i, sky_rays));
+        const float height = std::sqrt(std::max(0.0f, 1 - glm::dot(disc, disc)));
+        const glm::vec3 direction = disc.x * frame.a + disc.y * frame.b + height * normal;
+        const bool hidden =
+            glm::dot(direction, s.face) <= 0 || scene.occluded({s.outside, direction, sky_reach});
+        sum += sky(direction, view) * (hidden ? bounce * glm::vec3(s.color) : glm::vec3(1));
+    }
+    return sum / static_cast<float>(sky_rays);
+}
+
+// A broad, dull highlight (Blinn-Phong) and a brighter edge, as on clay or soft rubber.
+float sheen(const glm::vec3& normal, const glm::vec3& to_eye, const glm::vec3& key) {
+    return 0.16f * std::pow(std::max(0.0f, glm::dot(normal, glm::normalize(to_eye + key))), 22.0f);
+}
+
+float rim(const glm::vec3& normal, const glm::vec3& to_eye, const View& view) {
+    const float edge = 1 - std::max(0.0f, glm::dot(normal, to_eye));
+    return 0.22f * edge * edge * edge * (0.6f + 0.4f * glm::dot(normal, view.up));
+}
+
+// Light that enters where the key light is, lit face or not, and leaves with more of the material's own
+// colour.
+glm::vec3 through(const glm::vec3& colour, const glm::vec3& normal, const glm::vec3& key) {
+    const float wrapped = std::max(0.0f, 0.4f + 0.6f * glm::dot(normal, key));
+    return glow * wrapped * colour * colour;
+}
+
+glm::vec3 solid(const Scene& scene, const View& view, const Surface& s, const glm::vec3& to_eye,
+                Sampler& sampler) {
+    const glm::vec3 normal = towards_eye(s, to_eye);
+    const float lit = key_light(scene, view, s, normal, sampler);
+    const glm::vec3 ambient = sky_light(scene, view, s, normal, sampler);
+    const float edge = rim(normal, to_eye, view);
+    const float highlight = std::min(1.0f, 2 * lit) * sheen(normal, to_eye, key_direction(view));
+    const glm::vec3 colour(s.color);
+    return colour * (lit * key_colour + ambient * (1 + 2 * edge)) +
+           through(colour, normal, key_direction(view)) + highlight * key_colour + edge * ambient;
+}
+
+// A ghost neither casts nor catches shadows; its outline is denser than its middle, as with a bubble.
+glm::vec4 ghost(const View& view, const Surface& s, const glm::vec3& to_eye) {
+    const glm::vec3 normal = towards_eye(s, to_eye);
+    const float lit = 0.5f + 0.5f * glm::dot(normal, key_direction(view));
+    const float edge = std::pow(1 - std::max(0.0f, glm::dot(normal, to_eye)), 2.0f);
+    return {glm::vec3(s.color) * (lit * key_colour + sky(normal, view)),
+            glm::mix(0.75f, 1.5f, edge) * s.color.a};
+}
+
+// Leaves most of the range as it is and bends what is too bright to white: half by the brightest channel,
+// which keeps the hue, and half by each channel alone, which lets it fade.
+glm::vec3 exposed(const glm::vec3& light) {
+    constexpr float knee = 0.75f;
+    const glm::vec3 above = glm::max(light - knee, glm::vec3(0)) / (1 - knee);
+    const glm::vec3 bent = glm::min(light, glm::vec3(knee)) + (1 - knee) * (above / (1.0f + above));
+    const float brightest = std::max({light.r, light.g, light.b, 1e-6f});
+    return 0.5f * (bent + light * (std::max({bent.r, bent.g, bent.b}) / brightest));
+}
+
+}  // namespace
+
+glm::vec3 shade(const Scene& scene, const View& view, const glm::vec2& place, Sampler& sampler,
+                std::vector<Hit>& hits) {
+    Ray ray = view.ray(place);
+    glm::vec3 colour = background(place);
+    if (const auto hit = scene.solid(ray)) {
+        colour = exposed(solid(scene, view, scene.surface(*hit, ray), -ray.direction, sampler));
+        ray.length = hit->distance;
+    }
+    scene.ghosts(ray, hits);
+    for (const Hit& hit : hits) {
+        const glm::vec4 over = ghost(view, scene.surface(hit, ray), -ray.direction);
+        const float seen = std::min(1.0f, (ray.length - hit.distance) / ghost_fade);
+        colour = glm::mix(colour, exposed(glm::vec3(over)), glm::clamp(seen * over.a, 0.0f, 1.0f));
+    }
+    return colour;
+}
+
+}  // namespace goffer::view
