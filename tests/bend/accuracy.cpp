@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+
+#include <doctest/doctest.h>
+
+/// Properties P1, P2, P4 and P8: the float kernels of every instruction set against the double closed form.
+
+namespace goffer::test {
+namespace {
+
+struct Worst {
+    double position = 0;  // of L
+    double normal = 0;    // degrees
+    double tangent = 0;   // degrees
+    double unit = 0;      // | |n| - 1 |
+    double skew = 0;      // change of normal . tangent
+
+    void take(double& worst, double value) { worst = !(value <= worst) ? value : worst; }  // NaN is the worst
+
+    void add(const Subject& subject, const Reference& reference, const Output& out) {
+        for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+            take(position, glm::length(out.position(i) - reference.position(i)) / subject.cylinder.length);
+            take(normal, angle_between(out.normal(i), reference.normal(i)));
+            take(tangent, angle_between(out.tangent(i), reference.tangent(i)));
+            take(unit, std::fabs(glm::length(out.normal(i)) - 1));
+            take(unit, std::fabs(glm::length(out.tangent(i)) - 1));
+            take(skew, std::fabs(glm::dot(out.normal(i), out.tangent(i))));
+        }
+    }
+};
+
+/// `area` only with folds of at most two radii: the area of folds that reach past the axis means nothing. And
+/// not with fewer than three folds of the smooth profile, whose factor has a corner near rest that the table
+/// rounds off.
+fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
+    fit::BindOptions options;
+    options.folds = static_cast<int>(random() % 13);
+    options.profile = random() % 2 == 0 ? paper::Profile::damped : paper::Profile::smooth;
+    const bool shallow = *options.folds * 4 * cylinder.radius >= cylinder.length;
+    const bool corner = options.profile == paper::Profile::smooth && *options.folds < 3;
+    options.amplitude =
+        shallow && !corner && random() % 2 == 0 ? paper::Amplitude::area : paper::Amplitude::paper;
+    return options;
+}
+
+bend::Pose random_pose(Random& random, double max_angle) {
+    const double kind = uniform(random, 0, 1);
+    const double angle = kind < 0.2   ? std::pow(10, uniform(random, -7, 0)) * std::min(max_angle, 1.0)
+                         : kind < 0.3 ? max_angle * (1 - 1e-6)
+                                      : uniform(random, 0, max_angle) * (1 - 1e-6);
+    const double direction = random() % 5 == 0 ? 0 : uniform(random, -20, 20);
+    return {static_cast<float>(random() % 4 == 0 ? -angle : angle), static_cast<float>(direction)};
+}
+
+}  // namespace
+
+TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
+    for (const Isa isa : built_isas()) {
+        if (!runs_here(isa)) continue;
+        CAPTURE(name(isa));
+        Random random(1);
+        Worst worst;
+        for (int trial = 0; trial < 40; ++trial) {
+            const double scale = std::pow(10, uniform(random, -4, 4));
+            const Subject subject = random_subject(random, uniform(random, 3, 40), scale);
+            const fit::BindOptions options = random_options(random, subject.cylinder);
+            const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+            Output out(subject.positions.size());
+            for (int k = 0; k < 5; ++k) {
+                const bend::Pose pose = random_pose(random, static_cast<double>(bound.body.max_angle()));
+                const bend::DeformJob job = make_job(bound.body, pose, isa, out);
+                REQUIRE(bend::validate(job) == bend::JobFault::none);
+                bend::run(job);
+                Worst one;
+                one.add(subject, Reference(subject, options, bound.folds, pose), out);
+                INFO("trial ", trial, " angle ", pose.angle, " of ", bound.body.max_angle(), " direction ",
+                     pose.direction, " folds ", bound.folds, " L/r ",
+                     subject.cylinder.length / subject.cylinder.radius);
+                CHECK(one.position <= 5e-6);
+                CHECK(one.normal <= 0.01);
+                CHECK(one.tangent <= 0.01);
+                CHECK(one.unit <= 1e-6);
+                CHECK(one.skew <= 2e-4);
+                worst.position = std::max(worst.position, one.position);
+                worst.normal = std::max(worst.normal, one.normal);
+                worst.tangent = std::max(worst.tangent, one.tangent);
+                worst.unit = std::max(worst.unit, one.unit);
+                worst.skew = std::max(worst.skew, one.skew);
+            }
+        }
+        MESSAGE(name(isa), ": position ", worst.position, " L, normal ", worst.normal, " deg, tangent ",
+                worst.tangent, " deg, unit ", worst.unit, ", normal . tangent ", worst.skew);
+    }
+}
+
+TEST_CASE("P1: the straight pose returns the rest mesh") {
+    for (const Isa isa : built_isas()) {
+        if (!runs_here(isa)) continue;
+        Random random(2);
+        for (int trial = 0; trial < 20; ++trial) {
+            const Subject subject =
+                random_subject(random, uniform(random, 3, 40), std::pow(10, uniform(random, -4, 4)));
+            const fit::Bound bound =
+                fit::bind(subject.geometry(), subject.cylinder, random_options(random, subject.cylinder));
+            Output out(subject.positions.size());
+            bend::run(make_job(bound.body, {0, static_cast<float>(uniform(random, -9, 9))}, isa, out));
+            for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+                const double error = glm::length(out.position(i) - glm::dvec3(subject.positions[i]));
+                REQUIRE(error <= 1e-6 * subject.cylinder.length);
+                REQUIRE(angle_between(out.normal(i), glm::dvec3(subject.normals[i])) < 1e-4);
+                REQUIRE(angle_between(out.tangent(i), glm::dvec3(subject.tangents[i])) < 1e-4);
+                REQUIRE(out.columns[9][i] == subject.tangents[i].w);
+            }
+        }
+    }
+}
+
+TEST_CASE("P8: bending a body of revolution another way is turning the result") {
+    Random random(3);
+    constexpr int columns = 36;
+    Subject subject;
+    subject.cylinder.length = 10;
+    subject.cylinder.radius = 1;
+    for (int row = 0; row <= 80; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double beta = 2 * std::numbers::pi * column / columns, z = row / 8.0;
+            const double rho = 1 + 0.1 * std::sin(z);
+            subject.positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), z);
+            if (row == 80) continue;
+            const auto index = [&](int r, int k) {
+                return static_cast<std::uint32_t>(r * columns + k % columns);
+            };
+            subject.triangles.insert(subject.triangles.end(),
+                                     {index(row, column), index(row, column + 1), index(row + 1, column)});
+        }
+    }
+    fit::BindOptions options;
+    options.folds = 5;
+    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    const std::size_t count = subject.positions.size();
+    Output straight(count), turned(count);
+    bend::run(make_job(bound.body, {1.4f, 0}, Isa::automatic, straight));
+    for (const int step : {1, 7, 18, 35}) {
+        const double theta = 2 * std::numbers::pi * step / columns;
+        bend::run(make_job(bound.body, {1.4f, static_cast<float>(theta)}, Isa::automatic, turned));
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t row = i / columns, column = i % columns;
+            const glm::dvec3 p = straight.position(
+                row * columns + (column + columns - static_cast<std::size_t>(step)) % columns);
+            const glm::dvec3 expected(p.x * std::cos(theta) - p.y * std::sin(theta),
+                                      p.x * std::sin(theta) + p.y * std::cos(theta), p.z);
+            REQUIRE(glm::length(turned.position(i) - expected) < 5e-5);
+        }
+    }
+}
+
+TEST_CASE("a negative angle is the same bend the other way") {
+    Random random(4);
+    const Subject subject = random_subject(random, 10, 1);
+    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
+    Output there(subject.positions.size()), back(subject.positions.size());
+    bend::run(make_job(bound.body, {-0.8f, 0.5f}, Isa::automatic, there));
+    bend::run(make_job(bound.body, {0.8f, 0.5f + std::numbers::pi_v<float>}, Isa::automatic, back));
+    for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+        REQUIRE(glm::length(there.position(i) - back.position(i)) < 2e-6);
+    }
+}
+
+TEST_CASE("beyond the largest angle the pose is clamped, flagged and finite") {
+    Random random(5);
+    const Subject subject = random_subject(random, 8, 1);
+    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
+    Output limit(subject.positions.size()), beyond(subject.positions.size());
+    CHECK_FALSE(bend::run(make_job(bound.body, {bound.body.max_angle(), 1}, Isa::automatic, limit)).clamped);
+    for (const float angle : {bound.body.max_angle() * 1.01f, 100.0f, 1e30f}) {
+        CHECK(bend::run(make_job(bound.body, {angle, 1}, Isa::automatic, beyond)).clamped);
+        for (std::size_t i = 0; i < subject.positions.size(); ++i)
+            REQUIRE(limit.position(i) == beyond.position(i));
+    }
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+
+#include <goffer/engine/parallel.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+#include <thread>
+
+/// The job's contract: faults named, any count and stride, nothing written out of bounds, bits that depend on
+/// nothing but the instruction set.
+
+namespace goffer::test {
+namespace {
+
+fit::Bound bound_body(Random& random, int extra = 100) {
+    const Subject subject = random_subject(random, 10, 1, 8, 9, extra);
+    fit::BindOptions options;
+    options.folds = 3;
+    return fit::bind(subject.geometry(), subject.cylinder, options);
+}
+
+bool same_bits(const Output& a, const Output& b) {
+    for (std::size_t c = 0; c < 10; ++c) {
+        if (std::memcmp(a.columns[c].data(), b.columns[c].data(), a.columns[c].size_bytes()) != 0)
+            return false;
+    }
+    return true;
+}
+
+constexpr bend::Pose pose{1.1f, 0.7f};
+
+}  // namespace
+
+TEST_CASE("P5: any split, any thread count, the same bits") {
+    Random random(6);
+    const fit::Bound bound = bound_body(random, 1000);
+    const std::size_t count = bound.body.vertex_count();
+    for (const Isa isa : built_isas()) {
+        if (!runs_here(isa)) continue;
+        CAPTURE(name(isa));
+        Output whole(count);
+        bend::run(make_job(bound.body, pose, isa, whole));
+        for (const std::size_t step : {1u, 3u, 16u, 100u, 777u}) {
+            Output parts(count);
+            const bend::DeformJob job = make_job(bound.body, pose, isa, parts);
+            for (std::size_t first = 0; first < count; first += step) {
+                bend::run_range(job, first, std::min(first + step, count));
+            }
+            CHECK(same_bits(whole, parts));
+        }
+        for (const std::size_t grain : {0u, 1u, 50u, 100000u}) {
+            Output parallel(count);
+            bend::run_parallel(make_job(bound.body, pose, isa, parallel), grain);
+            CHECK(same_bits(whole, parallel));
+        }
+        Output threads(count);
+        const bend::DeformJob job = make_job(bound.body, pose, isa, threads);
+        std::thread first([&] { bend::run_range(job, 0, count / 3); });
+        std::thread second([&] { bend::run_range(job, count / 3, count); });
+        first.join();
+        second.join();
+        CHECK(same_bits(whole, threads));
+    }
+}
+
+TEST_CASE("streams wanted alone give the bits that they give together") {
+    Random random(7);
+    const fit::Bound bound = bound_body(random);
+    const std::size_t count = bound.body.vertex_count();
+    for (const Isa isa : built_isas()) {
+        if (!runs_here(isa)) continue;
+        Output all(count);
+        bend::run(make_job(bound.body, pose, isa, all));
+        for (unsigned mask = 1; mask < 8; ++mask) {
+            Output some(count);
+            bend::DeformJob job = make_job(bound.body, pose, isa, some);
+            if ((mask & 1) == 0) job.positions = {};
+            if ((mask & 2) == 0) job.normals = {};
+            if ((mask & 4) == 0) job.tangents = {};
+            bend::run(job);
+            for (std::size_t c = 0; c < 10; ++c) {
+                const bool wanted = ((c < 3 ? 1u : c < 6 ? 2u : 4u) & mask) != 0;
+                for (std::size_t i = 0; i < count; ++i)
+                    REQUIRE(some.columns[c][i] == (wanted ? all.columns[c][i] : 0.0f));
+            }
+        }
+    }
+}
+
+TEST_CASE("interleaved streams of any stride hold the planar values, and nothing beside them is written") {
+    Random random(8);
+    const fit::Bound bound = bound_body(random);
+    const std::size_t count = bound.body.vertex_count();
+    for (const Isa isa : built_isas()) {
+        if (!runs_here(isa)) continue;
+        Output whole(count);
+        bend::run(make_job(bound.body, pose, isa, whole));
+        for (const std::size_t floats : {10u, 11u, 16u}) {
+            constexpr float untouched = -12345.0f;
+            std::vector<float> buffer(count * floats, untouched);  // exactly as long as documented
+            bend::DeformJob job;
+            job.body = &bound.body;
+            job.pose = pose;
+            job.isa = isa;
+            const std::size_t stride = floats * sizeof(float);
+            job.positions = interleaved<3>(buffer.data(), count, stride);
+            job.normals = interleaved<3>(buffer.data() + 3, count, stride);
+            job.tangents = interleaved<4>(buffer.data() + 6, count, stride);
+            REQUIRE(bend::validate(job) == bend::JobFault::none);
+            bend::run(job);
+            for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t c = 0; c < floats; ++c) {
+                    REQUIRE(buffer[i * floats + c] == (c < 10 ? whole.columns[c][i] : untouched));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("exact edges: every vertex count, misaligned outputs of exactly that length") {
+    Random random(9);
+    const Subject subject = random_subject(random, 10, 1, 8, 9, 0);
+    for (std::size_t count = 1; count <= 40; ++count) {
+        std::vector<bend::RestVertex> vertices(count);
+        std::vector<bend::RestVector> normals(count, {1, 0, 0});
+        for (bend::RestVertex& v : vertices) v = {uniform(random, -3, 3), uniform(random, 0, 1), 0.1, 0, 0};
+        bend::BodyInput input;
+        input.length = 1;
+        input.radius = 0.1;
+        input.max_angle = 4;
+        input.vertices = vertices;
+        input.normals = normals;
+        const std::optional<bend::Body> body = bend::Body::make(input);
+        REQUIRE(body);
+        for (const Isa isa : built_isas()) {
+            if (!runs_here(isa)) continue;
+            std::vector<float> buffer(3 * count);  // under a sanitizer one float too many is seen
+            bend::DeformJob job;
+            job.body = &*body;
+            job.pose = {3.9f, 0};  // doubled arc
+            job.isa = isa;
+            job.positions =
+                planar(std::span(buffer).subspan(0, count), std::span(buffer).subspan(count, count),
+                       std::span(buffer).subspan(2 * count, count));
+            REQUIRE(bend::validate(job) == bend::JobFault::none);
+            bend::run(job);
+            for (const float value : buffer) REQUIRE(std::isfinite(value));
+            bend::run_range(job, count, count);  // an empty range is fine
+        }
+    }
+}
+
+TEST_CASE("P7: validate names the field at fault") {
+    Random random(10);
+    const fit::Bound bound = bound_body(random);
+    const std::size_t count = bound.body.vertex_count();
+    Output out(count);
+    const bend::DeformJob good = make_job(bound.body, pose, Isa::automatic, out);
+    CHECK(bend::validate(good) == bend::JobFault::none);
+    const auto fault = [&](auto change) {
+        bend::DeformJob job = good;
+        change(job);
+        return bend::validate(job);
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    using bend::DeformJob;
+    using bend::JobFault;
+    CHECK(fault([](DeformJob& j) { j.body = nullptr; }) == JobFault::body);
+    CHECK(fault([&](DeformJob& j) { j.pose.angle = nan; }) == JobFault::pose_angle);
+    CHECK(fault([&](DeformJob& j) { j.pose.angle = -infinity; }) == JobFault::pose_angle);
+    CHECK(fault([&](DeformJob& j) { j.pose.direction = nan; }) == JobFault::pose_direction);
+    CHECK(fault([](DeformJob& j) { j.positions = {}, j.normals = {}, j.tangents = {}; }) ==
+          JobFault::no_streams);
+    CHECK(fault([](DeformJob& j) { --j.positions.count; }) == JobFault::positions_count);
+    CHECK(fault([](DeformJob& j) { j.normals.count = 0; }) == JobFault::normals_count);
+    CHECK(fault([](DeformJob& j) { --j.tangents.count; }) == JobFault::tangents_count);
+    CHECK(fault([](DeformJob& j) { j.positions.stride = 0; }) == JobFault::positions_stride);
+    CHECK(fault([](DeformJob& j) { j.normals.stride = 6; }) == JobFault::normals_stride);
+    CHECK(fault([](DeformJob& j) { j.tangents.stride = 3; }) == JobFault::tangents_stride);
+    CHECK(fault([](DeformJob& j) { j.positions.component[2] = nullptr; }) == JobFault::positions_component);
+    CHECK(fault([](DeformJob& j) { j.normals.component[1] = nullptr; }) == JobFault::normals_component);
+    CHECK(fault([](DeformJob& j) { j.tangents.component[3] = nullptr; }) == JobFault::tangents_component);
+    CHECK(fault([&](DeformJob& j) { j.positions = interleaved<3>(out.columns[0].data(), count, 8); }) ==
+          JobFault::positions_stride);
+    CHECK(fault([](DeformJob& j) { j.isa = static_cast<Isa>(99); }) == JobFault::isa);
+    for (int i = 0; i <= static_cast<int>(JobFault::isa); ++i) {
+        CHECK(bend::describe(static_cast<JobFault>(i)) != "unknown fault");
+    }
+
+    Subject plain = random_subject(random, 10, 1, 8, 9, 0);
+    plain.tangents.clear();
+    const fit::Bound without = fit::bind(plain.geometry(), plain.cylinder);
+    DeformJob job = good;
+    job.body = &without.body;
+    CHECK(bend::validate(job) == JobFault::body_without_tangents);
+}
+
+TEST_CASE("angles and directions of any finite size give finite results") {
+    Random random(11);
+    const fit::Bound bound = bound_body(random);
+    Output out(bound.body.vertex_count());
+    for (const float angle : {1e-38f, -1e-38f, 1e-45f, 1e38f, -1e38f}) {
+        for (const float direction : {0.0f, 1e30f, -1e-30f}) {
+            for (const Isa isa : built_isas()) {
+                if (!runs_here(isa)) continue;
+                bend::run(make_job(bound.body, {angle, direction}, isa, out));
+                for (std::size_t c = 0; c < 9; ++c) {
+                    for (const float value : out.columns[c]) REQUIRE(std::isfinite(value));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("ranges cover all once, in any grain") {
+    for (const std::size_t count : {0u, 1u, 7u, 1000u}) {
+        for (const std::size_t grain : {0u, 1u, 3u, 5000u}) {
+            std::vector<int> seen(count, 0);
+            parallel_ranges(count, grain, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) ++seen[i];
+            });
+            for (const int times : seen) REQUIRE(times == 1);
+        }
+    }
+}
+
+}  // namespace goffer::test
