@@ -24,10 +24,10 @@ namespace goffer::bend {
 /// Inputs and outputs of one deformation. A plain value; everything it points to is the caller's.
 struct DeformJob {
     const Body* body = nullptr;  ///< must outlive the run
-    Pose pose;                   ///< both numbers finite
-    Stream3 positions;           ///< model space, model units; empty: not wanted
-    Stream3 normals;             ///< model space, unit length; empty: not wanted
-    Stream4 tangents;  ///< model space, unit length, w is the rest tangent's; needs a body with tangents
+    Pose pose = {};              ///< both numbers finite
+    Stream3 positions = {};      ///< model space, model units; empty: not wanted
+    Stream3 normals = {};        ///< model space, unit length; empty: not wanted
+    Stream4 tangents = {};  ///< model space, unit length, w is the rest tangent's; needs a body with tangents
     Isa isa = Isa::automatic;  ///< kernels to use
 };
 
