@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/fit/geometry.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace goffer::fit {
+namespace {
+
+template <class Vector>
+bool finite(const Vector& v) {
+    for (int i = 0; i < Vector::length(); ++i) {
+        if (!std::isfinite(v[i])) return false;
+    }
+    return true;
+}
+
+/// One value per vertex, all finite; an optional stream may be empty.
+template <class Vector>
+void check_stream(std::span<const Vector> stream, std::size_t vertices, std::string_view name) {
+    if (!stream.empty() && stream.size() != vertices) {
+        throw Error(std::string(name) + "s: " + std::to_string(stream.size()) + " for " +
+                    std::to_string(vertices) + " vertices; give one per vertex or none");
+    }
+    const auto bad = std::ranges::find_if_not(stream, finite<Vector>);
+    if (bad == stream.end()) return;
+    throw Error(std::string(name) + " of vertex " + std::to_string(bad - stream.begin()) +
+                " is NaN or infinite; repair the mesh where it was made");
+}
+
+void check_triangles(std::span<const std::uint32_t> triangles, std::size_t vertices) {
+    if (triangles.empty()) {
+        throw Error("the mesh has no triangles; points and lines cannot be bent, give it faces");
+    }
+    if (triangles.size() % 3 != 0) {
+        throw Error("triangles: " + std::to_string(triangles.size()) +
+                    " indices are no multiple of 3; give three per triangle");
+    }
+    const auto bad = std::ranges::find_if(triangles, [vertices](std::uint32_t i) { return i >= vertices; });
+    if (bad == triangles.end()) return;
+    throw Error("triangle " + std::to_string((bad - triangles.begin()) / 3) + " uses vertex " +
+                std::to_string(*bad) + ", but the mesh has " + std::to_string(vertices) +
+                " (counted from 0); mend the index or add the vertex");
+}
+
+/// The used vertex farthest out by `distance`, and how far.
+template <class Distance>
+std::pair<glm::dvec3, double> farthest(const Geometry& geometry, Distance distance) {
+    std::pair<glm::dvec3, double> best{{}, -1};
+    for (const std::uint32_t i : geometry.triangles) {
+        const glm::dvec3 p = geometry.positions[i];
+        const double d = distance(p);
+        if (d > best.second) best = {p, d};
+    }
+    return best;
+}
+
+[[noreturn]] void throw_flat(const char* where, const char* mend, double reach) {
+    std::ostringstream message;
+    message << "all vertices are " << where << ", as far as floats at coordinates up to " << reach
+            << " can tell; give a mesh with " << mend;
+    throw Error(message.str());
+}
+
+/// Grows a point to a line to a plane to a solid by the farthest vertex each time. What is within a few
+/// roundings of a float at these coordinates counts as nothing: a plane that was turned is still a plane.
+void check_spread(const Geometry& geometry) {
+    const glm::dvec3 a = geometry.positions[geometry.triangles[0]];
+    const double reach = farthest(geometry, [](const glm::dvec3& p) { return glm::length(p); }).second;
+    const double nothing = 4 * double{std::numeric_limits<float>::epsilon()} * reach;
+
+    const auto from_point = [&](const glm::dvec3& p) { return glm::length(p - a); };
+    const auto [b, length] = farthest(geometry, from_point);
+    if (length <= nothing) throw_flat("in one point", "an extent", reach);
+
+    const glm::dvec3 along = (b - a) / length;
+    const auto from_line = [&](const glm::dvec3& p) { return glm::length(glm::cross(p - a, along)); };
+    const auto [c, width] = farthest(geometry, from_line);
+    if (width <= nothing) throw_flat("on one line", "a surface around that line", reach);
+
+    const glm::dvec3 across = glm::normalize(glm::cross(along, (c - a) / width));
+    const auto from_plane = [&](const glm::dvec3& p) { return std::abs(glm::dot(p - a, across)); };
+    const double height = farthest(geometry, from_plane).second;
+    if (height <= nothing) throw_flat("in one plane", "a thickness", reach);
+}
+
+}  // namespace
+
+void check(const Geometry& geometry) {
+    check_triangles(geometry.triangles, geometry.positions.size());
+    check_stream(geometry.positions, geometry.positions.size(), "position");
+    check_stream(geometry.normals, geometry.positions.size(), "normal");
+    check_stream(geometry.tangents, geometry.positions.size(), "tangent");
+    check_spread(geometry);
+}
+
+double surface_area(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
+    double twice = 0;
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        const glm::dvec3 a = positions[triangles[t]];
+        const glm::dvec3 b = positions[triangles[t + 1]];
+        const glm::dvec3 c = positions[triangles[t + 2]];
+        twice += glm::length(glm::cross(b - a, c - a));
+    }
+    return twice / 2;
+}
+
+}  // namespace goffer::fit

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+
+#include <goffer/fit/bind.hpp>
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+/// The wrinkle table against eq 7's own solution, the largest angle against its definition, and bind's
+/// refusals.
+
+namespace goffer::test {
+namespace {
+
+using paper::Amplitude;
+using paper::Profile;
+
+/// Amplitude of the column at h^2 = t, as a kernel computes it.
+double table_amplitude(const bend::WrinkleTable& table, double angle, double kappa, double t) {
+    const bend::WrinkleRow row = table.at(angle);
+    double sum = 0;
+    for (std::size_t n = row.size(); n-- > 0;) sum = sum * t + static_cast<double>(row[n]);
+    return std::sqrt(2 * kappa * t) * sum;
+}
+
+template <class Call>
+std::string error_of(Call&& call) {
+    try {
+        call();
+    } catch (const fit::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("the table's amplitudes are eq 7's, at every angle between the rows") {
+    constexpr double length = 12, radius = 1.1;
+    double worst = 0;
+    for (const Profile profile : {Profile::damped, Profile::smooth}) {
+        for (const int folds : {1, 3, 5, 12, 40}) {
+            const double limit = fit::largest_angle(profile, Amplitude::paper, folds, length, radius, radius);
+            const bend::WrinkleTable table =
+                fit::make_wrinkle_table(profile, Amplitude::paper, folds, length, radius, limit);
+            for (int i = 1; i < 40; ++i) {
+                const double angle = limit * i * i / 1600.0;
+                const double kappa = angle * radius / length;
+                for (const double t : {0.01, 0.3, 0.7, 1.0}) {
+                    const double expected = paper::amplitude(profile, folds, length, 2 * kappa * t);
+                    worst = std::max(worst,
+                                     std::fabs(table_amplitude(table, angle, kappa, t) - expected) / length);
+                }
+            }
+        }
+    }
+    MESSAGE("amplitude within ", worst, " L");
+    CHECK(worst < 1e-6);
+}
+
+TEST_CASE("with amplitude `area` the table holds the base's lateral area") {
+    constexpr double length = 10, radius = 1;
+    for (const int folds : {3, 6, 10}) {
+        const double limit =
+            fit::largest_angle(Profile::damped, Amplitude::area, folds, length, radius, radius);
+        const bend::WrinkleTable table =
+            fit::make_wrinkle_table(Profile::damped, Amplitude::area, folds, length, radius, limit);
+        const bend::WrinkleTable plain =
+            fit::make_wrinkle_table(Profile::damped, Amplitude::paper, folds, length, radius, limit);
+        for (const double degrees : {5.0, 30.0, 90.0, 180.0}) {
+            const double angle = degrees * std::numbers::pi / 180;
+            const double factor =
+                table_amplitude(table, angle, 0.1, 1) / table_amplitude(plain, angle, 0.1, 1);
+            CHECK(std::fabs(paper::lateral_area(Profile::damped, folds, length, radius, angle, factor) - 1) <
+                  1e-5);
+        }
+    }
+}
+
+TEST_CASE("64 rows are made in under 50 ms") {
+    for (const Amplitude amplitude : {Amplitude::paper, Amplitude::area}) {
+        for (const int folds : {5, 12}) {
+            double best = std::numeric_limits<double>::infinity();
+            for (int attempt = 0; attempt < 5; ++attempt) {
+                const auto start = std::chrono::steady_clock::now();
+                const double limit = fit::largest_angle(Profile::damped, amplitude, folds, 10, 1, 1.1);
+                const bend::WrinkleTable table =
+                    fit::make_wrinkle_table(Profile::damped, amplitude, folds, 10, 1, limit, 64);
+                REQUIRE(table.rows.size() == 64);
+                const std::chrono::duration<double, std::milli> taken =
+                    std::chrono::steady_clock::now() - start;
+                best = std::min(best, taken.count());
+            }
+            MESSAGE(folds, " folds, ", std::string(amplitude == Amplitude::area ? "area: " : "paper: "), best,
+                    " ms");
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
+            CHECK(best < 50);
+#endif
+        }
+    }
+}
+
+TEST_CASE("the largest angle lies just below where the outermost vertex meets the arc's centre") {
+    for (const int folds : {0, 2, 6}) {
+        for (const double rho_max : {1.0, 1.3, 3.0}) {
+            const double limit = fit::largest_angle(Profile::damped, Amplitude::paper, folds, 10, 1, rho_max);
+            const auto room = [&](double alpha) {
+                const double lift =
+                    folds ? paper::amplitude(Profile::damped, folds, 10, std::min(0.2 * alpha, 0.999)) : 0;
+                return 10 / alpha - 1 - rho_max - lift;
+            };
+            CHECK(limit < 5);
+            CHECK(room(limit) > 0);
+            CHECK(room(limit * 1.003) < 0);
+        }
+    }
+}
+
+TEST_CASE("within the largest angle nothing folds through itself") {
+    Random random(21);
+    for (int trial = 0; trial < 10; ++trial) {
+        const Subject subject = random_subject(random, uniform(random, 4, 20), 1);
+        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
+        const paper::Body body{1, subject.cylinder.radius, bound.folds, Profile::damped, Amplitude::paper};
+        const paper::ClosedForm map(body, {static_cast<double>(bound.body.max_angle()), 0});
+        // The arc's parameter grows along every column: z's derivative along the bent centre line stays
+        // positive.
+        for (const float rho : bound.body.column(bend::Body::rho)) {
+            for (int i = 0; i < 100; ++i) {
+                const double z = i / 100.0, step = 1e-4;
+                const glm::dvec3 a = map.position({0, z, static_cast<double>(rho)});
+                const glm::dvec3 b = map.position({0, z + step, static_cast<double>(rho)});
+                const double phi = static_cast<double>(bound.body.max_angle()) * z;
+                REQUIRE(glm::dot(b - a, glm::dvec3(std::sin(phi), 0, std::cos(phi))) > 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("bind refuses what it cannot use, and names it") {
+    Random random(22);
+    const Subject good = random_subject(random, 10, 1, 12, 17, 0);
+    const auto refused = [&](auto change) {
+        Subject subject = good;
+        fit::BindOptions options;
+        change(subject, options);
+        return error_of([&] { (void)fit::bind(subject.geometry(), subject.cylinder, options); });
+    };
+    CHECK(refused([](Subject&, fit::BindOptions&) {}).empty());
+    using Options = fit::BindOptions;
+    CHECK(refused([](Subject&, Options& o) { o.folds = 65; }).find("folds") != std::string::npos);
+    CHECK(refused([](Subject&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
+    CHECK(refused([](Subject&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
+    CHECK(refused([](Subject& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") != std::string::npos);
+    CHECK(refused([](Subject& s, Options&) { s.cylinder.rest_angle = 1; }).find("rest_angle") !=
+          std::string::npos);
+    CHECK(refused([](Subject& s, Options&) { s.cylinder.radius = -1; }).find("radius") != std::string::npos);
+    CHECK(refused([](Subject& s, Options&) { s.normals.pop_back(); }).find("normals") != std::string::npos);
+    CHECK(refused([](Subject& s, Options&) { s.triangles.clear(); }).find("triangles") != std::string::npos);
+}
+
+TEST_CASE("broken normals and tangents are replaced, missing normals are made, stray vertices tolerated") {
+    Random random(23);
+    Subject subject = random_subject(random, 10, 1, 12, 17, 0);
+    subject.normals[3] = glm::vec3(0);
+    subject.tangents[5] = glm::vec4(0);
+    subject.positions.emplace_back(subject.cylinder.origin +
+                                   5.0 * subject.cylinder.axis);  // no triangle uses it
+    subject.normals.emplace_back(1, 0, 0);
+    subject.tangents.emplace_back(0, 1, 0, -1);
+    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
+    Output out(subject.positions.size());
+    bend::run(make_job(bound.body, {1, 1}, Isa::automatic, out));
+    for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+        REQUIRE(glm::length(out.normal(i)) == doctest::Approx(1));
+        REQUIRE(glm::length(out.tangent(i)) == doctest::Approx(1));
+    }
+    subject.normals.clear();
+    CHECK_NOTHROW((void)fit::bind(subject.geometry(), subject.cylinder));
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "synthetic.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+using namespace goffer;
+using test::Solid;
+
+namespace {
+
+std::vector<glm::vec3> normals_of(const Solid& solid) {
+    return fit::make_normals(solid.positions, solid.triangles);
+}
+
+bool near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
+    return glm::length(a - b) <= tolerance;
+}
+
+const std::vector<glm::vec3> cube_corners{{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                                          {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+const std::vector<std::uint32_t> cube_triangles{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                                2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+
+}  // namespace
+
+TEST_CASE("corners of a cube point along its diagonals, however its sides are cut into triangles") {
+    const std::vector<glm::vec3> normals = fit::make_normals(cube_corners, cube_triangles);
+    for (std::size_t i = 0; i < 8; ++i) CHECK(near(normals[i], glm::normalize(glm::dvec3(cube_corners[i]))));
+}
+
+TEST_CASE("duplicated vertices agree, also at -0 and 0") {
+    Solid loose;
+    for (const std::uint32_t i : cube_triangles) {
+        loose.triangles.push_back(static_cast<std::uint32_t>(loose.positions.size()));
+        glm::vec3 p = cube_corners[i] + 1.0f;
+        if (p.x == 0 && loose.positions.size() % 2 == 1) p.x = -0.0f;
+        loose.positions.push_back(p);
+    }
+    const std::vector<glm::vec3> normals = normals_of(loose);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        CHECK(near(normals[i], glm::normalize(glm::dvec3(loose.positions[i] - 1.0f))));
+    }
+}
+
+TEST_CASE("normals of a cylinder's skin are its radii, of unit length at any scale") {
+    std::mt19937 random(21);
+    for (const double scale : {1e-30, 1e-4, 1.0, 1e4, 1e30}) {
+        const Solid solid = test::placed(test::cylinder({.closed = false}, random), {.scale = scale});
+        const std::vector<glm::vec3> normals = normals_of(solid);
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const glm::dvec3 p = glm::dvec3(solid.positions[i]) / scale;
+            REQUIRE(near(normals[i], {p.x, p.y, 0}, 1e-5));
+            REQUIRE(std::abs(glm::length(glm::dvec3(normals[i])) - 1) < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("two sheets back to back keep a side each") {
+    const Solid sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2, 3, 5, 4}};
+    const std::vector<glm::vec3> normals = normals_of(sheet);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(near(normals[i], {0, 0, i < 3 ? 1 : -1}));
+}
+
+TEST_CASE("vertices without a direction get (0, 0, 1)") {
+    const Solid odd{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {0, 1, 2, 0, 0, 1}};
+    for (const glm::vec3& n : normals_of(odd)) CHECK(n == glm::vec3(0, 0, 1));
+    CHECK(fit::make_normals({}, {}).empty());
+}
+
+TEST_CASE("hostile numbers give unit normals") {
+    const std::vector<float> numbers{0.0f, 1.0f, -1.0f, 1e-45f, 1e-38f, 1e30f, -3e38f};
+    std::mt19937 random(22);
+    std::uniform_int_distribution<std::size_t> pick(0, numbers.size() - 1);
+    for (int round = 0; round < 500; ++round) {
+        Solid solid;
+        for (int i = 0; i < 10; ++i) {
+            solid.positions.push_back(
+                glm::vec3{numbers[pick(random)], numbers[pick(random)], numbers[pick(random)]});
+        }
+        for (int i = 0; i < 30; ++i) solid.triangles.push_back(static_cast<std::uint32_t>(random() % 10));
+        for (const glm::vec3& n : normals_of(solid)) {
+            REQUIRE(std::abs(glm::length(glm::dvec3(n)) - 1) < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/fit/cylinder.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+/// Bodies whose axis, length and radius are known, as a mesh and as the truth about it.
+
+namespace goffer::test {
+
+struct Solid {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> triangles;
+
+    [[nodiscard]] fit::Geometry geometry() const { return {positions, triangles}; }
+};
+
+/// A cylinder as a grid of columns and rows about z, r = 1, from z = 0 to `length`.
+struct Recipe {
+    int columns = 32;
+    int rows = 48;  // of quads
+    double length = 10;
+    bool closed = true;
+    double dense = 1;       // rows at the tip are this much denser than at the base
+    double dense_beta = 1;  // columns at beta = 0 are this much denser than at pi
+    double jitter = 0;      // of inner vertices in z and of all in beta, in spacings; below 0.5
+    double noise = 0;       // standard deviation of rho
+};
+
+/// u in 0..1, spaced so that the density grows evenly from one end to `dense` times that at the other.
+inline double spaced(double u, double dense) {
+    if (dense == 1) return u;
+    return (std::sqrt(1 + u * (dense * dense - 1)) - 1) / (dense - 1);
+}
+
+inline Solid cylinder(const Recipe& recipe, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto [columns, rows, length, closed, dense, dense_beta, jitter, noise] = recipe;
+    Solid solid;
+    for (int j = 0; j <= rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const double at = (i + jitter * uniform(random)) / columns;
+            const double half = std::abs(2 * at - 1);  // 1 at beta = 0
+            const double beta = std::numbers::pi * (1 + std::copysign(spaced(half, dense_beta), 2 * at - 1));
+            const double shift = j == 0 || j == rows ? 0 : jitter * uniform(random);
+            const double z = length * (1 - spaced(1 - (j + shift) / rows, 1 / dense));
+            const double rho = 1 + noise * normal(random);
+            solid.positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), z);
+        }
+    }
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        solid.triangles.insert(solid.triangles.end(), {a, b, c, a, c, d});
+    };
+    const auto n = static_cast<std::uint32_t>(columns);
+    const auto last = static_cast<std::uint32_t>(rows) * n;
+    for (std::uint32_t j = 0; j < last; j += n) {
+        for (std::uint32_t i = 0; i < n; ++i) quad(j + i, j + (i + 1) % n, j + n + (i + 1) % n, j + n + i);
+    }
+    if (!closed) return solid;
+    const auto base = static_cast<std::uint32_t>(solid.positions.size());
+    solid.positions.emplace_back(0, 0, 0);
+    solid.positions.emplace_back(0, 0, length);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        solid.triangles.insert(solid.triangles.end(), {base, (i + 1) % n, i});
+        solid.triangles.insert(solid.triangles.end(), {base + 1, last + i, last + (i + 1) % n});
+    }
+    return solid;
+}
+
+/// Turned, then scaled, then moved.
+struct Placing {
+    glm::dmat3 turn{1};
+    double scale = 1;
+    glm::dvec3 move{0};
+
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (turn * p) + move; }
+};
+
+/// A rotation without a preferred direction, a scale of 1e-4..1e4 and a move of up to `reach` in the body's
+/// units.
+inline Placing random_placing(double reach, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto direction = [&] { return glm::dvec3{normal(random), normal(random), normal(random)}; };
+    const glm::dvec3 e3 = glm::normalize(direction());
+    const glm::dvec3 e1 = glm::normalize(glm::cross(direction(), e3));
+    const double scale = std::pow(10.0, 4 * uniform(random));
+    return {glm::dmat3(e1, glm::cross(e3, e1), e3), scale, scale * reach * glm::normalize(direction())};
+}
+
+inline Solid placed(Solid solid, const Placing& placing) {
+    for (glm::vec3& p : solid.positions) p = placing(p);
+    return solid;
+}
+
+/// Angle between two lines, whatever their signs.
+inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
+}
+
+}  // namespace goffer::test
