@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <system_error>
+
+namespace goffer::cli {
+namespace {
+
+std::optional<glm::dvec3> named_axis(std::string_view name) {
+    const double sign = name.starts_with('-') ? -1 : 1;
+    if (name.starts_with('-') || name.starts_with('+')) name.remove_prefix(1);
+    if (name == "x") return glm::dvec3(sign, 0, 0);
+    if (name == "y") return glm::dvec3(0, sign, 0);
+    if (name == "z") return glm::dvec3(0, 0, sign);
+    return std::nullopt;
+}
+
+std::optional<glm::dvec3> three_numbers(const std::string& text) {
+    glm::dvec3 axis(0);
+    const char* at = text.data();
+    const char* end = text.data() + text.size();
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+        const auto [next, error] = std::from_chars(at, end, axis[i]);
+        if (error != std::errc()) return std::nullopt;
+        at = next;
+    }
+    return at == end ? std::optional(axis) : std::nullopt;
+}
+
+std::optional<double> one_number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || next != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+glm::dvec3 vector_field(const nlohmann::json& fit, const char* name) {
+    const nlohmann::json& value = fit.at(name);
+    return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+fit::Cylinder cylinder_from(const nlohmann::json& fit) {
+    fit::Cylinder cylinder;
+    cylinder.origin = vector_field(fit, "origin");
+    cylinder.axis = vector_field(fit, "axis");
+    cylinder.zero = vector_field(fit, "zero");
+    cylinder.length = fit.at("length").get<double>();
+    cylinder.radius = fit.at("radius").get<double>();
+    cylinder.rest_angle = radians(fit.value("rest_angle", 0.0));
+    cylinder.rest_direction = radians(fit.value("rest_direction", 0.0));
+    cylinder.residual = fit.value("residual", 0.0);
+    return cylinder;
+}
+
+// Without the library's own "[json.exception..] ".
+std::string reason(const nlohmann::json::exception& error) {
+    const std::string text = error.what();
+    const std::size_t end = text.find("] ");
+    return end == text.npos ? text : text.substr(end + 2);
+}
+
+bool same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return std::filesystem::equivalent(a, b, error) ||
+           std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> parse_axis(const std::string& text) {
+    if (text == "auto") return std::nullopt;
+    if (const auto axis = named_axis(text)) return axis;
+    const auto axis = three_numbers(text);
+    if (!axis)
+        throw UsageError("--axis: '" + text + "' is not auto, x, y, z (or -x, ..) or three numbers X,Y,Z");
+    const double length = glm::length(*axis);
+    if (!(length > 0) || !std::isfinite(length)) {
+        throw UsageError("--axis: " + text +
+                         " has no direction; give three finite numbers that are not all 0");
+    }
+    return axis;
+}
+
+CLI::Validator number_within(double low, double high, const std::string& what) {
+    std::ostringstream range;
+    range << " is not " << what << " within " << low << ".." << high;
+    const auto check = [low, high, complaint = range.str()](std::string& text) {
+        const std::optional<double> value = one_number(text);
+        return value && low <= *value && *value <= high ? std::string() : "'" + text + "'" + complaint;
+    };
+    return {check, ""};
+}
+
+paper::Amplitude parse_amplitude(const std::string& text) {
+    if (text == "none") return paper::Amplitude::none;
+    return text == "area" ? paper::Amplitude::area : paper::Amplitude::paper;
+}
+
+paper::Profile parse_profile(const std::string& text) {
+    return text == "smooth" ? paper::Profile::smooth : paper::Profile::damped;
+}
+
+Isa parse_isa_option(const std::string& text) {
+    const std::optional<Isa> isa = parse_isa(text);
+    std::string known = "auto";
+    for (const Isa built : built_isas()) {
+        if (runs_here(built)) known += ", " + std::string(name(built));
+    }
+    if (!isa) throw UsageError("--isa: '" + text + "' is not known; choose one of " + known);
+    if (!runs_here(*isa))
+        throw InputError("--isa: this machine or this build has no " + text + "; choose one of " + known);
+    return *isa;
+}
+
+fit::Cylinder read_fit(const std::filesystem::path& file) {
+    const std::string mend = "; give the JSON that 'goffer inspect --json' writes";
+    std::ifstream stream(file);
+    if (!stream || std::filesystem::is_directory(file)) {
+        throw InputError(file.string() + ": cannot be read" + mend);
+    }
+    fit::Cylinder cylinder;
+    try {
+        const nlohmann::json report = nlohmann::json::parse(stream);
+        cylinder = cylinder_from(report.contains("fit") ? report.at("fit") : report);
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(file.string() + ": not a fit (" + reason(error) + ")" + mend);
+    }
+    in_file(file, [&] { fit::check(cylinder); });
+    return cylinder;
+}
+
+void check_model_output(const std::filesystem::path& file) {
+    if (!mesh::can_save(file)) {
+        throw UsageError("-o: " + file.string() +
+                         " has no known ending; use .glb, .gltf, .obj, .ply or .stl");
+    }
+    check_output(file);
+}
+
+void check_picture_output(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    if (ending != ".png" && ending != ".PNG") {
+        throw UsageError("--png: " + file.string() + " does not end in .png; the picture is a PNG");
+    }
+    check_output(file);
+}
+
+void check_output(const std::filesystem::path& file) {
+    const mesh::AtomicFile probe(file);
+}
+
+void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+    const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
+    std::vector<NamedFile> taken = inputs;
+    for (const NamedFile& output : outputs) {
+        for (const NamedFile& other : taken) {
+            if (!is_file(output) || !is_file(other) || !same_place(output.file, other.file)) continue;
+            throw UsageError(std::string(output.option) + ": " + output.file.string() +
+                             " would replace the file of " + std::string(other.option) +
+                             "; give another name");
+        }
+        taken.push_back(output);
+    }
+}
+
+double degrees(double radians) {
+    return radians * 180 / std::numbers::pi;
+}
+
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/engine/isa.hpp>
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/paper/wrinkle.hpp>
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the commands take, read from words. A word that does not fit ends in a usage error (exit code 2).
+
+namespace goffer::cli {
+
+/// Wrong usage that shows only when values are looked at: exit code 2.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Fault of the input or the system that no module names: exit code 1.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What a subcommand does once its arguments are read.
+using Action = std::function<void()>;
+
+/// "auto" (nothing), "x", "y", "z", "-x", .. or "X,Y,Z".
+[[nodiscard]] std::optional<glm::dvec3> parse_axis(const std::string& text);
+
+/// Accepts what is a number within `low`..`high` and nothing else. `what` says in the error what it should
+/// be.
+[[nodiscard]] CLI::Validator number_within(double low, double high, const std::string& what);
+
+[[nodiscard]] paper::Amplitude parse_amplitude(const std::string& text);
+[[nodiscard]] paper::Profile parse_profile(const std::string& text);
+
+/// A set that runs here; UsageError for an unknown name, InputError for one that this machine lacks.
+[[nodiscard]] Isa parse_isa_option(const std::string& text);
+
+/// The base cylinder in a report of `goffer inspect` (or its "fit" part alone), checked. Throws InputError.
+[[nodiscard]] fit::Cylinder read_fit(const std::filesystem::path& file);
+
+/// Refuses, before any work, an output whose ending no writer knows (UsageError) or that cannot be written
+/// (Error of mesh).
+void check_model_output(const std::filesystem::path& file);
+void check_picture_output(const std::filesystem::path& file);
+void check_output(const std::filesystem::path& file);
+
+/// A file and the word of the command line that it stands for.
+struct NamedFile {
+    std::string_view option;
+    std::filesystem::path file;  ///< empty or "-": none
+};
+
+/// Refuses (UsageError) an output in the place of an input or of another output.
+void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+/// What `work` returns; an error of fit, which knows of no files, gets the name of the one at fault.
+template <class Work>
+auto in_file(const std::filesystem::path& file, Work&& work) {
+    try {
+        return work();
+    } catch (const fit::Error& error) {
+        throw InputError(file.string() + ": " + error.what());
+    }
+}
+
+[[nodiscard]] double degrees(double radians);
+[[nodiscard]] double radians(double degrees);
+
+}  // namespace goffer::cli

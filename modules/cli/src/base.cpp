@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <goffer/mesh/mesh.hpp>
+#include <goffer/paper/base.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace goffer::cli {
+namespace {
+
+struct BaseOptions {
+    double length = 10;
+    double radius = 1;
+    std::uint32_t columns = 64;
+    std::uint32_t rows = 161;
+    bool caps = false;
+    std::filesystem::path output;
+    std::filesystem::path json;
+};
+
+void check(const BaseOptions& options) {
+    constexpr std::uint64_t most = 50'000'000;
+    if (static_cast<std::uint64_t>(options.columns) * options.rows > most) {
+        throw UsageError("--columns, --rows: more than 50 million vertices; use fewer");
+    }
+}
+
+void run_base(const BaseOptions& options) {
+    check(options);
+    check_places({}, {{"-o", options.output}, {"--json", options.json}});
+    check_model_output(options.output);
+    Report report(options.json);
+    const paper::BaseMesh base =
+        paper::base_mesh(options.length, options.radius, options.columns, options.rows, options.caps);
+    mesh::Mesh mesh;
+    mesh.positions.assign(base.positions.begin(), base.positions.end());
+    mesh.corners = base.triangles;
+    mesh.faces.assign(base.triangles.size() / 3, 3);
+    mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(mesh.faces.size())});
+    mesh::save(mesh, options.output);
+
+    report.json["file"] = options.output.string();
+    report.json["vertices"] = mesh.positions.size();
+    report.json["triangles"] = mesh.faces.size();
+    report.line("written", options.output.string());
+    report.line("mesh", std::to_string(mesh.positions.size()) + " vertices, " +
+                            std::to_string(mesh.faces.size()) + " triangles");
+    report.finish();
+}
+
+}  // namespace
+
+void add_base(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<BaseOptions>();
+    CLI::App* command = app.add_subcommand(
+        "base", "Write the base model: a bare cylinder along z, its base end at the origin");
+    const CLI::Validator size = number_within(1e-30, 1e30, "a size");  // what floats carry
+    command->add_option("--length", options->length, "Length")->check(size)->capture_default_str();
+    command->add_option("--radius", options->radius, "Radius")->check(size)->capture_default_str();
+    command->add_option("--columns", options->columns, "Vertices around")
+        ->check(CLI::Range(3u, 1000000u))
+        ->capture_default_str();
+    command->add_option("--rows", options->rows, "Rings of vertices, both ends included")
+        ->check(CLI::Range(2u, 10000000u))
+        ->capture_default_str();
+    command->add_flag("--caps", options->caps, "Close both ends");
+    command->add_option("-o,--output", options->output, "Model to write: .glb, .gltf, .obj, .ply or .stl")
+        ->required();
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_base(*options); }; });
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "picture.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+struct BendOptions {
+    std::filesystem::path model;
+    std::filesystem::path output;
+    double angle = 90;
+    double direction = 0;
+    std::optional<int> folds;
+    std::string amplitude = "paper";
+    std::string profile = "damped";
+    std::string axis = "auto";
+    std::filesystem::path fit;
+    std::string isa = "auto";
+    int threads = 0;
+    std::filesystem::path png;
+    bool ghost = false;
+    std::filesystem::path json;
+};
+
+/// Everything that can be refused by looking at the words alone.
+struct Request {
+    std::optional<glm::dvec3> axis;
+    bend::Pose pose;
+    fit::BindOptions bind;
+    Isa isa;
+    int threads;
+
+    explicit Request(const BendOptions& options)
+        : axis(parse_axis(options.axis)),
+          pose{static_cast<float>(radians(options.angle)), static_cast<float>(radians(options.direction))},
+          isa(parse_isa_option(options.isa)),
+          threads(options.threads > 0 ? options.threads : tbb::info::default_concurrency()) {
+        bind.folds = options.folds;
+        bind.amplitude = parse_amplitude(options.amplitude);
+        bind.profile = parse_profile(options.profile);
+        if (options.ghost && options.png.empty())
+            throw UsageError("--ghost: belongs to a picture; add --png FILE");
+        if (!options.fit.empty() && axis)
+            throw UsageError("--axis: the axis is in the file of --fit; give one of them");
+        check_places({{"MODEL", options.model}, {"--fit", options.fit}},
+                     {{"-o", options.output}, {"--png", options.png}, {"--json", options.json}});
+        check_model_output(options.output);
+        if (!options.png.empty()) check_picture_output(options.png);
+    }
+};
+
+/// The deformed records and how long they took.
+struct Deformed {
+    mesh::Records records;
+    bool clamped = false;
+    double microseconds = 0;
+};
+
+/// Median of a few runs: the first one also pays for memory that was never touched.
+template <class Run>
+double median_microseconds(Run&& run) {
+    std::vector<double> times;
+    for (int i = 0; i < 9; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        run();
+        times.push_back(
+            std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::nth_element(times.begin(), times.begin() + 4, times.end());
+    return times[4];
+}
+
+Deformed deform(const bend::Body& body, const mesh::Records& rest, const Request& request) {
+    Deformed result;
+    const std::size_t count = body.vertex_count();
+    result.records = rest;
+    result.records.normals.resize(count);
+    bend::DeformJob job;
+    job.body = &body;
+    job.pose = request.pose;
+    job.isa = request.isa;
+    job.positions = interleaved<3>(&result.records.positions.front().x, count);
+    job.normals = interleaved<3>(&result.records.normals.front().x, count);
+    if (body.has_tangents()) job.tangents = interleaved<4>(&result.records.tangents.front().x, count);
+    if (const bend::JobFault fault = bend::validate(job); fault != bend::JobFault::none) {
+        throw InputError("cannot deform: " + std::string(bend::describe(fault)));
+    }
+    tbb::task_arena arena(request.threads);
+    result.microseconds = median_microseconds(
+        [&] { arena.execute([&] { result.clamped = bend::run_parallel(job).clamped; }); });
+    return result;
+}
+
+/// Area of the bent, wrinkled base as a fraction of the straight one's, less 1.
+double base_area_change(const fit::Cylinder& cylinder, const fit::BindOptions& options, int folds,
+                        double angle) {
+    const double kappa = angle * cylinder.radius / cylinder.length;
+    if (folds == 0 || angle == 0) return -kappa;
+    const double factor =
+        options.amplitude == paper::Amplitude::area
+            ? paper::area_factor(options.profile, folds, cylinder.length, cylinder.radius, angle)
+            : 1.0;
+    return paper::lateral_area(options.profile, folds, cylinder.length, cylinder.radius, angle, factor) - 1;
+}
+
+void warn_of_folds(Report& report, const BendOptions& options, const fit::Bound& bound,
+                   const fit::Cylinder& cylinder, double angle) {
+    const int wanted = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
+    const auto capacity = static_cast<std::size_t>(bound.folds_capacity);
+    if (bound.folds > bound.folds_capacity) {
+        report.warn("the mesh has vertices for " + counted(capacity, "fold") + ", not " +
+                    std::to_string(bound.folds) + ": wrinkles are coarse, and the area is not kept");
+    } else if (!options.folds && bound.folds == 0 && wanted > 0 && options.amplitude != "none") {
+        report.warn("bent without wrinkles: the mesh has vertices for " + counted(capacity, "fold") +
+                    ", and " + std::to_string(wanted) +
+                    " would suit its length; use a finer mesh, or --folds K to insist");
+    }
+    if (bound.folds == 0) return;
+    const double squeeze = std::min(2 * angle * cylinder.radius / cylinder.length, 0.999);
+    if (paper::amplitude(parse_profile(options.profile), bound.folds, cylinder.length, squeeze) >
+        cylinder.radius) {
+        report.warn(
+            "the wrinkle is deeper than the radius, so that the squeezed side reaches past the axis; use "
+            "more folds");
+    }
+}
+
+/// A fit of another model can hold this one in a corner of itself.
+void warn_of_foreign_fit(Report& report, const bend::Body& body) {
+    const auto heights = body.column(bend::Body::height).first(body.vertex_count());
+    const auto [low, high] = std::ranges::minmax(heights);
+    constexpr float least = 0.5f;
+    if (high - low >= least) return;
+    report.warn("the mesh takes up " + number(100 * static_cast<double>(high - low)) +
+                " % of the length of --fit; is it the fit of this model?");
+}
+
+void report_bend(Report& report, const BendOptions& options, const Request& request,
+                 const fit::Cylinder& cylinder, const fit::Bound& bound, const Deformed& bent,
+                 double area_before) {
+    const double limit = static_cast<double>(bound.body.max_angle());
+    const double asked = std::fabs(static_cast<double>(request.pose.angle));
+    const double used = bent.clamped ? limit : asked;
+    const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
+    const double base_change = base_area_change(cylinder, request.bind, bound.folds, used);
+    nlohmann::ordered_json& json = report.json;
+    json["max_angle"] = degrees(limit);
+    json["folds_capacity"] = bound.folds_capacity;
+    json["pose"] = {{"angle", bent.clamped ? std::copysign(degrees(limit), options.angle) : options.angle},
+                    {"direction", options.direction}};
+    json["folds"] = bound.folds;
+    json["amplitude"] = options.amplitude;
+    json["profile"] = options.profile;
+    json["clamped"] = bent.clamped;
+    json["area_before"] = area_before;
+    json["area_after"] = area_after;
+    json["base_area_change"] = base_change;
+    json["bind_ms"] = bound.milliseconds;
+    json["deform_us"] = bent.microseconds;
+    json["isa"] = name(resolve(request.isa));
+    json["threads"] = request.threads;
+
+    report.line("bend", number(degrees(used)) + " degrees towards " + number(options.direction) +
+                            ", at most " + number(degrees(limit)));
+    report.line("folds", std::to_string(bound.folds) + " of " + std::to_string(bound.folds_capacity) +
+                             " that the mesh carries");
+    report.line("area change", percent(area_after / area_before - 1) + " of the mesh, " +
+                                   percent(base_change) + " of its base");
+    report.line("time", number(bound.milliseconds) + " ms to bind, " + number(bent.microseconds) +
+                            " us to deform (" + std::string(name(resolve(request.isa))) +
+                            ", threads: " + std::to_string(request.threads) + ")");
+    if (bent.clamped) {
+        report.warn("the angle of " + number(options.angle) + " degrees is beyond the largest, " +
+                    number(degrees(limit)) + ", where the body would fold through itself; clamped to it");
+    }
+    warn_of_folds(report, options, bound, cylinder, used);
+}
+
+void run_bend(const BendOptions& options) {
+    const Request request(options);
+    Report report(options.json);
+    mesh::Mesh mesh;
+    mesh::Records rest;
+    {
+        const Progress progress("reading " + options.model.string());
+        mesh = mesh::load(options.model);
+        rest = mesh::records(mesh);
+    }
+    const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
+    const bool given = !options.fit.empty();
+    const fit::Cylinder cylinder = in_file(options.model, [&] {
+        fit::check(geometry);
+        return given ? read_fit(options.fit) : fit::fit_cylinder(geometry, request.axis);
+    });
+    const fit::Bound bound = in_file(given ? options.fit : options.model,
+                                     [&] { return fit::bind(geometry, cylinder, request.bind); });
+    const Deformed bent = deform(bound.body, rest, request);
+
+    const double area_before = fit::surface_area(rest.positions, rest.triangles);
+    report_model(report, options.model, mesh, area_before);
+    report_fit(report, cylinder);
+    report_bend(report, options, request, cylinder, bound, bent, area_before);
+    if (given) warn_of_foreign_fit(report, bound.body);
+    if (!options.png.empty()) {
+        const Progress progress("rendering " + options.png.string());
+        write_picture({bound.body, mesh, rest, bent.records.positions, bent.records.normals, request.pose},
+                      options.ghost, options.png);
+        report.line("picture", options.png.string());
+    }
+    mesh::save(mesh::with_records(mesh, bent.records), options.output);
+    report.line("written", options.output.string());
+    report.finish();
+}
+
+}  // namespace
+
+void add_bend(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<BendOptions>();
+    CLI::App* command = app.add_subcommand("bend", "Bend a model and write it, and a picture of it");
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("-o,--output", options->output, "Model to write, with one of these endings")
+        ->required();
+    const CLI::Validator angle = number_within(-36000, 36000, "an angle in degrees");
+    command->add_option("--angle", options->angle, "How far the tip turns, degrees; negative: the other way")
+        ->check(angle)
+        ->capture_default_str();
+    command->add_option("--direction", options->direction, "Towards where, degrees about the axis")
+        ->check(angle)
+        ->capture_default_str();
+    command
+        ->add_option("--folds", options->folds,
+                     "Folds per half length (default: what suits the body and its mesh)")
+        ->check(CLI::Range(0, fit::BindOptions::max_folds));
+    command
+        ->add_option("--amplitude", options->amplitude,
+                     "Wrinkle: paper (keeps lengths), area (keeps the area), none")
+        ->check(CLI::IsMember({"paper", "area", "none"}))
+        ->capture_default_str();
+    command->add_option("--profile", options->profile, "Wrinkle's shape: damped, smooth")
+        ->check(CLI::IsMember({"damped", "smooth"}))
+        ->capture_default_str();
+    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+        ->capture_default_str();
+    command->add_option("--fit", options->fit,
+                        "Take the base cylinder from a report of 'goffer inspect --json'");
+    command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+        ->capture_default_str();
+    command->add_option("--threads", options->threads, "Threads, 0 for all")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_option("--png", options->png, "Write a picture, 1280 x 960");
+    command->add_flag("--ghost", options->ghost, "Show the rest shape in the picture too, translucent");
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_bend(*options); }; });
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "arguments.hpp"
+
+/// The subcommands. Each adds itself to `app` and sets `action` when it is the one that was called.
+
+namespace goffer::cli {
+
+void add_base(CLI::App& app, Action& action);
+void add_inspect(CLI::App& app, Action& action);
+void add_bend(CLI::App& app, Action& action);
+
+}  // namespace goffer::cli

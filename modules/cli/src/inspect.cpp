@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <memory>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+struct InspectOptions {
+    std::filesystem::path model;
+    std::string axis = "auto";
+    std::filesystem::path json;
+};
+
+void run_inspect(const InspectOptions& options) {
+    const std::optional<glm::dvec3> axis = parse_axis(options.axis);
+    check_places({{"MODEL", options.model}}, {{"--json", options.json}});
+    Report report(options.json);
+    auto progress = std::make_unique<Progress>("inspecting " + options.model.string());
+    const mesh::Mesh mesh = mesh::load(options.model);
+    const mesh::Records records = mesh::records(mesh);
+    const fit::Geometry geometry{records.positions, records.triangles, records.normals, records.tangents};
+    const auto [cylinder, bound] = in_file(options.model, [&] {
+        const fit::Cylinder fitted = fit::fit_cylinder(geometry, axis);
+        return std::pair(fitted, fit::bind(geometry, fitted));
+    });
+    progress.reset();
+
+    report_model(report, options.model, mesh, fit::surface_area(records.positions, records.triangles));
+    report_fit(report, cylinder);
+    const double max_angle = degrees(static_cast<double>(bound.body.max_angle()));
+    report.json["max_angle"] = max_angle;
+    report.json["folds_capacity"] = bound.folds_capacity;
+    report.json["folds"] = bound.folds;
+    report.line("largest angle", number(max_angle) + " degrees");
+    report.line("folds", std::to_string(bound.folds) + " would be used; the mesh carries " +
+                             std::to_string(bound.folds_capacity));
+    report.finish();
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<InspectOptions>();
+    CLI::App* command =
+        app.add_subcommand("inspect", "Fit the base cylinder to a model and say what was found");
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+        ->capture_default_str();
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_inspect(*options); }; });
+}
+
+}  // namespace goffer::cli

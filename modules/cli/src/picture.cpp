@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "picture.hpp"
+
+#include <goffer/view/picture.hpp>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+view::Camera camera_for(const bend::Body& body, const bend::Pose& pose) {
+    const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
+    const glm::dmat3& e = body.axes();
+    const glm::dvec3 towards = std::cos(theta) * e[0] + std::sin(theta) * e[1];
+    const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
+    constexpr double elevation = 35 * std::numbers::pi / 180;
+    view::Camera camera;
+    camera.towards = glm::vec3(-std::cos(elevation) * across - std::sin(elevation) * towards);
+    camera.up = glm::vec3(towards);
+    return camera;
+}
+
+/// A material's colour, made readable: wrinkles drown in white and in black. A neutral grey, which is what a
+/// material says whose texture is not at hand, is no colour; such parts are of the renderer's own clay.
+glm::vec4 readable(const glm::vec4& color) {
+    const auto [low, high] = std::minmax({color.r, color.g, color.b});
+    if (high > 0.5f && high - low < 0.02f) return view::Model{}.color;
+    const glm::vec3 dimmed = glm::vec3(color) * std::min(1.0f, 0.75f / std::max(high, 1e-3f));
+    return {glm::max(dimmed, glm::vec3(0.06f)), 1.0f};
+}
+
+/// One model per part, since each part has its material's colour. Faces are cut up into fans in their order.
+std::vector<view::Model> models_of(const PictureSubject& subject) {
+    std::vector<view::Model> models;
+    const std::span<const std::uint32_t> triangles = subject.rest.triangles;
+    std::size_t first = 0;
+    for (const mesh::Part& part : subject.mesh.parts) {
+        std::size_t count = 0;
+        for (std::uint32_t face = 0; face < part.face_count; ++face)
+            count += subject.mesh.faces[part.first_face + face] - 2;
+        view::Model model;
+        model.positions = subject.bent_positions;
+        model.normals = subject.bent_normals;
+        model.triangles = triangles.subspan(3 * first, 3 * count);
+        if (part.material >= 0) {
+            model.color =
+                readable(subject.mesh.materials[static_cast<std::size_t>(part.material)].base_color);
+        }
+        first += count;
+        if (count > 0) models.push_back(model);
+    }
+    return models;
+}
+
+}  // namespace
+
+void write_picture(const PictureSubject& subject, bool ghost, const std::filesystem::path& file) {
+    std::vector<view::Model> models = models_of(subject);
+    if (ghost) {
+        view::Model rest;
+        rest.positions = subject.rest.positions;
+        rest.triangles = subject.rest.triangles;
+        rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
+        models.push_back(rest);
+    }
+    view::save_png(view::render(models, camera_for(subject.body, subject.pose)), file);
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/body.hpp>
+#include <goffer/bend/pose.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <span>
+
+namespace goffer::cli {
+
+/// What a picture of a bend needs. The caller owns all of it.
+struct PictureSubject {
+    const bend::Body& body;
+    const mesh::Mesh& mesh;     ///< parts and materials
+    const mesh::Records& rest;  ///< rest positions and triangles
+    std::span<const glm::vec3> bent_positions;
+    std::span<const glm::vec3> bent_normals;
+    bend::Pose pose;
+};
+
+/// Renders the bent model, seen across the plane that it bends in and from above its squeezed side, so that
+/// it lies from left to right and its wrinkles are in view; with `ghost` the rest shape too, translucent.
+/// Writes a PNG.
+void write_picture(const PictureSubject& subject, bool ghost, const std::filesystem::path& file);
+
+}  // namespace goffer::cli

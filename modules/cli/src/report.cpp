@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include "arguments.hpp"
+
+#include <goffer/mesh/atomic_file.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace goffer::cli {
+namespace {
+
+std::string formatted(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+// What is rounding, next to `scale`, reads as 0.
+std::string vector_text(const glm::dvec3& v, double scale) {
+    const auto text = [scale](double value) { return number(std::fabs(value) < 1e-9 * scale ? 0 : value); };
+    return text(v.x) + ", " + text(v.y) + ", " + text(v.z);
+}
+
+nlohmann::ordered_json vector_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+std::string number(double value) {
+    return formatted("%.6g", value);
+}
+
+std::string percent(double fraction) {
+    return formatted("%+.4f %%", 100 * fraction);
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+Report::Report(std::filesystem::path json_file) : json_file_(std::move(json_file)) {
+    if (!json_file_.empty() && json_file_ != "-") check_output(json_file_);
+}
+
+void Report::line(const std::string& label, const std::string& value) {
+    constexpr std::size_t width = 18;
+    lines_.push_back(label + std::string(label.size() < width ? width - label.size() : 1, ' ') + value);
+}
+
+void Report::warn(const std::string& text) {
+    warnings_.push_back(text);
+}
+
+void Report::finish() {
+    json["warnings"] = warnings_;
+    // A file name need not be UTF-8; what is not is replaced, so that the report stays JSON.
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const bool to_output = json_file_ == "-";
+    if (!json_file_.empty() && !to_output) mesh::write_file(json_file_, text);
+
+    std::FILE* people = to_output ? stderr : stdout;
+    for (const std::string& line : lines_) std::fprintf(people, "%s\n", line.c_str());
+    for (const std::string& warning : warnings_)
+        std::fprintf(stderr, "goffer: warning: %s\n", warning.c_str());
+    if (to_output) std::fwrite(text.data(), 1, text.size(), stdout);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw InputError("standard output: cannot be written; is its disk full?");
+}
+
+void report_model(Report& report, const std::filesystem::path& file, const mesh::Mesh& mesh, double area) {
+    const std::size_t triangles = mesh::triangle_count(mesh);
+    report.json["file"] = file.string();
+    report.json["vertices"] = mesh.positions.size();
+    report.json["triangles"] = triangles;
+    report.json["primitives"] = mesh.parts.size();
+    report.json["area"] = area;
+    report.line("model", file.string());
+    report.line("mesh", std::to_string(mesh.positions.size()) + " vertices, " + std::to_string(triangles) +
+                            " triangles, " + counted(mesh.parts.size(), "primitive"));
+    report.line("area", number(area));
+    for (const std::string& warning : mesh.warnings) report.warn(warning);
+}
+
+void report_fit(Report& report, const fit::Cylinder& cylinder) {
+    nlohmann::ordered_json& fit = report.json["fit"];
+    fit["origin"] = vector_json(cylinder.origin);
+    fit["axis"] = vector_json(cylinder.axis);
+    fit["zero"] = vector_json(cylinder.zero);
+    fit["length"] = cylinder.length;
+    fit["radius"] = cylinder.radius;
+    fit["rest_angle"] = degrees(cylinder.rest_angle);
+    fit["rest_direction"] = degrees(cylinder.rest_direction);
+    fit["residual"] = cylinder.residual;
+    report.line("base end", vector_text(cylinder.origin, cylinder.length));
+    report.line("axis", vector_text(cylinder.axis, 1));
+    report.line("zero direction", vector_text(cylinder.zero, 1));
+    report.line("length, radius", number(cylinder.length) + ", " + number(cylinder.radius) + " (ratio " +
+                                      number(cylinder.length / cylinder.radius) + ")");
+    report.line("fit residual", number(cylinder.residual) + " of the radius");
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What a command says: lines for a person and, where asked for, the same as JSON.
+
+namespace goffer::cli {
+
+/// Collects a command's results and prints them at its end.
+class Report {
+public:
+    /// `json_file`: empty for none, "-" for standard output (the lines then go to standard error). Throws
+    /// where the file cannot be written, before any work is done.
+    explicit Report(std::filesystem::path json_file);
+
+    /// A line "label   value" for a person.
+    void line(const std::string& label, const std::string& value);
+
+    /// A warning: a line, and an entry of "warnings" in the JSON.
+    void warn(const std::string& text);
+
+    /// The JSON, to be filled in the order that it is to be printed in.
+    nlohmann::ordered_json json;
+
+    /// Writes the JSON and prints the lines. Throws where either cannot be written.
+    void finish();
+
+private:
+    std::filesystem::path json_file_;
+    std::vector<std::string> lines_;
+    std::vector<std::string> warnings_;
+};
+
+/// Numbers as people read them: six significant digits.
+[[nodiscard]] std::string number(double value);
+
+/// A fraction in per cent with a sign, to four decimals.
+[[nodiscard]] std::string percent(double fraction);
+
+/// "1 fold", "2 folds".
+[[nodiscard]] std::string counted(std::size_t count, const std::string& thing);
+
+/// What `inspect` and `bend` say of a file and its fit. Capacity and angle are filled in by the caller.
+void report_model(Report& report, const std::filesystem::path& file, const mesh::Mesh& mesh, double area);
+void report_fit(Report& report, const fit::Cylinder& cylinder);
+
+}  // namespace goffer::cli
