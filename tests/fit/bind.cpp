@@ -127,13 +127,14 @@ TEST_CASE("within the largest angle nothing folds through itself") {
         const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
         const paper::Body body{1, subject.cylinder.radius, bound.folds, Profile::damped, Amplitude::paper};
         const paper::ClosedForm map(body, {static_cast<double>(bound.body.max_angle()), 0});
-        // The arc's parameter grows along every column: z's derivative along the bent centre line stays
-        // positive.
-        for (const float rho : bound.body.column(bend::Body::rho)) {
-            for (int i = 0; i < 100; ++i) {
-                const double z = i / 100.0, step = 1e-4;
-                const glm::dvec3 a = map.position({0, z, static_cast<double>(rho)});
-                const glm::dvec3 b = map.position({0, z + step, static_cast<double>(rho)});
+        // The arc's parameter grows along every column: each step goes forward along the bent centre line.
+        const auto rhos = bound.body.column(bend::Body::rho);
+        const double largest = static_cast<double>(*std::max_element(rhos.begin(), rhos.end()));
+        for (const double rho : {largest, 0.7 * largest, 0.2 * largest}) {
+            for (int i = 0; i < 200; ++i) {
+                const double z = i / 200.0, step = 1e-4;
+                const glm::dvec3 a = map.position({0, z, rho});
+                const glm::dvec3 b = map.position({0, z + step, rho});
                 const double phi = static_cast<double>(bound.body.max_angle()) * z;
                 REQUIRE(glm::dot(b - a, glm::dvec3(std::sin(phi), 0, std::cos(phi))) > 0);
             }

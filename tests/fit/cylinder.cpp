@@ -249,6 +249,20 @@ TEST_CASE("half a pipe has the whole pipe's axis") {
     CHECK(off.radius < 1e-4);
 }
 
+TEST_CASE("a shallow trough keeps its line in its own box, not in the far middle of its circle") {
+    std::mt19937 random(46);
+    const Solid trough =
+        warped(test::cylinder({.columns = 32, .rows = 30, .length = 60}, random), [](glm::dvec3 p) {
+            const double beta = 0.2 * std::atan2(p.y, p.x);
+            return glm::dvec3(20 * std::cos(beta), 20 * std::sin(beta), p.z);
+        });
+    const Cylinder fitted = fit_to(trough);
+    CHECK(near(fitted.axis, {0, 0, 1}, 1e-3));
+    CHECK(fitted.origin.x > 20 * std::cos(0.2 * std::numbers::pi) - 0.1);
+    CHECK(fitted.origin.x < 20.1);
+    CHECK(fitted.radius < 12);
+}
+
 TEST_CASE("an axis without a direction is refused") {
     const Solid solid = some_cylinder();
     for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
