@@ -2,19 +2,15 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
-
-int main(int count, char** words) {
+int main() {
     using namespace goffer;
-    if (count != 3) return 2;  // hello MODEL OUTPUT
-    const mesh::Mesh model = mesh::load(words[1]);
+    const mesh::Mesh model = mesh::load("worm.glb");
     mesh::Records shape = mesh::records(model);
     const fit::Geometry geometry{shape.positions, shape.triangles, shape.normals};
-    const fit::Bound worm = fit::bind(geometry, fit::fit_cylinder(geometry));  // once, offline
-    shape.normals.resize(shape.positions.size());
-
-    bend::DeformJob job{.body = &worm.body, .pose = {.angle = 1.5f, .direction = 0.5f}};  // radians
+    const fit::Bound worm = fit::bind(geometry, fit::fit_cylinder(geometry));             // once, offline
+    bend::DeformJob job{.body = &worm.body, .pose = {.angle = 1.5f, .direction = 0.5f}};  // in radians
     job.positions = interleaved<3>(&shape.positions[0].x, shape.positions.size());
-    job.normals = interleaved<3>(&shape.normals[0].x, shape.normals.size());
+    if (!shape.normals.empty()) job.normals = interleaved<3>(&shape.normals[0].x, shape.normals.size());
     bend::run(job);  // every frame: no allocation, no lock
-    mesh::save(mesh::with_records(model, shape), words[2]);
+    mesh::save(mesh::with_records(model, shape), "bent.glb");
 }
