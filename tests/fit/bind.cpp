@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numbers>
 
@@ -86,14 +86,12 @@ TEST_CASE("64 rows are made in under 50 ms") {
         for (const int folds : {5, 12}) {
             double best = std::numeric_limits<double>::infinity();
             for (int attempt = 0; attempt < 5; ++attempt) {
-                const auto start = std::chrono::steady_clock::now();
+                const std::clock_t start = std::clock();  // this process's own time: the machine may be busy
                 const double limit = fit::largest_angle(Profile::damped, amplitude, folds, 10, 1, 1.1);
                 const bend::WrinkleTable table =
                     fit::make_wrinkle_table(Profile::damped, amplitude, folds, 10, 1, limit, 64);
                 REQUIRE(table.rows.size() == 64);
-                const std::chrono::duration<double, std::milli> taken =
-                    std::chrono::steady_clock::now() - start;
-                best = std::min(best, taken.count());
+                best = std::min(best, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
             }
             MESSAGE(folds, " folds, ", std::string(amplitude == Amplitude::area ? "area: " : "paper: "), best,
                     " ms");

@@ -46,7 +46,7 @@ TEST_CASE("P3: every column of the wrinkled base keeps its length") {
     }
 }
 
-TEST_CASE("columns of the bare bend are as long as eq 9 and 10 say; the outer one keeps its length") {
+TEST_CASE("columns of the bare bend are as long as eq 9 and 10 say, the outer one keeps its length") {
     const std::uint32_t columns = 16, rows = 2001;
     const double angle = 2.5, theta = 2 * std::numbers::pi * 3 / 16;
     const BentGrid bent = Grid({length, radius, 0}, columns, rows).bend({angle, theta});

@@ -72,10 +72,12 @@ std::string reason(const nlohmann::json::exception& error) {
     return end == text.npos ? text : text.substr(end + 2);
 }
 
-bool same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
+/// Where a file is or would be, links and dots resolved.
+std::filesystem::path place_of(const std::filesystem::path& file) {
     std::error_code error;
-    return std::filesystem::equivalent(a, b, error) ||
-           std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+    const std::filesystem::path place =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    return error ? file : place;
 }
 
 }  // namespace
@@ -167,7 +169,8 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
     std::vector<NamedFile> taken = inputs;
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {
-            if (!is_file(output) || !is_file(other) || !same_place(output.file, other.file)) continue;
+            if (!is_file(output) || !is_file(other) || place_of(output.file) != place_of(other.file))
+                continue;
             throw UsageError(std::string(output.option) + ": " + output.file.string() +
                              " would replace the file of " + std::string(other.option) +
                              "; give another name");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "text.hpp"
+
 #include <goffer/fit/bind.hpp>
 #include <goffer/paper/closed_form.hpp>
 
@@ -42,12 +44,27 @@ bool usable_direction(const glm::dvec3& v) {
     return std::isfinite(length) && length > 1e-12;
 }
 
-/// Refuses a vertex beyond the ends that a triangle uses. One that none uses is nobody's surface.
-void refuse_outside(const Geometry& geometry, const Cylinder& cylinder, std::size_t vertex, double z) {
-    const auto& triangles = geometry.triangles;
-    if (std::find(triangles.begin(), triangles.end(), vertex) == triangles.end()) return;
-    throw Error("vertex " + std::to_string(vertex) + " lies at z = " + std::to_string(z) +
-                ", outside the base cylinder's 0.." + std::to_string(cylinder.length) +
+/// The vertices that no triangle uses: nobody's surface.
+class Unused {
+public:
+    explicit Unused(const Geometry& geometry) : geometry_(geometry) {}
+
+    [[nodiscard]] bool operator[](std::size_t vertex) {
+        if (used_.empty()) {
+            used_.resize(geometry_.positions.size());
+            for (const std::uint32_t i : geometry_.triangles) used_[i] = true;
+        }
+        return !used_[vertex];
+    }
+
+private:
+    const Geometry& geometry_;
+    std::vector<bool> used_;  // made when first asked for
+};
+
+[[noreturn]] void refuse_outside(std::size_t vertex, double z, double length) {
+    throw Error("vertex " + std::to_string(vertex) + " lies at z = " + text(z) +
+                ", outside the base cylinder's 0.." + text(length) +
                 "; fit the cylinder to this mesh, or lengthen it");
 }
 
@@ -67,11 +84,12 @@ std::vector<bend::RestVertex> rest_vertices(const Geometry& geometry, const Cyli
                                             const Frame& frame, paper::Profile profile, int folds) {
     std::vector<bend::RestVertex> rest;
     rest.reserve(geometry.positions.size());
+    Unused unused(geometry);
     const double slack = 1e-3 * cylinder.length;
     for (const glm::vec3& position : geometry.positions) {
         paper::Cylindrical at = frame.vertex(position);
         if (at.z < -slack || at.z > cylinder.length + slack) {
-            refuse_outside(geometry, cylinder, rest.size(), at.z);
+            if (!unused[rest.size()]) refuse_outside(rest.size(), at.z, cylinder.length);
             at.z = std::clamp(at.z, 0.0, cylinder.length);
         }
         rest.push_back(rest_vertex(at, cylinder, profile, folds));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "text.hpp"
+
 #include <goffer/fit/cylinder.hpp>
 
 #include <glm/geometric.hpp>
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -33,12 +34,9 @@ glm::dvec3 from_eigen(const Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-std::string text(double value) {
-    std::array<char, 32> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-    return buffer.data();
-}
+using fit::text;
 
+using fit::text;
 std::string text(const Vector3d& v) {
     return text(v.x()) + "," + text(v.y()) + "," + text(v.z());
 }
@@ -142,11 +140,10 @@ Line line_through(const Vector3d& point, const Vector3d& axis) {
     return line;
 }
 
-/// The middle of a triangle's edge, lifted from the chord to where rho is linear: on a cylinder's mesh it
-/// lies on the cylinder. Three of them integrate what is quadratic over the triangle exactly.
+/// The middle of a triangle's edge. Three of them integrate what is quadratic over the triangle exactly.
 struct Sample {
-    Vector3d place;  // x, y, z in the line's frame
-    double rho;
+    Vector3d place;   // x, y, z in the line's frame
+    double rho;       // the mean of the edge's ends, not shortened by the chord
     double flux;      // its share of the integral of rho^2 over the unrolled (beta, z) plane; none for caps
     double unrolled;  // its share of that plane's area
 
@@ -173,8 +170,7 @@ struct View {
 /// unrolled plane. Taken without its sign, so that the winding does not matter.
 template <class Visit>
 void each_sample(const Body& body, const Line& line, Visit visit) {
-    constexpr double least =
-        0.05;  // of rho^2: where the axis runs through a triangle, no sample outweighs all
+    constexpr double least = 0.05;  // of rho^2: no sample on the axis outweighs all others
     const View view(body, line);
     for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
         const std::array corner{body.triangles[t], body.triangles[t + 1], body.triangles[t + 2]};
@@ -187,7 +183,6 @@ void each_sample(const Body& body, const Line& line, Visit visit) {
             s.flux = std::abs(normal.head<2>().dot(s.place.head<2>())) / 3;
             if (s.flux == 0) continue;
             s.unrolled = s.flux / std::max(s.rho * s.rho, least * far * far);
-            s.place.head<2>() *= s.rho / s.place.head<2>().norm();
             visit(s);
         }
     }
@@ -209,21 +204,23 @@ Row regress(const Body& body, const Line& line, bool tilt) {
     return normal.completeOrthogonalDecomposition().solve(right);
 }
 
-/// Moves the line, and tilts it if it may, until it is the axis of the sections' circles. A line that leaves
-/// the body is no axis: then the start is kept.
+/// Moves the line, and tilts it if it may, until it is the axis of the sections' circles. Keeps the start
+/// where that comes to nothing, or to a line as far away as the middle of a shallow trough's circle.
 Line settle(const Body& body, const Line& start, bool tilt) {
     constexpr int most_steps = 20;
     constexpr double settled = 1e-7;
+    constexpr double far = 0.8;  // of the circle's radius: an arc of less than 130 degrees
     Line line = start;
+    Row by = Row::Zero();
     for (int step = 0; step < most_steps; ++step) {
-        const Row by = regress(body, line, tilt);
-        const Vector3d point = line.point + line.frame.leftCols<2>() * by.segment<2>(1);
-        const Vector3d axis = line.axis() + line.frame.leftCols<2>() * by.segment<2>(3);
-        if (!by.allFinite() || point.cwiseAbs().maxCoeff() > 0.5) return start;
-        line = line_through(point, axis.normalized());
+        by = regress(body, line, tilt);
+        const Vector3d shift = line.frame.leftCols<2>() * by.segment<2>(1);
+        const Vector3d turn = line.frame.leftCols<2>() * by.segment<2>(3);
+        line = line_through(line.point + shift, (line.axis() + turn).normalized());
         if (by.tail<4>().norm() < settled) break;
     }
-    return line;
+    const bool within = (line.point - start.point).norm() < far * std::sqrt(by[0]);  // false for NaN, too
+    return within ? line : start;
 }
 
 /// Radius and residual about a line, in units of the body's size and of the radius.

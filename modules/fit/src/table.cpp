@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "chebyshev.hpp"
+#include "text.hpp"
 
 #include <goffer/fit/bind.hpp>
 #include <goffer/paper/wave.hpp>
@@ -19,9 +20,9 @@ bool wrinkles(paper::Amplitude amplitude, int folds) {
 
 void check_shape(int folds, double length, double radius) {
     if (!(length > 0) || !std::isfinite(length))
-        throw Error("length: " + std::to_string(length) + " is not a positive number");
+        throw Error("length: " + text(length) + " is not a positive number");
     if (!(radius > 0) || !std::isfinite(radius))
-        throw Error("radius: " + std::to_string(radius) + " is not a positive number");
+        throw Error("radius: " + text(radius) + " is not a positive number");
     if (folds < 0 || folds > BindOptions::max_folds) {
         throw Error("folds: " + std::to_string(folds) + " is outside 0.." +
                     std::to_string(BindOptions::max_folds));
@@ -51,7 +52,7 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
                                       double length, double radius, double max_angle, int rows) {
     check_shape(folds, length, radius);
     if (!(max_angle > 0) || max_angle * 2 * radius >= length) {
-        throw Error("max_angle: " + std::to_string(max_angle) + " is outside 0..length / (2 radius)");
+        throw Error("max_angle: " + text(max_angle) + " is outside 0..length / (2 radius)");
     }
     if (rows < 2 || rows > 4096) throw Error("table_rows: " + std::to_string(rows) + " is outside 2..4096");
     bend::WrinkleTable table;
@@ -79,7 +80,7 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
                      double radius, double rho_max) {
     check_shape(folds, length, radius);
     if (!(rho_max >= 0) || !std::isfinite(rho_max)) {
-        throw Error("rho_max: " + std::to_string(rho_max) + " is not a distance");
+        throw Error("rho_max: " + text(rho_max) + " is not a distance");
     }
     const double outermost = std::max(rho_max, radius);
     const auto search = [&](double factor) {

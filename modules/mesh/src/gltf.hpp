@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/mesh/mesh.hpp>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the parts of glTF's reader and writer share. The document is held as JSON in its own order, since all
+/// of it has to be given back; every look into it is checked here. TinyGLTF is not used for it: its model
+/// loses order, numbers and unknown fields, and in version 2.7 it reads past the end of a GLB whose BIN chunk
+/// is 8 bytes too long and of views of images, overflows the stack on deeply nested extras, and refuses
+/// buffers longer than their byteLength.
+
+namespace goffer::mesh::gltf {
+
+using Json = nlohmann::ordered_json;
+
+/// A value of a document and its place, so that each complaint can say where. The document must outlive it.
+class Value {
+public:
+    explicit Value(const Json& json, std::string path = {}) : json_(&json), path_(std::move(path)) {}
+
+    [[nodiscard]] bool has(const char* key) const;
+    [[nodiscard]] Value operator[](const char* key) const;      ///< a member, which must be there
+    [[nodiscard]] Value operator[](std::size_t element) const;  ///< of an array, which must be so long
+    [[nodiscard]] std::size_t size() const;                     ///< of an array
+    [[nodiscard]] double number() const;
+    [[nodiscard]] std::uint64_t whole() const;  ///< a whole number from 0 to 2^53
+    [[nodiscard]] const std::string& text() const;
+
+    /// The elements of an array of exactly `count` numbers.
+    [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
+
+    [[nodiscard]] std::uint64_t whole_or(const char* key, std::uint64_t otherwise) const;
+    [[nodiscard]] std::string text_or(const char* key, const char* otherwise) const;
+    [[nodiscard]] bool flag(const char* key) const;  ///< false where it is left out
+
+    /// Throws Error "<path>: <what>".
+    [[noreturn]] void fail(const std::string& what) const;
+
+    [[nodiscard]] const Json& json() const { return *json_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    const Json* json_;
+    std::string path_;
+};
+
+/// A file as read: the JSON and the bytes that its buffers name. All buffer views are known to lie in their
+/// buffers.
+struct Document : Source {
+    Document() {}  // may throw, as the JSON inside may
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+
+    Json json;
+    std::vector<std::string> buffers;
+    std::filesystem::path folder;  ///< of the file
+
+    [[nodiscard]] Value root() const { return Value(json); }
+    [[nodiscard]] std::size_t count(const char* list) const;
+
+    /// `index` as an index into `list` ("meshes", ...), known to be in range.
+    [[nodiscard]] std::size_t number(const char* list, const Value& index) const;
+
+    /// The entry of `list` that `index` names. Its path tells where the index stands, too.
+    [[nodiscard]] Value entry(const char* list, const Value& index) const;
+
+    /// The bytes of a buffer view.
+    [[nodiscard]] std::string_view view(const Value& buffer_view) const;
+};
+
+/// Takes a .glb or .gltf apart and fetches its buffers. Throws Error without the file's name.
+[[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
+                                                            std::string_view bytes);
+
+/// A whole file made of a document, whose one buffer (set here) has these bytes.
+[[nodiscard]] std::string glb_file(Json json, const std::string& buffer);
+[[nodiscard]] std::string gltf_file(Json json, const std::string& buffer);
+
+/// URIs. Data URIs are decoded whether base64 or percent; null where they are malformed.
+[[nodiscard]] bool is_data_uri(std::string_view uri);
+[[nodiscard]] bool is_relative_uri(std::string_view uri);
+[[nodiscard]] std::optional<std::string> data_of(std::string_view data_uri);
+[[nodiscard]] std::string data_uri(std::string_view mime_type, std::string_view bytes);
+[[nodiscard]] std::filesystem::path path_of(std::string_view uri);
+[[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
+
+/// The components of an accessor, `components` for each element, in element order; normalised integers as
+/// numbers in -1..1. `index` is the reference to it. Nothing is allocated before the size is known to be
+/// backed by bytes.
+[[nodiscard]] std::vector<float> read_floats(const Document& document, const Value& index,
+                                             std::size_t components);
+
+/// The elements of an accessor of unsigned integers.
+[[nodiscard]] std::vector<std::uint32_t> read_indices(const Document& document, const Value& index);
+
+/// The bytes of an array of floats or integers, as glTF wants them: little-endian.
+template <class T>
+[[nodiscard]] std::string bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// Least and greatest of each component, as the fields `min` and `max` of an accessor of positions.
+void set_bounds(Json& accessor, const std::vector<float>& values, std::size_t components);
+
+/// Where a node stands in the scene: the map of its positions, normals and tangents, and back. Normals and
+/// tangents go to unit length unless the place is the origin itself, where everything stays as it is to the
+/// last bit.
+class Placement {
+public:
+    Placement() : Placement(glm::dmat4(1.0)) {}
+    explicit Placement(const glm::dmat4& matrix);
+
+    [[nodiscard]] bool mirrored() const { return mirrored_; }  ///< triangles turn round
+    [[nodiscard]] bool singular() const { return singular_; }  ///< there is no way back
+
+    [[nodiscard]] glm::vec3 point(const glm::vec3& local) const;
+    [[nodiscard]] glm::vec3 normal(const glm::vec3& local) const;
+    [[nodiscard]] glm::vec4 tangent(const glm::vec4& local) const;
+
+    [[nodiscard]] glm::vec3 point_back(const glm::vec3& placed) const;
+    [[nodiscard]] glm::vec3 normal_back(const glm::vec3& placed) const;
+    [[nodiscard]] glm::vec4 tangent_back(const glm::vec4& placed) const;
+
+private:
+    glm::dmat4 matrix_;
+    glm::dmat4 inverse_{1.0};
+    glm::dmat3 cofactors_{
+        1.0};  ///< of the matrix over its largest entry: the inverse transpose up to a factor
+    bool identity_ = false, mirrored_ = false, singular_ = false;
+};
+
+/// The attributes that bending changes, and how many components each has.
+enum Stream : std::size_t { position, normal, tangent, stream_count };
+inline constexpr std::array<const char*, stream_count> stream_name{"POSITION", "NORMAL", "TANGENT"};
+inline constexpr std::array<std::size_t, stream_count> stream_width{3, 3, 4};
+
+/// A run of the mesh's vertices: one set of accessors under one node.
+struct Block {
+    std::size_t node = 0, mesh = 0;
+    std::vector<std::size_t> primitives;  ///< of the mesh, which share the accessors
+    std::size_t count = 0;                ///< vertices
+    /// Where its values start in positions, normals.values and tangents.values; `absent` where it has none.
+    std::array<std::size_t, stream_count> first{absent, absent, absent};
+    Placement placement;
+
+    static constexpr std::size_t absent = ~std::size_t{0};
+};
+
+/// A document's scene as a mesh, without its source, and which of its vertices come from where, in vertex
+/// order.
+struct Scene {
+    Mesh mesh;
+    std::vector<Block> blocks;
+};
+
+/// The same scene for the same document, always: the writer leans on it.
+[[nodiscard]] Scene read_scene(const Document& document);
+
+/// The document that `mesh` came from with the streams of `mesh` in it; null where mesh has no such document,
+/// or differs from it in more than these streams. `embed`: outer images are taken in (GLB).
+struct Output {
+    Json json;
+    std::string buffer;
+};
+[[nodiscard]] std::optional<Output> rewritten(const Mesh& mesh, const std::filesystem::path& file,
+                                              bool embed);
+
+/// A new document for a mesh from elsewhere.
+[[nodiscard]] Output made(const Mesh& mesh);
+
+}  // namespace goffer::mesh::gltf

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "gltf.hpp"
+#include "text.hpp"
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace goffer::mesh::gltf {
+
+static_assert(std::endian::native == std::endian::little,
+              "glTF's buffers are little-endian and are copied as they are");
+
+namespace {
+
+constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
+constexpr int deepest = 200;  // writing recurses; no document that is meant comes near it
+constexpr const char* truncated = "the GLB is cut off or its lengths are wrong; copy or export it again";
+
+std::uint32_t u32(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, 4);
+    return value;
+}
+
+struct Container {
+    std::string_view json;
+    std::string_view binary;  ///< the BIN chunk
+    bool has_binary = false;
+};
+
+Container split_glb(std::string_view bytes) {
+    if (bytes.size() < 12) throw Error(truncated);
+    const std::uint32_t version = u32(bytes, 4), length = u32(bytes, 8);
+    if (version != 2) {
+        throw Error("is GLB version " + std::to_string(version) +
+                    "; only 2 can be read, convert it with gltf-pipeline");
+    }
+    if (length > bytes.size() || length < 20) throw Error(truncated);
+    Container parts;
+    for (std::size_t at = 12, number = 0; at < length; ++number) {
+        if (length - at < 8 || u32(bytes, at) > length - at - 8) throw Error(truncated);
+        const std::uint32_t type = u32(bytes, at + 4);
+        const std::string_view chunk = bytes.substr(at + 8, u32(bytes, at));
+        if ((number == 0) != (type == json_chunk))
+            throw Error("the GLB's first chunk alone must be JSON; export it again");
+        if (number == 0) parts.json = chunk;
+        if (number == 1 && type == binary_chunk) {
+            parts.binary = chunk;
+            parts.has_binary = true;
+        }
+        at += 8 + chunk.size();
+    }
+    return parts;
+}
+
+/// Counts brackets ahead of the parser, whose own callback takes quadratic time for long arrays.
+void check_depth(std::string_view text) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') in_string = !in_string;
+        if (in_string && c == '\\') ++i;
+        if (in_string) continue;
+        if (c == '}' || c == ']') --depth;
+        if ((c == '{' || c == '[') && ++depth > deepest) {
+            throw Error("the JSON is nested more than " + std::to_string(deepest) +
+                        " deep; remove such extras");
+        }
+    }
+}
+
+Json parse(std::string_view text) {
+    check_depth(text);
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        throw Error("not valid JSON at byte " + std::to_string(error.byte) + "; export the file again");
+    } catch (const Json::exception&) {
+        throw Error("the JSON has a number that no double can hold; mend or remove it");
+    }
+}
+
+void check_version(const Value& root) {
+    const Value version = root["asset"]["version"];
+    if (!version.text().starts_with("2.")) {
+        version.fail("is " + mesh::quoted(version.text()) +
+                     "; only glTF 2 can be read, convert it with gltf-pipeline");
+    }
+}
+
+void refuse_compression(const Value& root) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        for (std::size_t i = 0; root.has(list) && i < root[list].size(); ++i) {
+            const std::string& name = root[list][i].text();
+            if (name != "KHR_draco_mesh_compression" && name != "EXT_meshopt_compression" &&
+                name != "KHR_meshopt_compression")
+                continue;
+            root[list][i].fail("the mesh is compressed with " + name +
+                               ", which cannot be read; decompress it: gltf-transform copy IN OUT");
+        }
+    }
+}
+
+std::string read_outer(const Value& uri, const std::filesystem::path& folder, std::uint64_t size) {
+    if (!is_relative_uri(uri.text())) {
+        uri.fail("is " + mesh::quoted(uri.text()) +
+                 "; only files beside the document are read, put it there");
+    }
+    const std::filesystem::path file = folder / path_of(uri.text());
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) {
+        uri.fail("names " + mesh::quoted(uri.text()) + ", which is not there; put it beside the document");
+    }
+    const std::uint64_t present = std::filesystem::file_size(file, error);
+    if (error || present < size) {
+        uri.fail("names " + mesh::quoted(uri.text()) + ", which has " + std::to_string(error ? 0 : present) +
+                 " bytes of " + std::to_string(size) + "; copy it again");
+    }
+    std::string bytes(size, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+        uri.fail("names " + mesh::quoted(uri.text()) + ", which cannot be read; check its permissions");
+    }
+    return bytes;
+}
+
+std::string read_buffer(const Value& buffer, bool first, const Container& parts,
+                        const std::filesystem::path& folder) {
+    const std::uint64_t size = buffer["byteLength"].whole();
+    const bool named = buffer.has("uri");
+    if (named && !is_data_uri(buffer["uri"].text())) return read_outer(buffer["uri"], folder, size);
+    std::string bytes;
+    if (named) {
+        std::optional<std::string> data = data_of(buffer["uri"].text());
+        if (!data) buffer["uri"].fail("is not a well-formed data URI; export the file again");
+        bytes = std::move(*data);
+    } else if (first && parts.has_binary) {  // the BIN chunk is the first buffer's alone
+        bytes = parts.binary;
+    } else {
+        buffer.fail("has neither a \"uri\" nor a GLB's BIN chunk; export the file again");
+    }
+    if (bytes.size() < size) {
+        buffer.fail("has " + std::to_string(bytes.size()) + " bytes of the " + std::to_string(size) +
+                    " that byteLength promises; copy or export the file again");
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+void check_view(const Document& document, const Value& view) {
+    const Value buffer = document.entry("buffers", view["buffer"]);
+    const std::uint64_t offset = view.whole_or("byteOffset", 0), length = view["byteLength"].whole();
+    const std::uint64_t size = document.buffers[view["buffer"].whole()].size();
+    if (offset > size || length > size - offset) {
+        view.fail("spans bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
+                  " of a buffer of " + std::to_string(size) + "; export the file again");
+    }
+}
+
+void append_u32(std::string& bytes, std::size_t value) {
+    const auto narrow = static_cast<std::uint32_t>(value);
+    bytes.append(reinterpret_cast<const char*>(&narrow), 4);
+}
+
+void append_chunk(std::string& bytes, std::uint32_t type, const std::string& data, char padding) {
+    const std::size_t padded = (data.size() + 3) / 4 * 4;
+    append_u32(bytes, padded);
+    append_u32(bytes, type);
+    bytes += data;
+    bytes.append(padded - data.size(), padding);
+}
+
+/// The document's one buffer. Its other fields stay.
+void set_buffer(Json& json, const std::string& buffer, const std::string& uri) {
+    if (buffer.empty()) {
+        json.erase("buffers");
+        return;
+    }
+    Json entry = json.contains("buffers") ? json["buffers"][0] : Json::object();
+    entry["byteLength"] = buffer.size();
+    if (uri.empty()) {
+        entry.erase("uri");
+    } else {
+        entry["uri"] = uri;
+    }
+    json["buffers"] = Json::array({std::move(entry)});
+}
+
+}  // namespace
+
+std::string_view Document::view(const Value& buffer_view) const {
+    const std::string& buffer = buffers[buffer_view["buffer"].whole()];
+    return std::string_view(buffer).substr(buffer_view.whole_or("byteOffset", 0),
+                                           buffer_view["byteLength"].whole());
+}
+
+std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes) {
+    const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
+    const auto document = std::make_shared<Document>();
+    document->folder = file.parent_path();
+    document->json = parse(parts.json);
+    const Value root = document->root();
+    check_version(root);
+    refuse_compression(root);
+    for (std::size_t i = 0; i < document->count("buffers"); ++i) {
+        document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->folder));
+    }
+    for (std::size_t i = 0; i < document->count("bufferViews"); ++i)
+        check_view(*document, root["bufferViews"][i]);
+    return document;
+}
+
+std::string glb_file(Json json, const std::string& buffer) {
+    set_buffer(json, buffer, "");
+    const std::string text =
+        json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names need not be UTF-8
+    const std::size_t length =
+        12 + 8 + (text.size() + 3) / 4 * 4 + (buffer.empty() ? 0 : 8 + (buffer.size() + 3) / 4 * 4);
+    if (length > std::numeric_limits<std::uint32_t>::max())
+        throw Error("a GLB holds 4 GiB at most; save as .gltf or .ply");
+    std::string bytes = "glTF";
+    bytes.reserve(length);
+    append_u32(bytes, 2);
+    append_u32(bytes, length);
+    append_chunk(bytes, json_chunk, text, ' ');
+    if (!buffer.empty()) append_chunk(bytes, binary_chunk, buffer, '\0');
+    return bytes;
+}
+
+std::string gltf_file(Json json, const std::string& buffer) {
+    set_buffer(json, buffer, buffer.empty() ? "" : data_uri("application/octet-stream", buffer));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace goffer::mesh::gltf

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "format.hpp"
+#include "gltf.hpp"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace goffer::mesh::gltf {
+
+namespace {
+
+constexpr int float_type = 5126, u16_type = 5123, u32_type = 5125, attribute_target = 34962,
+              index_target = 34963;
+
+/// Which value of each stream a glTF vertex has: position, normal, tangent, UV sets. `none` where it has
+/// none.
+using Key = std::vector<std::uint32_t>;
+constexpr std::uint32_t none = Attribute<glm::vec2>::none;
+
+/// The mesh's vertices as glTF wants them, one index for all streams: in the order of the mesh's vertices,
+/// those that occur with several values in the order of use. A vertex that no face uses is still there.
+struct Split {
+    std::vector<Key> keys;
+    std::vector<std::uint32_t> corners;  ///< of the faces, into keys
+};
+
+Key key_at(const Mesh& mesh, std::size_t corner) {
+    const std::uint32_t vertex = mesh.corners[corner];
+    Key key{vertex, value_at(mesh.normals, corner, vertex), value_at(mesh.tangents, corner, vertex)};
+    for (const auto& set : mesh.uvs) key.push_back(value_at(set, corner, vertex));
+    return key;
+}
+
+Key unused_key(const Mesh& mesh, std::uint32_t vertex) {
+    const auto index = [&](const auto& attribute) {
+        return attribute.per_vertex() && !attribute.empty() ? vertex : none;
+    };
+    Key key{vertex, index(mesh.normals), index(mesh.tangents)};
+    for (const auto& set : mesh.uvs) key.push_back(index(set));
+    return key;
+}
+
+Split split(const Mesh& mesh) {
+    std::vector<std::vector<std::pair<Key, std::uint32_t>>> of_vertex(
+        mesh.positions.size());  // and the number of use
+    std::vector<std::uint32_t> use;
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+        auto& known = of_vertex[mesh.corners[corner]];
+        Key key = key_at(mesh, corner);
+        auto same =
+            std::find_if(known.begin(), known.end(), [&](const auto& entry) { return entry.first == key; });
+        if (same == known.end())
+            same = known.insert(known.end(), {std::move(key), static_cast<std::uint32_t>(known.size())});
+        use.push_back(same->second);
+    }
+    Split result;
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t vertex = 0; vertex < of_vertex.size(); ++vertex) {
+        first.push_back(static_cast<std::uint32_t>(result.keys.size()));
+        for (auto& [key, number] : of_vertex[vertex]) result.keys.push_back(std::move(key));
+        if (of_vertex[vertex].empty()) result.keys.push_back(unused_key(mesh, vertex));
+    }
+    for (std::size_t corner = 0; corner < use.size(); ++corner) {
+        result.corners.push_back(first[mesh.corners[corner]] + use[corner]);
+    }
+    return result;
+}
+
+float finite(float value) {
+    return std::isfinite(value) ? value : 0.0f;
+}
+
+/// Of unit length, or null where there is no direction.
+std::optional<glm::vec3> unit(const glm::dvec3& v) {
+    const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(most > 0.0 && std::isfinite(most))) return std::nullopt;
+    return glm::vec3(glm::normalize(v / most));
+}
+
+class Maker {
+public:
+    explicit Maker(const Mesh& mesh) : mesh_(mesh), split_(split(mesh)) {}
+
+    Output run() &&;
+
+private:
+    std::size_t add_accessor(const std::string& bytes, int type, const char* shape, std::size_t count,
+                             int target);
+    template <int N>
+    std::size_t add_stream(const std::vector<glm::vec<N, float>>& values);
+    [[nodiscard]] std::vector<glm::vec3> face_normals() const;
+    [[nodiscard]] std::vector<glm::vec3> normals() const;
+    [[nodiscard]] std::vector<glm::vec4> tangents(const std::vector<glm::vec3>& normals) const;
+    Json attributes();
+    std::size_t add_indices(const Part& part, std::size_t& corner);
+    void add_materials();
+    Json primitives(const Json& attributes, bool named);
+
+    const Mesh& mesh_;
+    Split split_;
+    Json json_;
+    Json views_ = Json::array(),
+         accessors_ = Json::array();  // not in json_ yet: a new key there moves all others
+    std::string buffer_;
+};
+
+std::size_t Maker::add_accessor(const std::string& bytes, int type, const char* shape, std::size_t count,
+                                int target) {
+    buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
+    views_.push_back(
+        {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes.size()}, {"target", target}});
+    accessors_.push_back(
+        {{"bufferView", views_.size() - 1}, {"componentType", type}, {"count", count}, {"type", shape}});
+    buffer_ += bytes;
+    return accessors_.size() - 1;
+}
+
+template <int N>
+std::size_t Maker::add_stream(const std::vector<glm::vec<N, float>>& values) {
+    constexpr const char* shapes[] = {"VEC2", "VEC3", "VEC4"};
+    return add_accessor(bytes_of(values), float_type, shapes[N - 2], values.size(), attribute_target);
+}
+
+/// For each glTF vertex the sum of its faces' normals, not normalised; only where a normal of the mesh is no
+/// direction.
+std::vector<glm::vec3> Maker::face_normals() const {
+    std::vector<glm::dvec3> sums(split_.keys.size(), glm::dvec3(0.0));
+    std::size_t corner = 0;
+    for (const std::uint32_t face : mesh_.faces) {
+        const auto point = [&](std::size_t k) {
+            return glm::dvec3(mesh_.positions[mesh_.corners[corner + k]]);
+        };
+        glm::dvec3 normal_sum(0.0);
+        for (std::uint32_t k = 1; k + 1 < face; ++k)
+            normal_sum += glm::cross(point(k) - point(0), point(k + 1) - point(0));
+        for (std::uint32_t k = 0; k < face; ++k) sums[split_.corners[corner + k]] += normal_sum;
+        corner += face;
+    }
+    std::vector<glm::vec3> normals;
+    normals.reserve(sums.size());
+    for (const glm::dvec3& sum : sums) normals.push_back(unit(sum).value_or(glm::vec3(0.0f, 0.0f, 1.0f)));
+    return normals;
+}
+
+std::vector<glm::vec3> Maker::normals() const {
+    std::vector<glm::vec3> result = face_normals();
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const std::uint32_t index = split_.keys[i][1];
+        if (index != none) result[i] = unit(glm::dvec3(mesh_.normals.values[index])).value_or(result[i]);
+    }
+    return result;
+}
+
+/// A tangent that is no direction becomes any one across the normal.
+std::vector<glm::vec4> Maker::tangents(const std::vector<glm::vec3>& normals) const {
+    std::vector<glm::vec4> result;
+    for (std::size_t i = 0; i < split_.keys.size(); ++i) {
+        const glm::vec3 n = normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : normals[i];
+        const glm::dvec3 across =
+            glm::cross(glm::dvec3(n), std::abs(n.x) < 0.5f ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+        const std::uint32_t index = split_.keys[i][2];
+        const glm::vec4 own = index == none ? glm::vec4(0.0f) : mesh_.tangents.values[index];
+        const auto direction = unit(glm::dvec3(own));
+        result.emplace_back(direction.value_or(*unit(across)), own.w < 0.0f ? -1.0f : 1.0f);
+    }
+    return result;
+}
+
+Json Maker::attributes() {
+    Json result = Json::object();
+    std::vector<glm::vec3> positions, made_normals;
+    for (const Key& key : split_.keys) positions.push_back(mesh_.positions[key[0]]);
+    result["POSITION"] = add_stream(positions);
+    const float* floats = &positions[0].x;
+    set_bounds(accessors_.back(), std::vector<float>(floats, floats + 3 * positions.size()), 3);
+    if (!mesh_.normals.empty()) {
+        made_normals = normals();
+        result["NORMAL"] = add_stream(made_normals);
+    }
+    if (!mesh_.tangents.empty()) result["TANGENT"] = add_stream(tangents(made_normals));
+    for (std::size_t set = 0; set < mesh_.uvs.size(); ++set) {
+        std::vector<glm::vec2> uvs;
+        for (const Key& key : split_.keys) {
+            const glm::vec2 uv = key[3 + set] == none ? glm::vec2(0.0f) : mesh_.uvs[set].values[key[3 + set]];
+            uvs.emplace_back(finite(uv.x), finite(1 - uv.y));  // glTF's v points down
+        }
+        result["TEXCOORD_" + std::to_string(set)] = add_stream(uvs);
+    }
+    if (!mesh_.colors.empty()) {
+        std::vector<glm::vec4> colors;
+        for (const Key& key : split_.keys) {
+            const glm::vec4& c = mesh_.colors[key[0]];
+            colors.push_back(
+                glm::clamp(glm::vec4(finite(c.r), finite(c.g), finite(c.b), finite(c.a)), 0.0f, 1.0f));
+        }
+        result["COLOR_0"] = add_stream(colors);
+    }
+    return result;
+}
+
+/// The indices of a part's triangles, polygons as fans. `corner` moves behind the part.
+std::size_t Maker::add_indices(const Part& part, std::size_t& corner) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t f = part.first_face; f < part.first_face + part.face_count; ++f) {
+        const std::uint32_t* face = &split_.corners[corner];
+        for (std::uint32_t k = 1; k + 1 < mesh_.faces[f]; ++k)
+            indices.insert(indices.end(), {face[0], face[k], face[k + 1]});
+        corner += mesh_.faces[f];
+    }
+    if (split_.keys.size() >
+        std::numeric_limits<std::uint16_t>::max()) {  // the largest index itself is reserved
+        return add_accessor(bytes_of(indices), u32_type, "SCALAR", indices.size(), index_target);
+    }
+    const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
+    return add_accessor(bytes_of(narrow), u16_type, "SCALAR", narrow.size(), index_target);
+}
+
+void Maker::add_materials() {
+    for (const Material& material : mesh_.materials) {
+        Json entry = Json::object();
+        if (!material.name.empty()) entry["name"] = material.name;
+        Json color = Json::array();
+        for (int i = 0; i < 4; ++i) color.push_back(std::clamp(finite(material.base_color[i]), 0.0f, 1.0f));
+        entry["pbrMetallicRoughness"] = {{"baseColorFactor", color}, {"metallicFactor", 0.0}};
+        if (material.base_color.a < 1.0f) entry["alphaMode"] = "BLEND";
+        json_["materials"].push_back(std::move(entry));
+    }
+}
+
+/// All in one node, a primitive for each part: they share their vertices, as the parts do. glTF has no names
+/// for primitives, so parts of different names carry these as extras.
+Json Maker::primitives(const Json& attributes, bool named) {
+    const Part whole{"", -1, 0, static_cast<std::uint32_t>(mesh_.faces.size())};
+    const std::vector<Part> parts = mesh_.parts.empty() ? std::vector<Part>{whole} : mesh_.parts;
+    Json result = Json::array();
+    std::size_t corner = 0;
+    for (const Part& part : parts) {
+        if (part.face_count == 0) continue;
+        Json primitive = Json::object();
+        primitive["attributes"] = attributes;
+        primitive["indices"] = add_indices(part, corner);
+        if (part.material >= 0) primitive["material"] = part.material;
+        if (named) primitive["extras"]["name"] = part.name;
+        result.push_back(std::move(primitive));
+    }
+    return result;
+}
+
+Output Maker::run() && {
+    const bool one_name = std::adjacent_find(mesh_.parts.begin(), mesh_.parts.end(),
+                                             [](const Part& a, const Part& b) { return a.name != b.name; }) ==
+                          mesh_.parts.end();
+    Json entry = Json::object(), node = Json::object();
+    if (one_name && !mesh_.parts.empty() && !mesh_.parts[0].name.empty())
+        node["name"] = entry["name"] = mesh_.parts[0].name;
+    node["mesh"] = 0;
+    const Json shared = attributes();
+    entry["primitives"] = primitives(shared, !one_name);
+    json_["asset"] = {{"version", "2.0"}, {"generator", "goffer"}};
+    json_["scene"] = 0;
+    json_["scenes"] = Json::parse(R"([{"nodes": [0]}])");
+    json_["nodes"].push_back(std::move(node));
+    json_["meshes"].push_back(std::move(entry));
+    add_materials();
+    json_["accessors"] = std::move(accessors_);
+    json_["bufferViews"] = std::move(views_);
+    return {std::move(json_), std::move(buffer_)};
+}
+
+}  // namespace
+
+Output made(const Mesh& mesh) {
+    return Maker(mesh).run();
+}
+
+}  // namespace goffer::mesh::gltf

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "gltf.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::mesh::gltf {
+
+namespace {
+
+/// A zero vector stays one: it is the file's, and there is no direction to make up.
+glm::dvec3 unit(const glm::dvec3& v) {
+    const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return most > 0.0 ? glm::normalize(v / most) : v;
+}
+
+}  // namespace
+
+Placement::Placement(const glm::dmat4& matrix) : matrix_(matrix), identity_(matrix == glm::dmat4(1.0)) {
+    glm::dmat3 linear(matrix);
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(linear[i / 3][i % 3]));
+    if (largest > 0.0) linear = linear / largest;
+    const glm::dvec3 &x = linear[0], &y = linear[1], &z = linear[2];
+    cofactors_ = glm::dmat3(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
+    const double volume = glm::dot(x, cofactors_[0]);
+    mirrored_ = volume < 0.0;
+    if (mirrored_) cofactors_ = cofactors_ * -1.0;
+    // what shear leaves of the box that the columns span, whatever their lengths
+    singular_ = !(std::abs(volume) > 1e-10 * glm::length(x) * glm::length(y) * glm::length(z));
+    if (!singular_) inverse_ = glm::inverse(matrix);
+}
+
+glm::vec3 Placement::point(const glm::vec3& local) const {
+    return identity_ ? local : glm::vec3(matrix_ * glm::dvec4(local, 1.0));
+}
+
+glm::vec3 Placement::normal(const glm::vec3& local) const {
+    return identity_ ? local : glm::vec3(unit(cofactors_ * glm::dvec3(local)));
+}
+
+// A mirror turns the bitangent's side, since normals keep looking outwards.
+glm::vec4 Placement::tangent(const glm::vec4& local) const {
+    if (identity_) return local;
+    return glm::vec4(glm::vec3(unit(glm::dmat3(matrix_) * glm::dvec3(local))),
+                     mirrored_ ? -local.w : local.w);
+}
+
+glm::vec3 Placement::point_back(const glm::vec3& placed) const {
+    return identity_ ? placed : glm::vec3(inverse_ * glm::dvec4(placed, 1.0));
+}
+
+glm::vec3 Placement::normal_back(const glm::vec3& placed) const {
+    return glm::vec3(unit(glm::transpose(glm::dmat3(matrix_)) * glm::dvec3(placed)));
+}
+
+glm::vec4 Placement::tangent_back(const glm::vec4& placed) const {
+    return glm::vec4(glm::vec3(unit(glm::dmat3(inverse_) * glm::dvec3(placed))),
+                     mirrored_ ? -placed.w : placed.w);
+}
+
+}  // namespace goffer::mesh::gltf

@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: MIT
+#include "format.hpp"
+#include "gltf.hpp"
+#include "text.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace goffer::mesh {
+
+namespace gltf {
+
+namespace {
+
+glm::dmat4 local_matrix(const Value& node) {
+    glm::dmat4 matrix(1.0);
+    if (node.has("matrix")) {
+        matrix = glm::make_mat4(node["matrix"].numbers(16).data());
+        for (int i = 0; i < 4; ++i) matrix[i][3] = i == 3 ? 1.0 : 0.0;  // affine, whatever the file says
+        return matrix;
+    }
+    if (node.has("rotation")) {
+        const std::vector<double> q = node["rotation"].numbers(4);
+        const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+        if (!(glm::length(rotation) > 1e-6))
+            node["rotation"].fail("is not a unit quaternion; export the file again");
+        matrix = glm::mat4_cast(glm::normalize(rotation));
+    }
+    if (node.has("scale")) {
+        const std::vector<double> scale = node["scale"].numbers(3);
+        for (int i = 0; i < 3; ++i) matrix[i] *= scale[static_cast<std::size_t>(i)];
+    }
+    if (node.has("translation")) {
+        matrix[3] = glm::dvec4(glm::make_vec3(node["translation"].numbers(3).data()), 1.0);
+    }
+    return matrix;
+}
+
+struct PlacedNode {
+    std::size_t node;
+    glm::dmat4 world;
+};
+
+/// Where the walk through the nodes starts: the roots of the default scene, or of all nodes where there is no
+/// scene.
+std::vector<std::size_t> roots(const Document& document) {
+    const Value root = document.root();
+    std::vector<std::size_t> found;
+    if (document.count("scenes") > 0) {
+        const Value scene =
+            root.has("scene") ? document.entry("scenes", root["scene"]) : root["scenes"][std::size_t{0}];
+        for (std::size_t i = 0; scene.has("nodes") && i < scene["nodes"].size(); ++i) {
+            found.push_back(document.number("nodes", scene["nodes"][i]));
+        }
+        return found;
+    }
+    std::vector<bool> child(document.count("nodes"), false);
+    for (std::size_t n = 0; n < child.size(); ++n) {
+        const Value node = root["nodes"][n];
+        for (std::size_t i = 0; node.has("children") && i < node["children"].size(); ++i) {
+            child[document.number("nodes", node["children"][i])] = true;
+        }
+    }
+    for (std::size_t n = 0; n < child.size(); ++n) {
+        if (!child[n]) found.push_back(n);
+    }
+    if (found.empty() && !child.empty())
+        root["nodes"].fail("every node is another's child, a cycle; export the file again");
+    return found;
+}
+
+/// All nodes of the scene, parents before children and these in their order. The graph must be a forest.
+std::vector<PlacedNode> walk(const Document& document) {
+    std::vector<PlacedNode> order, open;
+    for (const std::size_t node : roots(document)) open.push_back({node, glm::dmat4(1.0)});
+    std::reverse(open.begin(), open.end());
+    std::vector<bool> seen(document.count("nodes"), false);
+    while (!open.empty()) {
+        PlacedNode next = open.back();
+        open.pop_back();
+        const Value node = document.root()["nodes"][next.node];
+        if (seen[next.node])
+            node.fail("is reached twice: a cycle, or a node with two parents; export the file again");
+        seen[next.node] = true;
+        next.world = next.world * local_matrix(node);
+        order.push_back(next);
+        for (std::size_t i = node.has("children") ? node["children"].size() : 0; i-- > 0;) {
+            open.push_back({document.number("nodes", node["children"][i]), next.world});
+        }
+    }
+    return order;
+}
+
+constexpr std::size_t most_uv_sets = 16;
+
+std::string uv_name(std::size_t set) {
+    return "TEXCOORD_" + std::to_string(set);
+}
+
+/// A stream of the mesh while it is gathered: where each block's values start.
+template <class T>
+struct Gathered {
+    std::vector<T> values;
+    std::vector<std::size_t> first;
+};
+
+/// Accessors of one vertex set: the streams, COLOR_0, TEXCOORD_0..; `absent` where left out.
+using AccessorSet = std::vector<std::size_t>;
+
+class SceneReader {
+public:
+    explicit SceneReader(const Document& document);
+
+    Scene read() &&;
+
+private:
+    void read_materials();
+    void read_node(const PlacedNode& placed);
+    void read_primitive(const PlacedNode& placed, const Value& primitive,
+                        std::map<AccessorSet, std::size_t>& known);
+    [[nodiscard]] AccessorSet accessors_of(const Value& attributes) const;
+    [[nodiscard]] Block begin_block(const PlacedNode& placed) const;
+    std::size_t read_block(const PlacedNode& placed, const Value& attributes, std::size_t uv_sets);
+    void read_positions(Block& block, const Value& attributes);
+    void read_streams(Block& block, const Value& attributes);
+    void read_colors(const Block& block, const Value& attributes);
+    void read_uvs(const Block& block, const Value& attributes, std::size_t uv_sets);
+    void add_faces(const Value& primitive, const Block& block);
+    void add_triangle(const Block& block, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    [[nodiscard]] std::vector<std::uint32_t> indices_of(const Value& primitive, std::size_t vertices);
+    [[nodiscard]] std::vector<float> floats(const Value& reference, std::size_t width);
+    [[nodiscard]] std::vector<float> stream(const Value& attributes, const char* name, std::size_t width,
+                                            std::size_t vertices);
+    void spend(std::size_t elements, const Value& where);
+    void warn(const std::string& what) { mesh_.warnings.push_back(what); }
+    template <class T>
+    [[nodiscard]] Attribute<T> finish(Gathered<T>&& gathered) const;
+
+    const Document& document_;
+    Mesh mesh_;
+    std::vector<Block> blocks_;
+    std::vector<std::size_t> part_block_;  ///< of each part
+    Gathered<glm::vec3> normals_;
+    Gathered<glm::vec4> tangents_;
+    std::vector<Gathered<glm::vec2>> uvs_;
+    std::size_t budget_;  ///< elements that may still be read
+};
+
+/// Nodes and primitives may repeat an accessor without end. No file that uses its bytes up to four times is
+/// refused, nor any scene of a size that is meant to be bent.
+SceneReader::SceneReader(const Document& document) : document_(document), budget_(std::size_t{1} << 24) {
+    std::size_t bytes = 0;
+    for (const std::string& buffer : document.buffers) bytes += buffer.size();
+    budget_ = std::min<std::size_t>(std::max(budget_, 4 * bytes), std::numeric_limits<std::uint32_t>::max());
+}
+
+void SceneReader::spend(std::size_t elements, const Value& where) {
+    if (elements > budget_)
+        where.fail("the scene repeats its meshes so often that they are too large to read; split it");
+    budget_ -= elements;
+}
+
+std::vector<float> SceneReader::floats(const Value& reference, std::size_t width) {
+    std::vector<float> values = read_floats(document_, reference, width);
+    spend(values.size() / width, reference);
+    return values;
+}
+
+/// The values of an attribute other than POSITION, as many as that has.
+std::vector<float> SceneReader::stream(const Value& attributes, const char* name, std::size_t width,
+                                       std::size_t vertices) {
+    std::vector<float> values = floats(attributes[name], width);
+    if (values.size() != width * vertices) {
+        attributes[name].fail("has " + std::to_string(values.size() / width) +
+                              " elements, but POSITION has " + std::to_string(vertices) +
+                              "; export the file again");
+    }
+    return values;
+}
+
+glm::vec4 color_of(const Value& owner, const char* key) {
+    if (!owner.has(key)) return glm::vec4(1.0f);
+    return glm::vec4(glm::make_vec4(owner[key].numbers(4).data()));
+}
+
+void SceneReader::read_materials() {
+    for (std::size_t i = 0; i < document_.count("materials"); ++i) {
+        const Value material = document_.root()["materials"][i];
+        Material read{material.text_or("name", ""), glm::vec4(1.0f)};
+        constexpr const char* glossy = "KHR_materials_pbrSpecularGlossiness";
+        if (material.has("pbrMetallicRoughness")) {
+            read.base_color = color_of(material["pbrMetallicRoughness"], "baseColorFactor");
+        } else if (material.has("extensions") && material["extensions"].has(glossy)) {
+            read.base_color = color_of(material["extensions"][glossy], "diffuseFactor");
+        }
+        mesh_.materials.push_back(std::move(read));
+    }
+}
+
+Block SceneReader::begin_block(const PlacedNode& placed) const {
+    const Value node = document_.root()["nodes"][placed.node];
+    Block block;
+    block.node = placed.node;
+    block.mesh = node["mesh"].whole();
+    if (!node.has("skin"))
+        block.placement = Placement(placed.world);  // a skin's joints place it, not its node
+    return block;
+}
+
+/// Primitives have no name of their own; our writer, and some others, give them one as extras.
+std::string name_of(const Value& primitive, const Value& node, const Value& mesh) {
+    if (primitive.has("extras")) {
+        const Json& extras = primitive["extras"].json();
+        if (extras.is_object() && extras.contains("name") && extras["name"].is_string())
+            return extras["name"];
+    }
+    const std::string name = node.text_or("name", "");
+    return name.empty() ? mesh.text_or("name", "") : name;
+}
+
+void SceneReader::read_node(const PlacedNode& placed) {
+    const Value node = document_.root()["nodes"][placed.node];
+    if (!node.has("mesh")) return;
+    const Value mesh = document_.entry("meshes", node["mesh"]);
+    if (node.has("skin")) warn(node.path() + " is skinned: it is bent in its rest shape, as stored");
+    const Placement placement = begin_block(placed).placement;
+    if (placement.singular()) {
+        warn(node.path() +
+             " is scaled to nothing or flat: it cannot be written back and keeps its shape in glTF output");
+    }
+    if (node.has("extensions") && node["extensions"].has("EXT_mesh_gpu_instancing")) {
+        warn(node.path() + " is drawn many times: it is bent once, at the node's own place");
+    }
+    std::map<AccessorSet, std::size_t> known;
+    const Value primitives =
+        Value(mesh["primitives"].json(), "meshes[" + std::to_string(node["mesh"].whole()) + "].primitives");
+    bool morphed = false;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Value primitive = primitives[i];
+        const std::size_t part = mesh_.parts.size();
+        read_primitive(placed, primitive, known);
+        blocks_[part_block_[part]].primitives.push_back(i);
+        mesh_.parts[part].name = name_of(primitive, node, mesh);
+        morphed = morphed || primitive.has("targets");
+    }
+    if (morphed) warn(node.path() + " has morph targets: it is bent in its rest shape, without them");
+}
+
+AccessorSet SceneReader::accessors_of(const Value& attributes) const {
+    AccessorSet set;
+    const auto add = [&](const std::string& name) {
+        set.push_back(attributes.has(name.c_str()) ? attributes[name.c_str()].whole() : Block::absent);
+        return set.back() != Block::absent;
+    };
+    for (const char* name : stream_name) add(name);
+    add("COLOR_0");
+    for (std::size_t i = 0; i < most_uv_sets && add(uv_name(i)); ++i) {
+    }
+    while (set.size() > stream_count + 1 && set.back() == Block::absent) set.pop_back();
+    return set;
+}
+
+void SceneReader::read_primitive(const PlacedNode& placed, const Value& primitive,
+                                 std::map<AccessorSet, std::size_t>& known) {
+    const Value attributes = primitive["attributes"];
+    const AccessorSet set = accessors_of(attributes);
+    const auto found = known.find(set);
+    const std::size_t block =
+        found != known.end() ? found->second : read_block(placed, attributes, set.size() - stream_count - 1);
+    known.emplace(set, block);
+    Part part;
+    if (primitive.has("material")) {
+        part.material = static_cast<std::int32_t>(document_.number("materials", primitive["material"]));
+    }
+    part.first_face = static_cast<std::uint32_t>(mesh_.faces.size());
+    add_faces(primitive, blocks_[block]);
+    part.face_count = static_cast<std::uint32_t>(mesh_.faces.size()) - part.first_face;
+    mesh_.parts.push_back(std::move(part));
+    part_block_.push_back(block);
+}
+
+std::size_t SceneReader::read_block(const PlacedNode& placed, const Value& attributes, std::size_t uv_sets) {
+    Block block = begin_block(placed);
+    read_positions(block, attributes);
+    read_streams(block, attributes);
+    read_colors(block, attributes);
+    read_uvs(block, attributes, uv_sets);
+    blocks_.push_back(std::move(block));
+    return blocks_.size() - 1;
+}
+
+void SceneReader::read_positions(Block& block, const Value& attributes) {
+    const Value reference = attributes[stream_name[position]];
+    const std::vector<float> values = floats(reference, 3);
+    block.count = values.size() / 3;
+    block.first[position] = mesh_.positions.size();
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const glm::vec3 point = block.placement.point(glm::make_vec3(&values[3 * i]));
+        if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+            reference.fail("vertex " + std::to_string(i) +
+                           " is not finite (nan or infinite); remove it or export again");
+        }
+        mesh_.positions.push_back(point);
+    }
+}
+
+void SceneReader::read_streams(Block& block, const Value& attributes) {
+    if (attributes.has(stream_name[normal])) {
+        block.first[normal] = normals_.values.size();
+        const std::vector<float> values = stream(attributes, stream_name[normal], 3, block.count);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            normals_.values.push_back(block.placement.normal(glm::make_vec3(&values[3 * i])));
+        }
+    }
+    if (attributes.has(stream_name[tangent])) {
+        block.first[tangent] = tangents_.values.size();
+        const std::vector<float> values = stream(attributes, stream_name[tangent], 4, block.count);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            tangents_.values.push_back(block.placement.tangent(glm::make_vec4(&values[4 * i])));
+        }
+    }
+    normals_.first.push_back(block.first[normal]);
+    tangents_.first.push_back(block.first[tangent]);
+}
+
+/// A vertex without a colour has the one that glTF gives it: white, which changes nothing.
+void SceneReader::read_colors(const Block& block, const Value& attributes) {
+    if (!attributes.has("COLOR_0")) return;
+    const Value accessor = document_.entry("accessors", attributes["COLOR_0"]);
+    const std::size_t width = accessor["type"].text() == "VEC4" ? 4 : 3;
+    const std::vector<float> values = stream(attributes, "COLOR_0", width, block.count);
+    mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        mesh_.colors[block.first[position] + i / width][static_cast<int>(i % width)] = values[i];
+    }
+}
+
+void SceneReader::read_uvs(const Block& block, const Value& attributes, std::size_t uv_sets) {
+    while (uvs_.size() < uv_sets)
+        uvs_.push_back({{}, std::vector<std::size_t>(blocks_.size(), Block::absent)});
+    for (std::size_t set = 0; set < uvs_.size(); ++set) {
+        uvs_[set].first.push_back(set < uv_sets ? uvs_[set].values.size() : Block::absent);
+        if (set >= uv_sets) continue;
+        const std::vector<float> values = stream(attributes, uv_name(set).c_str(), 2, block.count);
+        for (std::size_t i = 0; i < block.count; ++i)
+            uvs_[set].values.emplace_back(values[2 * i], 1 - values[2 * i + 1]);  // glTF's v points down
+    }
+}
+
+std::vector<std::uint32_t> SceneReader::indices_of(const Value& primitive, std::size_t vertices) {
+    if (!primitive.has("indices")) {
+        spend(vertices, primitive);
+        std::vector<std::uint32_t> all(vertices);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+    std::vector<std::uint32_t> indices = read_indices(document_, primitive["indices"]);
+    spend(indices.size(), primitive["indices"]);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] < vertices) continue;
+        primitive["indices"].fail("entry " + std::to_string(i) + " is vertex " + std::to_string(indices[i]) +
+                                  ", but there are " + std::to_string(vertices) + "; export the file again");
+    }
+    return indices;
+}
+
+void SceneReader::add_triangle(const Block& block, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const auto first = static_cast<std::uint32_t>(block.first[position]);
+    if (block.placement.mirrored()) std::swap(b, c);
+    for (const std::uint32_t corner : {a, b, c}) mesh_.corners.push_back(first + corner);
+    mesh_.faces.push_back(3);
+}
+
+void SceneReader::add_faces(const Value& primitive, const Block& block) {
+    enum : std::uint64_t { triangles = 4, strip = 5, fan = 6 };
+    const std::uint64_t mode = primitive.whole_or("mode", triangles);
+    if (mode > fan)
+        primitive["mode"].fail("is " + std::to_string(mode) + ", expected 0 to 6; export the file again");
+    const std::vector<std::uint32_t> i = indices_of(primitive, block.count);
+    if (mode < triangles) return;  // points and lines bend, but have no faces
+    if (mode == triangles) {
+        for (std::size_t k = 0; k + 2 < i.size(); k += 3) add_triangle(block, i[k], i[k + 1], i[k + 2]);
+        if (i.size() % 3 != 0) warn(primitive.path() + " ends in an incomplete triangle, which is left out");
+        return;
+    }
+    for (std::size_t k = 0; k + 2 < i.size(); ++k) {
+        const std::uint32_t a = mode == fan ? i[0] : i[k];
+        if (a == i[k + 1] || a == i[k + 2] || i[k + 1] == i[k + 2])
+            continue;  // strips are stitched with empty triangles
+        const bool odd = mode == strip && k % 2 == 1;
+        add_triangle(block, a, i[k + (odd ? 2 : 1)], i[k + (odd ? 1 : 2)]);
+    }
+}
+
+/// One value per vertex where all blocks have the attribute, else an index for each face corner.
+template <class T>
+Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
+    Attribute<T> attribute{std::move(gathered.values), {}};
+    if (attribute.values.size() == mesh_.positions.size()) return attribute;
+    for (std::size_t p = 0, corner = 0; p < mesh_.parts.size(); ++p) {
+        const Block& block = blocks_[part_block_[p]];
+        const std::size_t first = gathered.first[part_block_[p]];
+        for (std::size_t k = 0; k < 3 * std::size_t{mesh_.parts[p].face_count}; ++k, ++corner) {
+            const std::size_t in_block = mesh_.corners[corner] - block.first[position];
+            attribute.corners.push_back(
+                first == Block::absent ? Attribute<T>::none : static_cast<std::uint32_t>(first + in_block));
+        }
+    }
+    if (attribute.corners.empty()) attribute.values.clear();
+    return attribute;
+}
+
+Scene SceneReader::read() && {
+    read_materials();
+    for (const PlacedNode& placed : walk(document_)) read_node(placed);
+    if (mesh_.positions.empty()) {
+        throw Error("no node of the scene carries a mesh with vertices; put one into the default scene");
+    }
+    mesh_.normals = finish(std::move(normals_));
+    mesh_.tangents = finish(std::move(tangents_));
+    for (auto& set : uvs_) mesh_.uvs.push_back(finish(std::move(set)));
+    if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
+    return {std::move(mesh_), std::move(blocks_)};
+}
+
+}  // namespace
+
+Scene read_scene(const Document& document) {
+    return SceneReader(document).read();
+}
+
+}  // namespace gltf
+
+Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes) {
+    try {
+        const auto document = gltf::open_document(file, bytes);
+        Mesh mesh = gltf::read_scene(*document).mesh;
+        mesh.source = document;
+        return mesh;
+    } catch (const Error& error) {
+        fail(file, error.what());
+    }
+}
+
+}  // namespace goffer::mesh

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "format.hpp"
+#include "text.hpp"
+
+#include <goffer/mesh/mesh.hpp>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace goffer::mesh {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+struct Key {
+    std::uint32_t vertex = none, normal = none, tangent = none;
+    auto operator<=>(const Key&) const = default;
+};
+
+/// What each record is made of, and the record of each face corner.
+struct Split {
+    std::vector<Key> keys;
+    std::vector<std::uint32_t> corners;
+};
+
+Key key_of(const Mesh& mesh, std::size_t corner) {
+    const std::uint32_t vertex = mesh.corners[corner];
+    return {vertex, value_at(mesh.normals, corner, vertex), value_at(mesh.tangents, corner, vertex)};
+}
+
+/// A vertex that no face uses: its attributes are known only where they are per vertex.
+Key key_of_loose(const Mesh& mesh, std::uint32_t vertex) {
+    const bool normal = !mesh.normals.empty() && mesh.normals.per_vertex();
+    const bool tangent = !mesh.tangents.empty() && mesh.tangents.per_vertex();
+    return {vertex, normal ? vertex : none, tangent ? vertex : none};
+}
+
+Split split(const Mesh& mesh) {
+    Split out;
+    out.keys.resize(mesh.positions.size());
+    out.corners.resize(mesh.corners.size());
+    std::map<Key, std::uint32_t> further;
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+        const Key key = key_of(mesh, c);
+        Key& first = out.keys[key.vertex];
+        if (first.vertex == none) first = key;
+        if (first == key) {
+            out.corners[c] = key.vertex;
+            continue;
+        }
+        const auto [entry, is_new] = further.try_emplace(key, static_cast<std::uint32_t>(out.keys.size()));
+        if (is_new) out.keys.push_back(key);
+        out.corners[c] = entry->second;
+    }
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (out.keys[v].vertex == none) out.keys[v] = key_of_loose(mesh, v);
+    return out;
+}
+
+std::vector<std::uint32_t> fans(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(3 * triangle_count(mesh));
+    std::size_t first = 0;
+    for (const std::uint32_t size : mesh.faces) {
+        for (std::size_t k = 1; k + 1 < size; ++k)
+            triangles.insert(triangles.end(), {corners[first], corners[first + k], corners[first + k + 1]});
+        first += size;
+    }
+    return triangles;
+}
+
+template <class T>
+std::vector<T> gather(const Attribute<T>& attribute, const std::vector<Key>& keys,
+                      std::uint32_t Key::*index) {
+    std::vector<T> out;
+    if (attribute.empty()) return out;
+    out.reserve(keys.size());
+    for (const Key& key : keys) out.push_back(key.*index == none ? T{0.0f} : attribute.values[key.*index]);
+    return out;
+}
+
+template <glm::length_t n>
+std::array<std::uint32_t, n> bits(const glm::vec<n, float>& value) {
+    std::array<std::uint32_t, n> out;
+    for (glm::length_t i = 0; i < n; ++i)
+        out[static_cast<std::size_t>(i)] = std::bit_cast<std::uint32_t>(value[i]);
+    return out;
+}
+
+/// The index of each record's new value: its old one where this record is the first to use it or agrees with
+/// the first, else a copy behind the others.
+template <glm::length_t n>
+void scatter(Attribute<glm::vec<n, float>>& attribute, const Split& split, std::uint32_t Key::*index,
+             const std::vector<glm::vec<n, float>>& bent) {
+    if (attribute.empty()) return;
+    auto& values = attribute.values;
+    std::vector<bool> taken(values.size(), false);
+    std::map<std::pair<std::uint32_t, std::array<std::uint32_t, n>>, std::uint32_t> copies;
+    std::vector<std::uint32_t> placed(split.keys.size(), none);
+    for (std::size_t r = 0; r < split.keys.size(); ++r) {
+        const std::uint32_t old = split.keys[r].*index;
+        if (old == none) continue;
+        placed[r] = old;
+        if (!taken[old]) {
+            taken[old] = true;
+            values[old] = bent[r];
+        } else if (bits(values[old]) != bits(bent[r])) {
+            const auto next = static_cast<std::uint32_t>(values.size());
+            const auto [copy, is_new] = copies.try_emplace({old, bits(bent[r])}, next);
+            if (is_new) values.push_back(bent[r]);
+            placed[r] = copy->second;
+        }
+    }
+    for (std::size_t c = 0; c < attribute.corners.size(); ++c)
+        attribute.corners[c] = placed[split.corners[c]];
+}
+
+template <class T>
+bool fits(const Attribute<T>& attribute, const Mesh& mesh) {
+    if (attribute.per_vertex()) return attribute.empty() || attribute.values.size() == mesh.positions.size();
+    return attribute.corners.size() == mesh.corners.size() &&
+           std::ranges::all_of(attribute.corners,
+                               [&](auto i) { return i == none || i < attribute.values.size(); });
+}
+
+template <class T>
+bool same_shape(const Attribute<T>& mesh, const Attribute<T>& read) {
+    const auto same_presence = [](auto a, auto b) { return (a == none) == (b == none); };
+    const bool split = !read.per_vertex() && mesh.values.size() > read.values.size();
+    return (split || mesh.values.size() == read.values.size()) &&
+           std::ranges::equal(mesh.corners, read.corners, same_presence);
+}
+
+bool parts_fit(const Mesh& mesh) {
+    std::size_t next = 0;
+    for (const Part& part : mesh.parts) {
+        const bool material =
+            part.material >= -1 && part.material < static_cast<std::int64_t>(mesh.materials.size());
+        if (part.first_face != next || !material) return false;
+        next += part.face_count;
+    }
+    return mesh.parts.empty() || next == mesh.faces.size();
+}
+
+void check_finite(const std::vector<glm::vec3>& values, const char* what, const std::filesystem::path& file) {
+    const auto finite = [](const glm::vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    const auto bad = std::ranges::find_if_not(values, finite);
+    if (bad != values.end())
+        fail(file, std::string(what) + " " + std::to_string(bad - values.begin()) +
+                       " (counted from 0) is not finite; mend or leave out what uses it");
+}
+
+}  // namespace
+
+Records records(const Mesh& mesh) {
+    const Split parts = split(mesh);
+    Records out;
+    out.triangles = fans(mesh, parts.corners);
+    out.normals = gather(mesh.normals, parts.keys, &Key::normal);
+    out.tangents = gather(mesh.tangents, parts.keys, &Key::tangent);
+    for (const Key& key : parts.keys) {
+        out.positions.push_back(mesh.positions[key.vertex]);
+        out.vertex.push_back(key.vertex);
+    }
+    return out;
+}
+
+std::size_t triangle_count(const Mesh& mesh) {
+    return mesh.corners.size() - 2 * mesh.faces.size();
+}
+
+Mesh with_records(const Mesh& mesh, const Records& bent) {
+    const Split parts = split(mesh);
+    const auto enough = [&](const auto& stream) { return stream.size() >= parts.keys.size(); };
+    if (!enough(bent.positions) || (!mesh.normals.empty() && !enough(bent.normals)) ||
+        (!mesh.tangents.empty() && !enough(bent.tangents)))
+        throw Error("with_records: the mesh has " + std::to_string(parts.keys.size()) +
+                    " records; give each a position, and a normal and a tangent where the mesh has them");
+    Mesh out = mesh;
+    std::copy_n(bent.positions.begin(), out.positions.size(), out.positions.begin());
+    scatter(out.normals, parts, &Key::normal, bent.normals);
+    scatter(out.tangents, parts, &Key::tangent, bent.tangents);
+    return out;
+}
+
+void check(const Mesh& mesh, const std::filesystem::path& file) {
+    if (mesh.positions.empty()) fail(file, "there are no vertices; a mesh needs some");
+    if (mesh.faces.empty()) fail(file, "there are no faces; points and lines alone cannot be bent");
+    if (std::ranges::any_of(mesh.faces, [](auto size) { return size < 3; }) ||
+        std::accumulate(mesh.faces.begin(), mesh.faces.end(), std::size_t{0}) != mesh.corners.size())
+        fail(file, "faces and corners do not fit together; each face needs 3 corners or more");
+    const auto lost = std::ranges::find_if(mesh.corners, [&](auto v) { return v >= mesh.positions.size(); });
+    if (lost != mesh.corners.end())
+        fail(file, "corner " + std::to_string(lost - mesh.corners.begin()) + ": vertex index " +
+                       std::to_string(*lost) + " is out of range: there are " +
+                       std::to_string(mesh.positions.size()) + " vertices, counted from 0");
+    if (!fits(mesh.normals, mesh)) fail(file, "the normals do not fit the vertices or the corners");
+    if (!fits(mesh.tangents, mesh)) fail(file, "the tangents do not fit the vertices or the corners");
+    for (const auto& uvs : mesh.uvs)
+        if (!fits(uvs, mesh)) fail(file, "the texture coordinates do not fit the vertices or the corners");
+    if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+        fail(file, "the colours do not fit the vertices; give one to each or none");
+    if (!parts_fit(mesh)) fail(file, "the parts do not cover the faces in order, or name a missing material");
+    check_finite(mesh.positions, "vertex", file);
+    check_finite(mesh.normals.values, "normal", file);
+}
+
+bool only_bent(const Mesh& mesh, const Mesh& read) {
+    return mesh.positions.size() == read.positions.size() && same_shape(mesh.normals, read.normals) &&
+           same_shape(mesh.tangents, read.tangents) && mesh.uvs == read.uvs && mesh.colors == read.colors &&
+           mesh.corners == read.corners && mesh.faces == read.faces && mesh.parts == read.parts &&
+           mesh.materials == read.materials;
+}
+
+}  // namespace goffer::mesh

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "format.hpp"
+#include "obj.hpp"
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace goffer::mesh {
+namespace {
+
+constexpr std::uint32_t none = Attribute<glm::vec3>::none;
+
+class ObjReader {
+public:
+    ObjReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+    Mesh read();
+
+private:
+    void take(const Statement& statement);
+    void take_vertex(const Statement& statement);
+    void take_normal(const Statement& statement);
+    void take_uv(const Statement& statement);
+    void take_face(const Statement& statement);
+    void take_material(std::string_view name);
+    void begin_part();
+
+    std::size_t numbers(const Statement& statement, std::size_t needed);
+    float finite_or_zero(float value);
+    std::uint32_t index(std::string_view token, std::size_t seen, std::size_t total, const char* what) const;
+    void drop_unused_attributes();
+    void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
+    void read_materials();
+    [[noreturn]] void fail_at(std::string_view place, const std::string& what) const;
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    Mesh mesh_;
+    Counts total_, seen_;
+    std::array<float, 8> numbers_{};
+    Part part_;  ///< what o, g and usemtl said last
+    std::vector<std::string_view> libraries_;
+    std::size_t short_faces_ = 0;
+    std::size_t not_finite_ = 0;
+};
+
+Mesh ObjReader::read() {
+    if (const std::size_t zero = text_.find('\0'); zero != text_.npos)
+        fail_at(text_.substr(zero), "binary data where OBJ text should be; export the mesh again");
+    mesh_.uvs.resize(1);
+    Statement statement;
+    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) total_.add(statement);
+    if (total_.v == 0) fail(file_, "has no vertices (v lines): not an OBJ mesh");
+    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) take(statement);
+    if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
+    if (short_faces_ > 0)
+        mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
+    if (not_finite_ > 0)
+        mesh_.warnings.push_back(std::to_string(not_finite_) +
+                                 " uv or colour values are not finite: taken as 0");
+    drop_unused_attributes();
+    read_materials();
+    return std::move(mesh_);
+}
+
+void ObjReader::take(const Statement& statement) {
+    const std::string_view keyword = statement.keyword;
+    if (keyword == "v") take_vertex(statement);
+    if (keyword == "vn") take_normal(statement);
+    if (keyword == "vt") take_uv(statement);
+    if (keyword == "f") take_face(statement);
+    if (keyword == "o" || keyword == "g") part_.name = trimmed(statement.arguments);
+    if (keyword == "usemtl") take_material(trimmed(statement.arguments));
+    if (keyword == "mtllib") libraries_.push_back(trimmed(statement.arguments));
+    seen_.add(statement);
+}
+
+/// x y z, then maybe w (meaningless in a mesh of faces), or a colour r g b and maybe its alpha.
+void ObjReader::take_vertex(const Statement& statement) {
+    const std::size_t count = numbers(statement, 3);
+    const auto& n = numbers_;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!std::isfinite(n[i]))
+            fail_at(statement.keyword,
+                    std::string("vertex ") + "xyz"[i] +
+                        " is not finite (nan, infinite or beyond float); mend or leave out the vertex");
+    mesh_.positions.emplace_back(n[0], n[1], n[2]);
+    constexpr glm::vec4 white(1.0f);
+    if (count >= 6) {
+        mesh_.colors.resize(mesh_.positions.size() - 1, white);  // the vertices before that had no colour
+        mesh_.colors.emplace_back(finite_or_zero(n[3]), finite_or_zero(n[4]), finite_or_zero(n[5]),
+                                  count >= 7 ? finite_or_zero(n[6]) : 1.0f);
+    } else if (!mesh_.colors.empty()) {
+        mesh_.colors.push_back(white);
+    }
+}
+
+void ObjReader::take_normal(const Statement& statement) {
+    numbers(statement, 3);
+    const glm::vec3 normal(numbers_[0], numbers_[1], numbers_[2]);
+    if (!std::isfinite(normal.x) || !std::isfinite(normal.y) || !std::isfinite(normal.z))
+        fail_at(statement.keyword, "the normal is not finite; export the mesh with new normals or without");
+    mesh_.normals.values.push_back(normal);
+}
+
+void ObjReader::take_uv(const Statement& statement) {
+    const std::size_t count = numbers(statement, 1);
+    mesh_.uvs[0].values.emplace_back(finite_or_zero(numbers_[0]),
+                                     count > 1 ? finite_or_zero(numbers_[1]) : 0.0f);
+}
+
+void ObjReader::take_face(const Statement& statement) {
+    const std::size_t first = mesh_.corners.size();
+    std::string_view rest = statement.arguments;
+    for (std::string_view token = next_argument(rest); !token.empty(); token = next_argument(rest)) {
+        const auto [v, vt, vn] = corner_parts(token);
+        const std::uint32_t vertex = index(v, seen_.v, total_.v, "vertex");
+        if (vertex == none)
+            fail_at(token,
+                    "face corner " + quoted(token) + " names no vertex; write v, v/vt, v//vn or v/vt/vn");
+        mesh_.corners.push_back(vertex);
+        mesh_.uvs[0].corners.push_back(index(vt, seen_.vt, total_.vt, "texture coordinate"));
+        mesh_.normals.corners.push_back(index(vn, seen_.vn, total_.vn, "normal"));
+    }
+    const std::size_t size = mesh_.corners.size() - first;
+    if (size < 3) {
+        ++short_faces_;
+        for (auto* corners : {&mesh_.corners, &mesh_.uvs[0].corners, &mesh_.normals.corners})
+            corners->resize(first);
+        return;
+    }
+    begin_part();
+    mesh_.faces.push_back(static_cast<std::uint32_t>(size));
+    ++mesh_.parts.back().face_count;
+}
+
+void ObjReader::begin_part() {
+    const auto& parts = mesh_.parts;
+    if (!parts.empty() && parts.back().name == part_.name && parts.back().material == part_.material) return;
+    part_.first_face = static_cast<std::uint32_t>(mesh_.faces.size());
+    mesh_.parts.push_back(part_);
+}
+
+void ObjReader::take_material(std::string_view name) {
+    auto& materials = mesh_.materials;
+    const auto known = std::ranges::find(materials, name, &Material::name);
+    part_.material = static_cast<std::int32_t>(known - materials.begin());
+    if (known == materials.end()) materials.emplace_back().name = name;
+}
+
+/// Reads the statement's numbers, at most 8, into numbers_; the rest are 0. Returns how many there were.
+std::size_t ObjReader::numbers(const Statement& statement, std::size_t needed) {
+    numbers_.fill(0.0f);
+    std::string_view rest = statement.arguments;
+    std::size_t count = 0;
+    for (; count < numbers_.size(); ++count) {
+        const std::string_view token = next_argument(rest);
+        if (token.empty()) break;
+        const std::optional<float> number = to_float(token);
+        if (!number) fail_at(token, quoted(token) + " is not a number; write one like -0.25 or 1e-3");
+        numbers_[count] = *number;
+    }
+    if (count < needed)
+        fail_at(statement.keyword, std::string(statement.keyword) + " has " + std::to_string(count) +
+                                       " numbers and needs " + std::to_string(needed) +
+                                       "; is the file cut off?");
+    return count;
+}
+
+float ObjReader::finite_or_zero(float value) {
+    if (std::isfinite(value)) return value;
+    ++not_finite_;
+    return 0.0f;
+}
+
+std::uint32_t ObjReader::index(std::string_view token, std::size_t seen, std::size_t total,
+                               const char* what) const {
+    if (token.empty()) return none;
+    const std::optional<std::int64_t> number = to_integer(token);
+    const std::string name = std::string(what) + " index " + quoted(token);
+    if (!number) fail_at(token, name + " is not a whole number");
+    if (*number == 0) fail_at(token, name + " is out of range: OBJ counts from 1");
+    const std::int64_t from0 = from_zero(*number, seen);
+    if (from0 < 0 || from0 >= static_cast<std::int64_t>(total))
+        fail_at(token, name + " is out of range: the file has " + std::to_string(total) + " of them, " +
+                           std::to_string(seen) + " before this line");
+    return static_cast<std::uint32_t>(from0);
+}
+
+/// vn and vt lines that no face refers to say nothing; without them the writer leaves them as they are.
+void ObjReader::drop_unused_attributes() {
+    const auto unused = [](const auto& attribute) {
+        return std::ranges::all_of(attribute.corners, [](auto index) { return index == none; });
+    };
+    if (unused(mesh_.normals)) mesh_.normals = {};
+    if (unused(mesh_.uvs[0])) mesh_.uvs.clear();
+}
+
+void ObjReader::read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found) {
+    std::istringstream text;
+    try {
+        text.str(read_bytes(library));
+    } catch (const Error& error) {
+        mesh_.warnings.push_back(std::string("materials keep a grey: ") + error.what());
+    }
+    std::map<std::string, int> index;
+    std::string warnings, errors;
+    tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
+}
+
+void ObjReader::read_materials() {
+    std::vector<tinyobj::material_t> found;
+    for (const std::string_view line : libraries_)
+        for (const std::string_view name : library_names(file_, line))
+            read_library(file_.parent_path() / name, found);
+    for (Material& material : mesh_.materials) {
+        const auto same_name = [&](const tinyobj::material_t& m) { return trimmed(m.name) == material.name; };
+        const auto entry = std::ranges::find_if(found, same_name);
+        if (entry == found.end()) continue;
+        const float rgba[] = {entry->diffuse[0], entry->diffuse[1], entry->diffuse[2], entry->dissolve};
+        for (int i = 0; i < 4; ++i) material.base_color[i] = std::clamp(rgba[i], 0.0f, 1.0f);
+    }
+}
+
+void ObjReader::fail_at(std::string_view place, const std::string& what) const {
+    fail(file_, line_of(text_, place.data()) + ": " + what);
+}
+
+}  // namespace
+
+bool next_statement(std::string_view& rest, Statement& out) {
+    if (rest.empty()) return false;
+    const char* const begin = rest.data();
+    std::string_view line = next_line(rest);
+    const bool comment = trimmed(line).starts_with('#');
+    while (!comment && line.ends_with('\\') && !rest.empty()) {
+        const std::string_view more = next_line(rest);
+        line = {begin, static_cast<std::size_t>(more.data() + more.size() - begin)};
+    }
+    out.end = line.substr(line.size());
+    out.windows = rest.data() - out.end.data() == 2;
+    out.arguments = line;
+    out.keyword = comment ? std::string_view() : next_token(out.arguments);
+    return true;
+}
+
+std::string_view next_argument(std::string_view& rest) {
+    const std::string_view token = next_token(rest);
+    if (!token.starts_with('#')) return token;
+    rest = {};
+    return {};
+}
+
+void Counts::add(const Statement& statement) {
+    v += statement.keyword == "v";
+    vt += statement.keyword == "vt";
+    vn += statement.keyword == "vn";
+}
+
+std::vector<std::string_view> library_names(const std::filesystem::path& obj, std::string_view arguments) {
+    arguments = trimmed(arguments);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(obj.parent_path() / arguments, error)) return {arguments};
+    std::vector<std::string_view> names;
+    for (std::string_view name = next_token(arguments); !name.empty(); name = next_token(arguments))
+        names.push_back(name);
+    return names;
+}
+
+std::array<std::string_view, 3> corner_parts(std::string_view argument) {
+    std::array<std::string_view, 3> parts;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t end = i < 2 ? std::min(argument.find('/'), argument.size()) : argument.size();
+        parts[i] = argument.substr(0, end);
+        argument.remove_prefix(std::min(end + 1, argument.size()));
+    }
+    return parts;
+}
+
+Mesh read_obj(const std::filesystem::path& file, std::string_view bytes) {
+    Mesh mesh = ObjReader(file, bytes).read();
+    auto source = std::make_shared<ObjSource>();
+    source->file = file;
+    source->text = bytes;
+    source->read = mesh;
+    mesh.source = std::move(source);
+    return mesh;
+}
+
+}  // namespace goffer::mesh

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "format.hpp"
+#include "ply.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace goffer::mesh {
+namespace {
+
+using namespace ply;
+constexpr std::uint32_t none = Attribute<glm::vec2>::none;
+
+class PlyReader {
+public:
+    explicit PlyReader(const Header& header);
+    Mesh read();
+
+    void value(const Cursor& cursor, const Property& property, const Value& value);
+    void end_row(const Cursor& cursor, const Element& element);
+    void end(const Cursor& cursor);
+
+private:
+    [[nodiscard]] bool has(Role role) const { return vertex_->find(role) != nullptr; }
+    [[nodiscard]] float at(Role role) const {
+        return static_cast<float>(row_[static_cast<std::size_t>(role)]);
+    }
+    float color(Role role);
+    void end_vertex(const Cursor& cursor);
+    void end_face();
+    float finite_or_zero(double value);
+
+    const Header& header_;
+    const Element* vertex_;
+    Mesh mesh_;
+    bool has_normals_ = false, has_colors_ = false, has_uvs_ = false, has_texcoords_ = false;
+    std::array<double, vertex_roles> row_{};
+    std::vector<std::uint32_t> indices_;
+    std::vector<float> texcoords_;
+    std::size_t short_faces_ = 0, not_finite_ = 0;
+};
+
+PlyReader::PlyReader(const Header& header) : header_(header), vertex_(header.find("vertex")) {
+    if (!vertex_) fail(header.file, "the header has no element vertex: not a mesh");
+    for (const Role role : {Role::x, Role::y, Role::z})
+        if (!has(role))
+            fail(header.file, std::string("element vertex has no property ") + "xyz"[static_cast<int>(role)]);
+    const Element* face = header.find("face");
+    if (!face || !face->find(Role::indices))
+        fail(header.file,
+             "there are no faces: no element face with a list vertex_indices; export it with faces" +
+                 std::string(header.find("tristrips") ? " (triangle strips are not read)" : ""));
+    has_normals_ = has(Role::nx) && has(Role::ny) && has(Role::nz);
+    has_colors_ = has(Role::red) && has(Role::green) && has(Role::blue);
+    has_texcoords_ = face->find(Role::texcoord) != nullptr;
+    has_uvs_ = !has_texcoords_ && has(Role::u) && has(Role::v);
+    if (has_texcoords_ || has_uvs_) mesh_.uvs.resize(1);
+}
+
+Mesh PlyReader::read() {
+    walk(header_, *this);
+    if (mesh_.faces.empty())
+        fail(header_.file, "there are no faces of 3 corners or more; export it with faces");
+    mesh_.parts.push_back({.name = {}, .face_count = static_cast<std::uint32_t>(mesh_.faces.size())});
+    if (has_texcoords_ && mesh_.uvs[0].values.empty()) mesh_.uvs.clear();
+    if (short_faces_ > 0)
+        mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
+    if (not_finite_ > 0)
+        mesh_.warnings.push_back(std::to_string(not_finite_) +
+                                 " uv or colour values are not finite: taken as 0");
+    return std::move(mesh_);
+}
+
+void PlyReader::value(const Cursor& cursor, const Property& property, const Value& value) {
+    const Role role = property.role;
+    if (role < Role::other) row_[static_cast<std::size_t>(role)] = value.number;
+    if (role == Role::texcoord) texcoords_.push_back(finite_or_zero(value.number));
+    if (role != Role::indices) return;
+    const bool in_range = value.number >= 0 && value.number < static_cast<double>(vertex_->count);
+    if (!in_range || value.number != std::floor(value.number))
+        cursor.fail_here("vertex index " + std::to_string(static_cast<std::int64_t>(value.number)) +
+                         " is out of range: there are " + std::to_string(vertex_->count) +
+                         " vertices, counted from 0");
+    indices_.push_back(static_cast<std::uint32_t>(value.number));
+}
+
+void PlyReader::end_row(const Cursor& cursor, const Element& element) {
+    if (&element == vertex_) end_vertex(cursor);
+    if (element.name == "face") end_face();
+}
+
+void PlyReader::end(const Cursor& cursor) {
+    if (const std::string_view rest = trimmed(cursor.rest()); !rest.empty())
+        mesh_.warnings.push_back(std::to_string(rest.size()) + " bytes behind the last element: not read");
+}
+
+void PlyReader::end_vertex(const Cursor& cursor) {
+    for (const Role role : {Role::x, Role::y, Role::z, Role::nx, Role::ny, Role::nz})
+        if (has_normals_ || role <= Role::z)
+            if (!std::isfinite(at(role)))
+                cursor.fail_here(quoted(vertex_->find(role)->name) +
+                                 " is not finite (nan, infinite or beyond float); "
+                                 "mend or leave out the vertex");
+    mesh_.positions.emplace_back(at(Role::x), at(Role::y), at(Role::z));
+    if (has_normals_) mesh_.normals.values.emplace_back(at(Role::nx), at(Role::ny), at(Role::nz));
+    if (has_colors_)
+        mesh_.colors.emplace_back(color(Role::red), color(Role::green), color(Role::blue),
+                                  has(Role::alpha) ? color(Role::alpha) : 1.0f);
+    if (has_uvs_)
+        mesh_.uvs[0].values.emplace_back(finite_or_zero(row_[static_cast<std::size_t>(Role::u)]),
+                                         finite_or_zero(row_[static_cast<std::size_t>(Role::v)]));
+}
+
+/// A texcoord list has two numbers a corner; a face may have an empty one.
+void PlyReader::end_face() {
+    const std::size_t size = indices_.size();
+    if (size >= 3) {
+        mesh_.faces.push_back(static_cast<std::uint32_t>(size));
+        mesh_.corners.insert(mesh_.corners.end(), indices_.begin(), indices_.end());
+        for (std::size_t i = 0; has_texcoords_ && i < size; ++i) {
+            auto& [values, corners] = mesh_.uvs[0];
+            const bool given = texcoords_.size() == 2 * size;
+            corners.push_back(given ? static_cast<std::uint32_t>(values.size()) : none);
+            if (given) values.emplace_back(texcoords_[2 * i], texcoords_[2 * i + 1]);
+        }
+    } else {
+        ++short_faces_;
+    }
+    indices_.clear();
+    texcoords_.clear();
+}
+
+/// 0..1, whatever the type.
+float PlyReader::color(Role role) {
+    const Type type = vertex_->find(role)->type;
+    const double scale = !is_integer(type) ? 1.0 : type == Type::u16 ? 65535.0 : 255.0;
+    return finite_or_zero(row_[static_cast<std::size_t>(role)] / scale);
+}
+
+float PlyReader::finite_or_zero(double value) {
+    if (const auto single = static_cast<float>(value); std::isfinite(single)) return single;
+    ++not_finite_;
+    return 0.0f;
+}
+
+}  // namespace
+
+Mesh read_ply(const std::filesystem::path& file, std::string_view bytes) {
+    const Header header = read_header(file, bytes);
+    Mesh mesh = PlyReader(header).read();
+    auto source = std::make_shared<PlySource>();
+    source->bytes = bytes;
+    source->read = mesh;
+    mesh.source = std::move(source);
+    return mesh;
+}
+
+}  // namespace goffer::mesh

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// What the text formats share: tokens, exact numbers, error messages, and a file's bytes given back with
+/// some tokens replaced. All views are into the bytes of the file.
+
+namespace goffer::mesh {
+
+/// Throws Error "<file>: <what>".
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what);
+
+/// `text` in quotes, cut short and with unprintable bytes as '?', so that a message stays one line.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// "line N", where `place` points into `text`; lines count from 1.
+[[nodiscard]] std::string line_of(std::string_view text, const char* place);
+
+/// Takes the next token off the front of `rest`; empty at its end. A backslash before a line's end is a
+/// blank.
+std::string_view next_token(std::string_view& rest);
+
+/// Takes the next line off the front of `rest`, without its end (LF, CRLF, or CR as on old Macs).
+std::string_view next_line(std::string_view& rest);
+
+/// `text` without the byte order mark that some editors put in front of UTF-8.
+[[nodiscard]] std::string_view without_bom(std::string_view text);
+
+/// `text` without blanks at either end.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// `text` in lower case (ASCII).
+[[nodiscard]] std::string lower(std::string_view text);
+
+/// A whole token as a number, correctly rounded; beyond the type's range an infinity or 0. Reads nan and inf
+/// too.
+[[nodiscard]] std::optional<float> to_float(std::string_view token);
+[[nodiscard]] std::optional<double> to_double(std::string_view token);
+[[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view token);
+
+/// Appends the shortest text that reads back as exactly this value.
+void append(std::string& out, float value);
+void append(std::string& out, std::uint64_t value);
+
+/// Appends each value after a blank.
+template <class... T>
+void append_all(std::string& out, T... values) {
+    ((out += ' ', append(out, values)), ...);
+}
+
+/// `name` fit for one line of text: control characters become '_'.
+[[nodiscard]] std::string one_line(std::string_view name);
+
+/// A file's bytes with some of them replaced, from front to back.
+class Editor {
+public:
+    explicit Editor(std::string_view source) : source_(source) {
+        out_.reserve(source.size() + source.size() / 8);
+    }
+
+    /// Puts `with` in the place of `old`, a view into the source behind everything replaced so far.
+    void replace(std::string_view old, std::string_view with);
+    void replace(std::string_view old, float with);
+
+    /// The whole of it; the editor is spent.
+    [[nodiscard]] std::string finish();
+
+private:
+    std::string_view source_;
+    std::string out_;
+    std::size_t done_ = 0;  ///< bytes of the source that are in out_, or replaced
+};
+
+}  // namespace goffer::mesh

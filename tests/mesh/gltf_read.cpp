@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_files.hpp"
+#include "support/models.hpp"
+
+#include <functional>
+#include <limits>
+
+using namespace goffer::test;
+using goffer::mesh::Attribute;
+using goffer::mesh::load;
+using goffer::mesh::Mesh;
+
+namespace {
+
+Mesh nodes(const char* json) {
+    return load_document(tetra_with_nodes(json));
+}
+
+/// The message for a tetrahedron that `spoil` has been at.
+std::string error_when(const std::function<void(Document&)>& spoil) {
+    Document document = tetra();
+    spoil(document);
+    return load_error("d.glb", document.glb());
+}
+
+}  // namespace
+
+TEST_CASE("gltf: a tetrahedron comes in as it is, from GLB and from data URIs") {
+    for (const char* name : {"d.glb", "d.gltf"}) {
+        const Mesh mesh = load_text(name, name[3] == 'l' ? tetra().gltf() : tetra().glb());
+        REQUIRE(mesh.positions.size() == 4);
+        CHECK(mesh.positions[3] == glm::vec3(0, 0, 3));
+        CHECK(mesh.normals.per_vertex());
+        CHECK(mesh.normals.values[2] == glm::vec3(0, 1, 0));
+        CHECK(mesh.tangents.values[2] == glm::vec4(1, 0, 0, -1));
+        CHECK(mesh.uvs.at(0).values[3] == glm::vec2(0.75f, 0.0f));  // v is turned: up in a mesh, down in glTF
+        CHECK(mesh.corners == std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+        CHECK(mesh.faces == std::vector<std::uint32_t>(4, 3));
+        REQUIRE(mesh.parts.size() == 1);
+        CHECK(mesh.parts[0].name == "tetra");
+        CHECK(mesh.parts[0].face_count == 4);
+        CHECK(mesh.colors.empty());
+        CHECK(mesh.warnings.empty());
+        CHECK(mesh.source);
+    }
+}
+
+TEST_CASE("gltf: transforms of a chain of nodes are applied, scale before rotation before translation") {
+    const Mesh mesh = nodes(
+        R"([{"children": [1], "translation": [1, 2, 3], "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752],
+                                 "scale": [2, 2, 2]}, {"mesh": 0, "translation": [0, 0, 5]}])");
+    CHECK(close(mesh.positions[0], {1, 2, 13}));
+    CHECK(close(mesh.positions[1], {1, 6, 13}));   // (2, 0, 5) doubled, then x to y
+    CHECK(close(mesh.positions[2], {-1, 2, 13}));  // y to -x
+    CHECK(close(mesh.normals.values[2], {-1, 0, 0}));
+}
+
+TEST_CASE("gltf: a matrix is column-major and equals its translation, rotation and scale") {
+    const Mesh matrix =
+        nodes(R"([{"mesh": 0, "matrix": [0, 3, 0, 0, -2, 0, 0, 0, 0, 0, 4, 0, 7, 8, 9, 1]}])");
+    const Mesh parts = nodes(
+        R"([{"mesh": 0, "translation": [7, 8, 9], "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752],
+                                  "scale": [3, 2, 4]}])");
+    CHECK(close(matrix.positions[1], {7, 14, 9}));
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(close(matrix.positions[i], parts.positions[i]));
+        CHECK(close(matrix.normals.values[i], parts.normals.values[i]));
+        CHECK(close(glm::vec3(matrix.tangents.values[i]), glm::vec3(parts.tangents.values[i])));
+    }
+}
+
+TEST_CASE("gltf: uneven scale takes normals by the inverse transpose and tangents by the matrix") {
+    const Mesh mesh = nodes(R"([{"mesh": 0, "scale": [2, 1, 1]}])");
+    CHECK(close(mesh.normals.values[1], glm::normalize(glm::vec3(0.5f, 1, 0))));
+    CHECK(close(glm::vec3(mesh.tangents.values[1]), glm::normalize(glm::vec3(2, -1, 0))));
+    CHECK(glm::dot(mesh.normals.values[1], glm::vec3(mesh.tangents.values[1])) ==
+          doctest::Approx(0).epsilon(1e-6));
+}
+
+TEST_CASE("gltf: a mirror turns triangles round and keeps normals looking outwards") {
+    const Mesh mesh = nodes(R"([{"mesh": 0, "scale": [-1, 1, 1]}])");
+    CHECK(volume(mesh) == doctest::Approx(6));
+    CHECK(close(mesh.normals.values[1], glm::normalize(glm::vec3(-1, 1, 0))));
+    for (std::size_t i = 0; i < 4; ++i) {  // the bitangent is carried along like any vector
+        const Mesh rest = load_document(tetra());
+        const auto bitangent = [i](const Mesh& m) {
+            return glm::cross(m.normals.values[i], glm::vec3(m.tangents.values[i])) * m.tangents.values[i].w;
+        };
+        CHECK(close(bitangent(mesh), bitangent(rest) * glm::vec3(-1, 1, 1)));
+    }
+}
+
+TEST_CASE("gltf: the default scene is read, or the first, or all nodes where there is none") {
+    Document document =
+        tetra_with_nodes(R"([{"mesh": 0}, {"mesh": 0, "translation": [10, 0, 0]}, {"children": [0, 1]}])");
+    document.json["scenes"] = Json::parse(R"([{"nodes": [0]}, {"nodes": [1]}])");
+    document.json["scene"] = 1;
+    CHECK(load_document(document).positions[0].x == 10);
+    document.json.erase("scene");
+    CHECK(load_document(document).positions[0].x == 0);
+    document.json.erase("scenes");
+    CHECK(load_document(document).positions.size() == 8);
+}
+
+TEST_CASE("gltf: primitives that share accessors share vertices, nodes that share a mesh do not") {
+    Document document = tetra_with_nodes(
+        R"([{"children": [1, 2]}, {"mesh": 0, "name": "left"}, {"mesh": 0, "translation": [5, 0, 0]}])");
+    Json second = primitive_of(document);
+    second["indices"] = document.shorts({1, 2, 3});
+    document.json["meshes"][0]["primitives"].push_back(second);
+    const Mesh mesh = load_document(document);
+    CHECK(mesh.positions.size() == 8);
+    REQUIRE(mesh.parts.size() == 4);
+    CHECK(mesh.parts[0].name == "left");
+    CHECK(mesh.parts[2].name == "tetra");
+    CHECK(mesh.parts[3].first_face == 9);
+    CHECK(mesh.corners.back() == 7);
+    CHECK(mesh.positions[7] == glm::vec3(5, 0, 3));
+}
+
+TEST_CASE("gltf: strips and fans become triangles, points and lines have vertices only") {
+    const auto corners = [](int mode) {
+        Document document = tetra();
+        Json triangle = primitive_of(document);
+        triangle["indices"] = document.shorts({3, 2, 1});
+        document.json["meshes"][0]["primitives"].push_back(triangle);
+        primitive_of(document)["mode"] = mode;
+        primitive_of(document)["indices"] = document.shorts({0, 1, 2, 3});
+        const Mesh mesh = load_document(document);
+        CHECK(mesh.positions.size() == 4);
+        CHECK(mesh.parts.size() == 2);
+        return mesh.corners;
+    };
+    using Corners = std::vector<std::uint32_t>;
+    CHECK(corners(5) == Corners{0, 1, 2, 1, 3, 2, 3, 2, 1});
+    CHECK(corners(6) == Corners{0, 1, 2, 0, 2, 3, 3, 2, 1});
+    for (const int mode : {0, 1, 2, 3}) CHECK(corners(mode) == Corners{3, 2, 1});
+}
+
+TEST_CASE("gltf: without indices every three vertices are a triangle, a rest is left out with a warning") {
+    Document document = tetra();
+    primitive_of(document).erase("indices");
+    const Mesh mesh = load_document(document);
+    CHECK(mesh.corners == std::vector<std::uint32_t>{0, 1, 2});
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].find("incomplete triangle") != std::string::npos);
+}
+
+TEST_CASE("gltf: integers of all kinds become numbers, normalised or not, with strides and offsets") {
+    struct Kind {
+        int component;
+        std::string bytes;  // 0, half or so, the most
+        float half, most, half_normalized, most_normalized;
+    };
+    using namespace std;
+    const vector<Kind> kinds{
+        {5120, raw(vector<int8_t>{0, -64, 127}), -64, 127, -64 / 127.0f, 1},
+        {5121, raw(vector<uint8_t>{0, 128, 255}), 128, 255, 128 / 255.0f, 1},
+        {5122, raw(vector<int16_t>{0, 16384, -32768}), 16384, -32768, 16384 / 32767.0f, -1},
+        {5123, raw(vector<uint16_t>{0, 32768, 65535}), 32768, 65535, 32768 / 65535.0f, 1},
+    };
+    for (const Kind& kind : kinds) {
+        for (const bool normalized : {false, true}) {
+            Document document = tetra();
+            std::string interleaved = "padd";
+            for (int i = 0; i < 4; ++i) interleaved += kind.bytes + std::string(12 - kind.bytes.size(), 'x');
+            const std::size_t index =
+                document.accessor(document.view(interleaved, 12), kind.component, "VEC3", 4, 4);
+            document.json["accessors"][index]["normalized"] = normalized;
+            primitive_of(document)["attributes"]["POSITION"] = index;
+            const Mesh mesh = load_document(document);
+            const glm::vec3 expected = normalized ? glm::vec3(0, kind.half_normalized, kind.most_normalized)
+                                                  : glm::vec3(0, kind.half, kind.most);
+            for (const glm::vec3& p : mesh.positions) CHECK(p == expected);
+        }
+    }
+}
+
+TEST_CASE("gltf: indices may have 8, 16 or 32 bits") {
+    const std::vector<std::pair<int, std::string>> kinds{{5121, raw(std::vector<std::uint8_t>{0, 1, 3})},
+                                                         {5123, raw(std::vector<std::uint16_t>{0, 1, 3})},
+                                                         {5125, raw(std::vector<std::uint32_t>{0, 1, 3})}};
+    for (const auto& [component, bytes] : kinds) {
+        Document document = tetra();
+        primitive_of(document)["indices"] = document.accessor(document.view(bytes), component, "SCALAR", 3);
+        CHECK(load_document(document).corners == std::vector<std::uint32_t>{0, 1, 3});
+    }
+}
+
+TEST_CASE("gltf: sparse accessors replace elements, of zeros where there is no view") {
+    for (const bool based : {true, false}) {
+        Document document = tetra();
+        Json& accessor = document.json["accessors"][0];
+        Json sparse = {{"count", 2}};
+        sparse["indices"] = {{"bufferView", document.view(raw(std::vector<std::uint8_t>{1, 3}))},
+                             {"componentType", 5121}};
+        sparse["values"] = {{"bufferView", document.view(raw(std::vector<float>{9, 8, 7, 6, 5, 4}))}};
+        accessor["sparse"] = sparse;
+        if (!based) accessor.erase("bufferView");
+        const Mesh mesh = load_document(document);
+        CHECK(mesh.positions[1] == glm::vec3(9, 8, 7));
+        CHECK(mesh.positions[3] == glm::vec3(6, 5, 4));
+        CHECK(mesh.positions[2] == glm::vec3(0, based ? 1 : 0, 0));
+    }
+}
+
+TEST_CASE("gltf: colours of three or four components come in, and white where a primitive has none") {
+    Document document = tetra();
+    Json second = primitive_of(document);
+    primitive_of(document)["attributes"]["COLOR_0"] = document.accessor(
+        document.view(raw(std::vector<std::uint8_t>{255, 0, 51, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 4),
+        5121, "VEC3", 4);
+    document.json["accessors"].back()["normalized"] = true;
+    document.json["meshes"][0]["primitives"].push_back(second);
+    Mesh mesh = load_document(document);
+    REQUIRE(mesh.colors.size() == 8);
+    CHECK(mesh.colors[0] == glm::vec4(1, 0, 0.2f, 1));
+    CHECK(mesh.colors[7] == glm::vec4(1));
+    document = tetra();
+    primitive_of(document)["attributes"]["COLOR_0"] = document.floats(std::vector<float>(16, 0.125f), "VEC4");
+    mesh = load_document(document);
+    CHECK(mesh.colors == std::vector<glm::vec4>(4, glm::vec4(0.125f)));
+}
+
+TEST_CASE("gltf: an attribute that some primitives lack has an index for each corner") {
+    Document document = tetra();
+    Json second = primitive_of(document);
+    primitive_of(document)["attributes"].erase("NORMAL");
+    document.json["meshes"][0]["primitives"].push_back(second);
+    const Mesh mesh = load_document(document);
+    CHECK(mesh.normals.values.size() == 4);
+    REQUIRE(mesh.normals.corners.size() == 24);
+    CHECK(mesh.normals.corners[0] == Attribute<glm::vec3>::none);
+    CHECK(mesh.normals.values[mesh.normals.corners[13]] ==
+          glm::vec3(0, 1, 0));  // vertex 2 of the second primitive
+    CHECK(mesh.tangents.per_vertex());
+}
+
+TEST_CASE("gltf: materials have their names and base colours") {
+    Document document = tetra();
+    document.json["materials"] =
+        Json::parse(R"([{"name": "skin", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]}},
+        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.75, 0, 1, 0.5]}}}, {}])");
+    primitive_of(document)["material"] = 1;
+    const Mesh mesh = load_document(document);
+    REQUIRE(mesh.materials.size() == 3);
+    CHECK(mesh.materials[0].name == "skin");
+    CHECK(mesh.materials[0].base_color == glm::vec4(0.5f, 0.25f, 0.125f, 1));
+    CHECK(mesh.materials[1].base_color == glm::vec4(0.75f, 0, 1, 0.5f));
+    CHECK(mesh.materials[2].base_color == glm::vec4(1));
+    CHECK(mesh.parts[0].material == 1);
+}
+
+TEST_CASE("gltf: a skinned mesh stays where it is stored, a morphed one at rest, both with a warning") {
+    Document document = tetra_with_nodes(R"([{"mesh": 0, "skin": 0, "translation": [100, 0, 0]}])");
+    document.json["skins"] = Json::parse(R"([{"joints": [0]}])");
+    primitive_of(document)["targets"] = Json::parse(R"([{"POSITION": 0}])");
+    const Mesh mesh = load_document(document);
+    CHECK(mesh.positions[1] == glm::vec3(2, 0, 0));
+    REQUIRE(mesh.warnings.size() == 2);
+    CHECK(mesh.warnings[0].find("nodes[0] is skinned") != std::string::npos);
+    CHECK(mesh.warnings[1].find("morph") != std::string::npos);
+}
+
+TEST_CASE("gltf: textures may be missing and broken, nobody looks") {
+    Document document = tetra();
+    document.json["images"] = Json::parse(
+        R"([{"uri": "gone.png"}, {"uri": "data:image/png;base64,!!"}, {"bufferView": 0, "mimeType": "image/png"}])");
+    document.json["textures"] = Json::parse(R"([{"source": 0}])");
+    CHECK(load_document(document).positions.size() == 4);
+}
+
+TEST_CASE("gltf: outer buffers are found beside the document, by their decoded name") {
+    const Folder folder;
+    Document document = tetra();
+    document.json["buffers"] = Json::parse(R"([{"uri": "a%20b.bin", "byteLength": 1}])");
+    document.json["buffers"][0]["byteLength"] = document.buffer.size();
+    const auto file = folder.write("d.gltf", document.gltf());
+    CHECK(tells(error_of([&] { (void)load(file); }),
+                "buffers[0].uri: names 'a%20b.bin', which is not there; put it"));
+    folder.write("a b.bin", document.buffer + "and more");
+    CHECK(load(file).positions[3] == glm::vec3(0, 0, 3));
+    folder.write("a b.bin", document.buffer.substr(1));
+    CHECK(tells(error_of([&] { (void)load(file); }), "copy it again"));
+    document.json["buffers"][0]["uri"] = "https://example.com/a.bin";
+    CHECK(tells(load_error("d.gltf", document.gltf()), "only files beside the document are read"));
+}
+
+TEST_CASE("gltf: what is broken is named with its place and the way out") {
+    const auto set = [](const char* pointer, const char* value) {
+        return [=](Document& d) { d.json[Json::json_pointer(pointer)] = Json::parse(value); };
+    };
+    const std::vector<std::pair<std::function<void(Document&)>, const char*>> cases{
+        {set("/scene", "3"), "scene: names scenes[3], but there are 1; export"},
+        {set("/scenes/0/nodes", "[0, 9]"), "scenes[0].nodes[1]: names nodes[9]"},
+        {set("/nodes/0/mesh", "7"), "nodes[0].mesh: names meshes[7]"},
+        {set("/nodes/0/mesh", "-1"), "nodes[0].mesh: is -1, expected a whole number"},
+        {set("/nodes/0/mesh", "0.5"), "nodes[0].mesh: is 0.5"},
+        {set("/nodes/0/mesh", "\"zero\""), "nodes[0].mesh: is a JSON string, expected a number"},
+        {set("/nodes", "[{\"mesh\": 0, \"children\": [0]}]"), "nodes[0]: is reached twice: a cycle"},
+        {set("/nodes/0/rotation", "[0, 0, 0, 0]"), "nodes[0].rotation: is not a unit quaternion"},
+        {set("/nodes/0/matrix", "[1, 2]"), "nodes[0].matrix: has 2 elements, expected 16 numbers"},
+        {set("/nodes/0/scale", "[1, 1, 1e300]"),
+         "meshes[0].primitives[0].attributes.POSITION: vertex 3 is not finite"},
+        {set("/nodes", "[{}]"), "no node of the scene carries a mesh"},
+        {set("/meshes/0/primitives/0/attributes/POSITION", "50"),
+         "meshes[0].primitives[0].attributes.POSITION: names accessors[50]"},
+        {set("/meshes/0/primitives/0/attributes/NORMAL", "3"),
+         "attributes.NORMAL -> accessors[3].type: is the wrong one here, expected VEC3"},
+        {set("/meshes/0/primitives/0/attributes", "{\"NORMAL\": 1}"),
+         "meshes[0].primitives[0].attributes: has no \"POSITION\""},
+        {set("/meshes/0/primitives/0/indices", "12"), "meshes[0].primitives[0].indices: names accessors[12]"},
+        {set("/meshes/0/primitives/0/indices", "0"),
+         "accessors[0].type: is the wrong one here, expected SCALAR"},
+        {set("/meshes/0/primitives/0/mode", "7"), "meshes[0].primitives[0].mode: is 7"},
+        {set("/meshes/0/primitives/0/material", "0"),
+         "primitives[0].material: names materials[0], but there are 0"},
+        {set("/accessors/0/count", "5"),
+         "accessors[0]: 5 elements from byte 0 on, 12 bytes apart, do not fit into the 48 bytes of "
+         "bufferViews[0]"},
+        {set("/accessors/0/count", "9007199254740000"), "do not fit"},
+        {set("/accessors/0/count", "0"), "accessors[0].count: is 0"},
+        {set("/accessors/1/count", "3"), "attributes.NORMAL: has 3 elements, but POSITION has 4"},
+        {set("/accessors/0/byteOffset", "4"), "from byte 4 on"},
+        {set("/accessors/0/componentType", "5124"), "accessors[0].componentType: is 5124"},
+        {set("/accessors/4/componentType", "5126"),
+         "accessors[4].componentType: is 5126, expected 5121, 5123 or 5125"},
+        {set("/accessors/0/bufferView", "99"), "accessors[0].bufferView: names bufferViews[99]"},
+        {set("/accessors/0", "{\"componentType\": 5126, \"count\": 4000000000, \"type\": \"VEC3\"}"),
+         "accessors[0].count: is 4000000000 without a bufferView"},
+        {set("/bufferViews/0/byteStride", "8"), "byteStride is 8, expected 12 to 252"},
+        {set("/bufferViews/0/buffer", "1"), "bufferViews[0].buffer: names buffers[1]"},
+        {set("/bufferViews/3/byteLength", "100000"), "bufferViews[3]: spans bytes"},
+        {set("/bufferViews/3/byteOffset", "18446744073709551615"),
+         "bufferViews[3].byteOffset: is 18446744073709551615"},
+        {set("/buffers", "[{\"byteLength\": 100000}]"), "that byteLength promises"},
+        {set("/asset/version", "\"1.0\""), "asset.version: is '1.0'; only glTF 2 can be read"},
+        {set("/asset", "{}"), "asset: has no \"version\""},
+        {set("/extensionsRequired", "[\"KHR_draco_mesh_compression\"]"),
+         "extensionsRequired[0]: the mesh is compressed with KHR_draco_mesh_compression, which cannot be "
+         "read; decompress it: gltf-transform"},
+        {set("/extensionsUsed", "[\"EXT_meshopt_compression\"]"), "compressed with EXT_meshopt_compression"},
+        {set("/meshes", "3"), "meshes: is a JSON number, expected an array"},
+    };
+    for (const auto& known : cases) {
+        const std::string message = error_when(known.first);
+        CHECK_MESSAGE(tells(message, known.second), "expected: ", known.second, "\nbut got: ", message);
+    }
+}
+
+TEST_CASE("gltf: a vertex index out of range and a position that is not a number are named") {
+    Document document = tetra();
+    document.buffer.replace(document.buffer.size() - 24, 2, raw(std::vector<std::uint16_t>{77}));
+    CHECK(tells(load_error("d.glb", document.glb()),
+                "primitives[0].indices: entry 0 is vertex 77, but there are 4"));
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        document = tetra();
+        document.buffer.replace(16, 4, raw(std::vector<float>{bad}));
+        CHECK(tells(load_error("d.glb", document.glb()), "attributes.POSITION: vertex 1 is not finite"));
+    }
+}
+
+TEST_CASE("gltf: sparse indices and counts are checked") {
+    Document document = tetra();
+    Json sparse = {{"count", 1}};
+    sparse["indices"] = {{"bufferView", document.view(std::string("\x04", 1))}, {"componentType", 5121}};
+    sparse["values"] = {{"bufferView", document.view(std::string(12, '\0'))}};
+    document.json["accessors"][0]["sparse"] = sparse;
+    CHECK(tells(load_error("d.glb", document.glb()),
+                "accessors[0].sparse.indices: entry 0 is 4, but the accessor has 4 elements"));
+    document.json["accessors"][0]["sparse"]["count"] = 2;
+    CHECK(tells(load_error("d.glb", document.glb()), "do not fit"));
+}
+
+TEST_CASE("gltf: a cycle without a scene, and a node with two parents, are named") {
+    Document document = tetra_with_nodes(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
+    document.json.erase("scenes");
+    document.json.erase("scene");
+    CHECK(tells(load_error("d.glb", document.glb()), "a cycle"));
+    document = tetra_with_nodes(R"([{"children": [1, 1]}, {"mesh": 0}])");
+    CHECK(tells(load_error("d.glb", document.glb()), "nodes[1]: is reached twice"));
+}
+
+TEST_CASE("gltf: a mesh repeated without end is refused, deep nodes and deep extras are no danger") {
+    Document document = tetra();
+    const std::size_t many = 200000;
+    document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1000000}, {"type", "VEC3"}};
+    primitive_of(document) = {{"attributes", {{"POSITION", 0}}}};
+    for (std::size_t i = 1; i < 40; ++i) {
+        document.json["nodes"].push_back({{"mesh", 0}});
+        document.json["scenes"][0]["nodes"].push_back(i);
+    }
+    CHECK(tells(load_error("d.glb", document.glb()), "repeats its meshes so often"));
+
+    document = tetra();
+    for (std::size_t i = 1; i < many; ++i) document.json["nodes"].push_back({{"children", {i - 1}}});
+    document.json["scenes"][0]["nodes"][0] = many - 1;
+    CHECK(load_document(document).positions[1] == glm::vec3(2, 0, 0));
+
+    const std::string deep =
+        R"({"asset": {"version": "2.0"}, "extras": )" + std::string(many, '[') + std::string(many, ']') + "}";
+    CHECK(tells(load_error("d.gltf", deep), "nested more than 200 deep"));
+}
+
+TEST_CASE("gltf: a GLB cut off anywhere is refused, and so are other versions") {
+    const std::string whole = tetra().glb();
+    for (std::size_t length = 4; length < whole.size(); ++length) {
+        CHECK_MESSAGE(!load_error("d.glb", whole.substr(0, length)).empty(), "cut to ", length);
+    }
+    CHECK(tells(load_error("d.glb", whole.substr(0, 1000)), "the GLB is cut off"));
+    std::string other = whole;
+    other[4] = 1;
+    CHECK(tells(load_error("d.glb", other), "is GLB version 1; only 2 can be read"));
+    CHECK(tells(load_error("d.gltf", "{\"asset\": {\"version\": \"2.0\"},}"), "not valid JSON at byte"));
+    CHECK(tells(load_error("d.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"x\": 1e999}"),
+                "number that no double can hold"));
+}
+
+TEST_CASE("gltf: the real models come in with the counts of their list") {
+    struct Counts {
+        const char* name;
+        std::size_t vertices, triangles, parts, uv_sets;
+        bool tangents;
+    };
+    for (const Counts& known :
+         {Counts{"wine_bottle.glb", 508, 616, 1, 2, false},
+          Counts{"WaterBottle.gltf", 2549, 4510, 1, 1, true}, Counts{"log_01.glb", 1227, 2190, 1, 1, false},
+          Counts{"insect_leg.glb", 1605, 2528, 11, 1, false},
+          Counts{"cushion_02.glb", 1982, 3520, 1, 1, false}}) {
+        const auto file = model(known.name);
+        if (file.empty()) continue;
+        CAPTURE(known.name);
+        const Mesh mesh = load(file);
+        CHECK(mesh.positions.size() == known.vertices);
+        CHECK(mesh.faces.size() == known.triangles);
+        CHECK(mesh.parts.size() == known.parts);
+        CHECK(mesh.uvs.size() == known.uv_sets);
+        CHECK(mesh.normals.per_vertex());
+        CHECK(mesh.normals.values.size() == known.vertices);
+        CHECK(mesh.tangents.empty() != known.tangents);
+        CHECK(mesh.warnings.empty());
+    }
+}
+
+TEST_CASE("gltf: the log stands upright in the world, as its node says") {
+    const auto file = model("log_01.glb");
+    if (file.empty()) return;
+    glm::vec3 least(1e9f), most(-1e9f);
+    for (const glm::vec3& p : load(file).positions) {
+        least = glm::min(least, p);
+        most = glm::max(most, p);
+    }
+    // the accessor's bounds, turned by -90 degrees about x and scaled by 100
+    CHECK(close(least, {-0.166588824f, 0.00921261671f, -0.2519620815f}));
+    CHECK(close(most, {0.173462031f, 1.01378383f, 0.188577396f}));
+}

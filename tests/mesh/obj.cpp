@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "files.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace goffer::mesh;
+using namespace goffer::test;
+
+namespace {
+
+constexpr std::uint32_t none = Attribute<glm::vec3>::none;
+
+/// Everything that has to survive: comments, odd blanks, colours, w, quads, groups, unknown statements, CRLF.
+const std::string rich =
+    "# made by hand\r\n"
+    "mtllib missing.mtl\r\n"
+    "o thing\r\n"
+    "v 0 0 0 1.0\r\n"
+    "v  +1.50  0.0\t0 # second\r\n"
+    "v 1 1 0 0.25 0.5 0.75\r\n"
+    "v 0 1e0 0\r\n"
+    "vp 0.1\r\n"
+    "vt 0 0\r\nvt 1 0\r\nvt 1 1 0\r\n"
+    "vn 0 0 1\r\nvn 0.00 1 0\r\n"
+    "s 1\r\n"
+    "usemtl red paint\r\n"
+    "f 1/1/1 2/2/1 3/3/2 4//2\r\n"
+    "g other\r\n"
+    "usemtl\tblue\r\n"
+    "f -4/-3/-2 -3/-2/-2 -1/-1/-1\r\n"
+    "l 1 2\r\np 1\r\n"
+    "# last line without an end";
+
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// `mesh` with vertex 1 moved and every record's normal made different.
+Mesh bent(const Mesh& mesh) {
+    Records r = records(mesh);
+    r.positions[1] = {2.5f, 1e-7f, 0.1f};
+    for (std::size_t i = 0; i < r.normals.size(); ++i) r.normals[i] = {0.0f, 0.5f, static_cast<float>(i)};
+    return with_records(mesh, r);
+}
+
+}  // namespace
+
+TEST_CASE("obj: everything is read in file order") {
+    const Mesh mesh = load_text("a.obj", rich);
+    CHECK(mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {1.5f, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(mesh.faces == std::vector<std::uint32_t>{4, 3});
+    CHECK(mesh.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 3});
+    REQUIRE(mesh.uvs.size() == 1);
+    CHECK(mesh.uvs[0].values == std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}});
+    CHECK(mesh.uvs[0].corners == std::vector<std::uint32_t>{0, 1, 2, none, 0, 1, 2});
+    CHECK(mesh.normals.values == std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}});
+    CHECK(mesh.normals.corners == std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 1});
+    CHECK(mesh.colors ==
+          std::vector<glm::vec4>{glm::vec4(1), glm::vec4(1), {0.25f, 0.5f, 0.75f, 1}, glm::vec4(1)});
+    CHECK(mesh.parts == std::vector<Part>{{"thing", 0, 0, 1}, {"other", 1, 1, 1}});
+    CHECK(mesh.materials == std::vector<Material>{{.name = "red paint"}, {.name = "blue"}});
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].find("missing.mtl") != std::string::npos);
+}
+
+TEST_CASE("obj: an unchanged mesh is written to the byte") {
+    const Mesh mesh = load_text("a.obj", rich);
+    CHECK(saved(mesh, "b.obj") == rich);
+    CHECK(saved(with_records(mesh, records(mesh)), "b.obj") == rich);
+}
+
+TEST_CASE("obj: only lines that changed are written anew") {
+    Mesh mesh = load_text("a.obj", rich);
+    mesh.positions[1] = {2.5f, 1e-7f, 0.1f};
+    mesh.positions[2].z = -1;
+    mesh.normals.values[1] = {1, 0, 0};
+    std::string expected = replaced(rich, "v  +1.50  0.0\t0 # second", "v  2.5  1e-07\t0.1 # second");
+    expected = replaced(expected, "v 1 1 0 0.25", "v 1 1 -1 0.25");
+    CHECK(saved(mesh, "b.obj") == replaced(expected, "vn 0.00 1 0", "vn 1 0 0"));
+}
+
+TEST_CASE("obj: split normals follow the last one, and faces refer to them") {
+    const Mesh mesh = bent(load_text("a.obj", rich));  // records: vertices 0..3, each with one normal
+    std::string expected = replaced(rich, "v  +1.50  0.0\t0 #", "v  2.5  1e-07\t0.1 #");
+    expected = replaced(expected, "vn 0 0 1\r\nvn 0.00 1 0\r\n",
+                        "vn 0 0.5 0\r\nvn 0 0.5 2\r\nvn 0 0.5 1\r\nvn 0 0.5 3\r\n");
+    expected = replaced(expected, "f 1/1/1 2/2/1 3/3/2 4//2", "f 1/1/1 2/2/3 3/3/2 4//4");
+    expected = replaced(expected, "f -4/-3/-2 -3/-2/-2 -1/-1/-1", "f -4/-3/1 -3/-2/-2 -1/-1/-1");
+    CHECK(saved(mesh, "b.obj") == expected);
+    const Mesh again = load_text("b.obj", expected);
+    CHECK(again.positions == mesh.positions);
+    CHECK(again.normals == mesh.normals);
+}
+
+TEST_CASE("obj: references that count backwards from before the last normal stay right") {
+    const std::string text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf -3//-1 -2//-1 -1//-1\nv 5 5 5\nvn 0 1 0\nf 1//-1 3//-2 "
+        "-1//-1\n";
+    const Mesh mesh = bent(load_text("a.obj", text));
+    const Mesh again = reloaded(mesh, "b.obj");
+    CHECK(again.normals.values.size() == 5);
+    CHECK(again.positions == mesh.positions);
+    CHECK(records(again).normals == records(mesh).normals);
+}
+
+TEST_CASE("obj: a mesh changed beyond bending is written anew") {
+    Mesh mesh = load_text("a.obj", rich);
+    mesh.materials[1].base_color = {0.25f, 0.5f, 1.0f, 0.5f};
+    mesh.parts[0].name = "new\nname";
+    const Mesh again = reloaded(mesh, "b c.obj");
+    CHECK(again.corners == mesh.corners);
+    CHECK(again.uvs == mesh.uvs);
+    CHECK(again.normals == mesh.normals);
+    CHECK(again.colors == mesh.colors);
+    CHECK(again.materials == mesh.materials);
+    CHECK(again.parts[0].name == "new_name");
+    CHECK(again.warnings.empty());
+}
+
+TEST_CASE("obj: materials that share a name stay apart") {
+    Mesh mesh = load_text("a.obj", triangle);
+    mesh.materials = {{.name = "a"}, {.name = "a"}, {.name = ""}};
+    mesh.parts = {{"p", 1, 0, 1}};
+    const Mesh again = reloaded(mesh, "b.obj");
+    REQUIRE(again.materials.size() == 1);
+    CHECK(again.materials[0].name == "a_2");
+}
+
+TEST_CASE("obj: base colours come from the material file") {
+    const Folder folder;
+    folder.write("my colours.mtl",
+                 "newmtl red paint\nKd 1 0.5 0\nd 0.25\nmap_Kd red.png\n\nnewmtl unused\nKd 0 0 0\n");
+    const Mesh mesh = load(folder.write("a.obj", replaced(rich, "missing.mtl", "my colours.mtl")));
+    CHECK(mesh.materials[0].base_color == glm::vec4(1, 0.5f, 0, 0.25f));
+    CHECK(mesh.materials[1].base_color == Material{}.base_color);
+    CHECK(mesh.warnings.empty());
+}
+
+TEST_CASE("obj: the way to the material file stays right in another folder") {
+    const Folder from, to;
+    from.write("missing.mtl", "newmtl blue\nKd 0 0 1\n");
+    const Mesh mesh = load(from.write("a.obj", rich));
+    save(mesh, from / "b.obj");
+    CHECK(bytes_of(from / "b.obj") == rich);
+    save(mesh, to / "b.obj");
+    const Mesh moved = load(to / "b.obj");
+    CHECK(moved.warnings.empty());
+    CHECK(moved.materials == mesh.materials);
+    CHECK(bytes_of(to / "b.obj").find("/missing.mtl\r\no thing") != std::string::npos);
+}
+
+TEST_CASE("obj: continued lines, a byte order mark and old line ends are read and kept") {
+    const std::string text =
+        "\xEF\xBB\xBFv 0 0 0\rv 1 \\\r 0 0\rv 0 1 0\r# a path C:\\\rv 1 1 \\\r\n0\rf 1 2 \\\r 4 3\r";
+    const Mesh mesh = load_text("a.obj", text);
+    CHECK(mesh.positions.size() == 4);
+    CHECK(mesh.faces == std::vector<std::uint32_t>{4});
+    CHECK(saved(mesh, "b.obj") == text);
+    Mesh moved = mesh;
+    moved.positions[1] = {4, 5, 6};
+    CHECK(saved(moved, "b.obj") == replaced(text, "v 1 \\\r 0 0", "v 4 \\\r 5 6"));
+}
+
+TEST_CASE("obj: numbers are written so that they read back exactly") {
+    Mesh mesh = load_text("a.obj", triangle);
+    for (const float value : {0.1f, 1.0f / 3, 1e-38f, 3.4028235e38f, 1.17549435e-38f, -16777217.0f, 1e-45f}) {
+        mesh.positions[0] = {value, -value, std::nextafter(value, 0.0f)};
+        CHECK(reloaded(mesh, "b.obj").positions == mesh.positions);
+    }
+}
+
+TEST_CASE("obj: what cannot be read is told with its line") {
+    const auto error = [](const std::string& from, const std::string& to, const std::string& what) {
+        const std::string message = load_error("a.obj", replaced(rich, from, to));
+        INFO(message);
+        return tells(message, what);
+    };
+    CHECK(error("+1.50", "1,50", "line 5: '1,50' is not a number"));
+    CHECK(error("+1.50", "+-1", "line 5: '+-1' is not a number"));
+    CHECK(error("+1.50", "0x10", "line 5: '0x10' is not a number"));
+    CHECK(error("+1.50", "nan", "line 5: vertex x is not finite"));
+    CHECK(error("1e0", "-inf", "line 7: vertex y is not finite"));
+    CHECK(error("1e0", "1e39", "line 7: vertex y is not finite"));
+    CHECK(error("v 0 1e0 0", "v 0 1", "line 7: v has 2 numbers and needs 3"));
+    CHECK(error("0.75", "red", "line 6: 'red' is not a number"));
+    CHECK(error("vn 0.00 1 0", "vn 0 NaN 0", "line 13: the normal is not finite"));
+    CHECK(error("vt 1 1 0", "vt", "line 11: vt has 0 numbers"));
+    CHECK(error("f 1/1/1", "f 0/1/1", "line 16: vertex index '0' is out of range"));
+    CHECK(error("f 1/1/1", "f 5/1/1", "line 16: vertex index '5' is out of range"));
+    CHECK(error("f 1/1/1", "f 1/4/1", "line 16: texture coordinate index '4' is out of range"));
+    CHECK(error("f 1/1/1", "f 1/1/3", "line 16: normal index '3' is out of range"));
+    CHECK(error("f 1/1/1", "f 99999999999999999999/1/1", "line 16: vertex index"));
+    CHECK(error("f 1/1/1", "f /1/1", "line 16: face corner '/1/1' names no vertex"));
+    CHECK(error("f 1/1/1", "f 1.5", "line 16: vertex index '1.5' is not a whole number"));
+    CHECK(error("f -4/-3/-2", "f -5/-3/-2", "line 19: vertex index '-5' is out of range"));
+    CHECK(error("f -4/-3/-2", "f x", "line 19: vertex index 'x'"));
+    CHECK(error("s 1", std::string("s \0", 3), "line 14: binary data"));
+}
+
+TEST_CASE("obj: a file without a mesh is refused") {
+    CHECK(tells(load_error("a.obj", "# nothing\n"), "has no vertices"));
+    CHECK(tells(load_error("a.obj", "hello world"), "has no vertices"));
+    CHECK(tells(load_error("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no faces"));
+    CHECK(tells(load_error("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n"), "has no faces"));
+}
+
+TEST_CASE("obj: faces of two corners are left out with a warning, and stay in the file") {
+    const std::string text = triangle + "f 1 2\nf 3 2 1\n";
+    Mesh mesh = load_text("a.obj", text);
+    CHECK(mesh.faces.size() == 2);
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].find("1 faces have fewer than 3 corners") == 0);
+    mesh.positions[0].x = 8;
+    CHECK(saved(mesh, "b.obj") == replaced(text, "v 0 0 0", "v 8 0 0"));
+}
+
+TEST_CASE("obj: a texture coordinate that is not finite counts as 0, with a warning") {
+    const Mesh mesh = load_text("a.obj", replaced(triangle, "f 1 2 3", "vt nan 1\nf 1/1 2/1 3/1"));
+    CHECK(mesh.uvs[0].values[0] == glm::vec2(0, 1));
+    CHECK(mesh.warnings.size() == 1);
+}
+
+TEST_CASE("obj: normals that no face uses are no attribute, and stay in the file") {
+    const std::string text = "vn 0 0 1\n" + triangle;
+    Mesh mesh = load_text("a.obj", text);
+    CHECK(mesh.normals.empty());
+    CHECK(mesh.uvs.empty());
+    CHECK(saved(mesh, "b.obj") == text);
+}
