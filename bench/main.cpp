@@ -2,11 +2,12 @@
 #include "ratios.hpp"
 #include "subject.hpp"
 
-#include <goffer/bend/job.hpp>
+#include <goffer/bend/crowd.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,32 @@ void deform(benchmark::State& state, const bend::Body& body, Isa isa, bool norma
     count_vertices(state, body.vertex_count());
 }
 
+/// A thousand instances of one body, whose output is larger than any cache.
+void deform_crowd(benchmark::State& state, const bend::Body& body, Isa isa, bool normals, bool parallel) {
+    constexpr std::size_t instances = 1000;
+    const std::size_t count = body.vertex_count();
+    Columns out(normals ? 6 : 3, instances * count);
+    std::vector<bend::DeformJob> jobs(instances);
+    for (std::size_t i = 0; i < instances; ++i) {
+        const auto column = [&](std::size_t c) { return out[c].subspan(i * count, count); };
+        jobs[i].body = &body;
+        jobs[i].isa = isa;
+        jobs[i].positions = planar(column(0), column(1), column(2));
+        if (normals) jobs[i].normals = planar(column(3), column(4), column(5));
+    }
+    const bend::CrowdJob crowd{.instances = jobs};
+    float phase = 0;
+    for (auto _ : state) {
+        phase += 0.01f;
+        for (std::size_t i = 0; i < instances; ++i) {
+            jobs[i].pose = {1.0f + 0.5f * std::sin(phase + static_cast<float>(i)), static_cast<float>(i)};
+        }
+        parallel ? bend::run_parallel(crowd) : bend::run(crowd);
+        benchmark::ClobberMemory();
+    }
+    count_vertices(state, instances * count);
+}
+
 void naive(benchmark::State& state, bool normals) {
     NaiveBody body = make_naive(vertices);
     double angle = 0.5;
@@ -100,6 +127,14 @@ void register_cases(const bend::Body& body) {
             benchmark::RegisterBenchmark(name.c_str(), [&body, isa, normals](benchmark::State& state) {
                 deform(state, body, isa, normals);
             });
+            for (const bool parallel : {false, true}) {
+                const std::string crowd = "deform/" + streams + "/crowd/" + std::string(goffer::name(isa)) +
+                                          (parallel ? "/all" : "/1");
+                benchmark::RegisterBenchmark(crowd.c_str(),
+                                             [&body, isa, normals, parallel](benchmark::State& state) {
+                                                 deform_crowd(state, body, isa, normals, parallel);
+                                             });
+            }
         }
     }
 }

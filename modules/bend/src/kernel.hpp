@@ -67,22 +67,30 @@ Bent<L> bend_batch(const KernelArgs& args, const Coefficients& k, std::size_t i)
     return b;
 }
 
-/// Turns (x, y, z) from the middle frame to model space, adds `offset` unless null, and stores.
+/// A vector per lane, in model space.
 template <class L>
-void place(const float* matrix, const float* offset, float* const (&out)[3], std::size_t i, typename L::Vec x,
-           typename L::Vec y, typename L::Vec z) {
+struct Vector {
+    typename L::Vec component[3];
+};
+
+/// Turns (x, y, z) from the middle frame to model space and adds `offset` unless null.
+template <class L>
+Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
+                typename L::Vec z) {
+    Vector<L> result;
     for (int row = 0; row < 3; ++row) {
         typename L::Vec sum =
             offset ? L::madd(L::set(matrix[row]), x, L::set(offset[row])) : L::set(matrix[row]) * x;
         sum = L::madd(L::set(matrix[3 + row]), y, sum);
-        L::store(out[row] + i, L::madd(L::set(matrix[6 + row]), z, sum));
+        result.component[row] = L::madd(L::set(matrix[6 + row]), z, sum);
     }
+    return result;
 }
 
 /// A vector given in the bent frame (n, b, t) at the vertex, to unit length and to model space.
 template <class L>
-void place_direction(const Coefficients& k, const Bent<L>& b, float* const (&out)[3], std::size_t i,
-                     typename L::Vec n, typename L::Vec bt, typename L::Vec t) {
+Vector<L> place_direction(const Coefficients& k, const Bent<L>& b, typename L::Vec n, typename L::Vec bt,
+                          typename L::Vec t) {
     using Vec = typename L::Vec;
     const Vec cosine = L::nmadd(L::set(k.curvature), b.rise, L::set(1.0f));
     const Vec sine = L::set(k.curvature) * b.reach;
@@ -93,7 +101,7 @@ void place_direction(const Coefficients& k, const Bent<L>& b, float* const (&out
     // Last, so that the roundings of sines and cosines go out as well. A vector that the map squeezed to
     // nothing stays zero: the bound keeps its root finite.
     const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::set(1e-30f));
-    place<L>(k.matrix, nullptr, out, i, x * inverse, y * inverse, z * inverse);
+    return place<L>(k.matrix, nullptr, x * inverse, y * inverse, z * inverse);
 }
 
 /// The Jacobian's entries in the bent frame (DESIGN's 2.3): rows (a, b, d), (0, growth, 0), (0, 0, stretch).
@@ -116,8 +124,8 @@ Jacobian<L> jacobian(const KernelArgs& args, const Coefficients& k, const Bent<L
 }
 
 template <class L>
-void bend_normals(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
-                  std::size_t i) {
+Vector<L> bend_normals(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
+                       std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(args.normal[0] + i);
     const Vec beta = L::load(args.normal[1] + i);
@@ -125,45 +133,89 @@ void bend_normals(const KernelArgs& args, const Coefficients& k, const Bent<L>& 
     const Vec n = b.growth * b.stretch * rho;
     const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
     const Vec t = b.growth * L::nmadd(j.d, rho, j.a * z);
-    place_direction<L>(k, b, args.normal_out, i, n, bt, t);
+    return place_direction<L>(k, b, n, bt, t);
 }
 
 template <class L>
-void bend_tangents(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
-                   std::size_t i) {
+Vector<L> bend_tangents(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
+                        std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(args.tangent[0] + i);
     const Vec beta = L::load(args.tangent[1] + i);
     const Vec z = L::load(args.tangent[2] + i);
     const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
-    place_direction<L>(k, b, args.tangent_out, i, n, b.growth * beta, b.stretch * z);
+    return place_direction<L>(k, b, n, b.growth * beta, b.stretch * z);
 }
 
-// Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
-// what the arguments point to tell the compiler that no store changes them.
+/// What is wanted of one batch; only the wanted parts are set and used.
+template <class L>
+struct Results {
+    Vector<L> position, normal, tangent;
+};
+
 template <class L, unsigned streams>
-[[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last) {
-    const KernelArgs args = arguments;
-    const Coefficients k = *arguments.coefficients;
-    for (std::size_t i = first; i < last; i += L::width) {
-        const Bent<L> b = bend_batch<L>(args, k, i);
-        if constexpr ((streams & 1) != 0) {
-            place<L>(k.matrix, k.offset, args.position_out, i, L::madd(b.rise, b.stretch, b.rho_c), b.rho_s,
-                     b.reach * b.stretch);
-        }
-        if constexpr ((streams & 6) != 0) {
-            const Jacobian<L> j = jacobian<L>(args, k, b, i);
-            if constexpr ((streams & 2) != 0) bend_normals<L>(args, k, b, j, i);
-            if constexpr ((streams & 4) != 0) bend_tangents<L>(args, k, b, j, i);
+Results<L> deform_batch(const KernelArgs& args, const Coefficients& k, std::size_t i) {
+    Results<L> results;
+    const Bent<L> b = bend_batch<L>(args, k, i);
+    if constexpr ((streams & 1) != 0) {
+        results.position =
+            place<L>(k.matrix, k.offset, L::madd(b.rise, b.stretch, b.rho_c), b.rho_s, b.reach * b.stretch);
+    }
+    if constexpr ((streams & 6) != 0) {
+        const Jacobian<L> j = jacobian<L>(args, k, b, i);
+        if constexpr ((streams & 2) != 0) results.normal = bend_normals<L>(args, k, b, j, i);
+        if constexpr ((streams & 4) != 0) results.tangent = bend_tangents<L>(args, k, b, j, i);
+    }
+    return results;
+}
+
+/// Stores one batch, or the batches of one cache line: a line is written whole before the next one is begun,
+/// since the processor has few buffers for lines that are written past the cache.
+template <class L, bool streaming, std::size_t batches>
+void store(const Results<L> (&results)[batches], Vector<L> Results<L>::*part, float* const (&out)[3],
+           std::size_t i) {
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t b = 0; b < batches; ++b) {
+            const typename L::Vec value = (results[b].*part).component[c];
+            if constexpr (streaming) {
+                L::stream(out[c] + i + b * L::width, value);
+            } else {
+                L::store(out[c] + i + b * L::width, value);
+            }
         }
     }
 }
 
+// Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
+// what the arguments point to tell the compiler that no store changes them.
+template <class L, unsigned streams, bool streaming>
+[[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last) {
+    const KernelArgs args = arguments;
+    const Coefficients k = *arguments.coefficients;
+    constexpr std::size_t batches = streaming ? line_floats / L::width : 1;
+    for (std::size_t i = first; i < last; i += batches * L::width) {
+        Results<L> results[batches];
+        for (std::size_t b = 0; b < batches; ++b)
+            results[b] = deform_batch<L, streams>(args, k, i + b * L::width);
+        if constexpr ((streams & 1) != 0)
+            store<L, streaming>(results, &Results<L>::position, args.position_out, i);
+        if constexpr ((streams & 2) != 0)
+            store<L, streaming>(results, &Results<L>::normal, args.normal_out, i);
+        if constexpr ((streams & 4) != 0)
+            store<L, streaming>(results, &Results<L>::tangent, args.tangent_out, i);
+    }
+    if constexpr (streaming) L::fence();
+}
+
 template <class L>
 constexpr KernelSet kernel_set() {
-    return {L::width,
-            {nullptr, &bend_range<L, 1>, &bend_range<L, 2>, &bend_range<L, 3>, &bend_range<L, 4>,
-             &bend_range<L, 5>, &bend_range<L, 6>, &bend_range<L, 7>}};
+    return {
+        L::width,
+        {nullptr, &bend_range<L, 1, false>, &bend_range<L, 2, false>, &bend_range<L, 3, false>,
+         &bend_range<L, 4, false>, &bend_range<L, 5, false>, &bend_range<L, 6, false>,
+         &bend_range<L, 7, false>},
+        {nullptr, &bend_range<L, 1, true>, &bend_range<L, 2, true>, &bend_range<L, 3, true>,
+         &bend_range<L, 4, true>, &bend_range<L, 5, true>, &bend_range<L, 6, true>, &bend_range<L, 7, true>}};
 }
 
 }  // namespace goffer::bend

@@ -43,10 +43,15 @@ struct KernelArgs {
 /// Deforms [first, last), a multiple of the kernel's width; reads a whole batch from every multiple of it.
 using Kernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last);
 
-/// One instruction set's kernels, by the streams wanted (bit 0: positions, 1: normals, 2: tangents).
+/// One instruction set's kernels, by the streams wanted (bit 0: positions, 1: normals, 2: tangents). The
+/// streaming ones write whole cache lines past the cache: their outputs are aligned to lines at `first`, and
+/// the count is a multiple of a line's.
 struct KernelSet {
     std::size_t width;
     Kernel by_streams[8];
+    Kernel streaming[8];
 };
+
+constexpr std::size_t line_floats = 16;
 
 }  // namespace goffer::bend

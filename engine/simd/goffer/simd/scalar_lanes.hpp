@@ -15,6 +15,9 @@ struct ScalarLanes {
     static Vec set(float value) { return value; }
     static Vec load(const float* from) { return *from; }
     static void store(float* to, Vec value) { *to = value; }
+    /// Past the cache where the processor can; `to` aligned to the batch. Ordered by the next fence.
+    static void stream(float* to, Vec value) { *to = value; }
+    static void fence() {}
     /// a b + c
     static Vec madd(Vec a, Vec b, Vec c) { return a * b + c; }
     /// c - a b

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/job.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+/// The crowd: a frame's worth of instances, any mix of bodies and poses, in one call.
+///
+///     std::vector<bend::DeformJob> jobs = ...;  // kept from frame to frame; each frame sets the poses
+///     const bend::CrowdResult result = bend::run_parallel(bend::CrowdJob{.instances = jobs});
+///
+/// Neighbours in the span that share a body are deformed together, block by block, while the body's columns
+/// are in the first-level cache: keep instances sorted by body.
+
+namespace goffer::bend {
+
+/// How results leave the processor.
+enum class Stores : std::uint8_t {
+    automatic,  ///< past the cache when the whole crowd's output is larger than the cache, else into it
+    cached,     ///< into the cache: the next reader is this processor, soon
+    streaming,  ///< past the cache, whole lines at a time: the next reader is the GPU, or nobody for a while.
+                ///< Where a stream is interleaved, or its planes are not equally aligned, it is cached all
+                ///< the same.
+};
+
+/// Output bytes from which on `Stores::automatic` streams.
+inline constexpr std::size_t streaming_threshold = std::size_t{16} << 20;
+
+/// A crowd. A plain value; everything it points to is the caller's.
+struct CrowdJob {
+    std::span<const DeformJob> instances;  ///< outputs must not overlap
+    std::span<const std::uint8_t> active =
+        {};  ///< empty: all; else one per instance, 0: nothing is done for it
+    Stores stores = Stores::automatic;
+};
+
+/// What is wrong with a crowd.
+struct CrowdFault {
+    JobFault fault = JobFault::none;  ///< of the instance named below
+    std::size_t instance = 0;         ///< index of the first instance at fault
+    bool active_count = false;        ///< `active` is neither empty nor one per instance
+
+    [[nodiscard]] bool none() const noexcept { return fault == JobFault::none && !active_count; }
+};
+
+/// The first fault of `job`. A crowd without fault cannot make a run read or write out of bounds. Does not
+/// allocate. Thread-safe.
+[[nodiscard]] CrowdFault validate(const CrowdJob& job) noexcept;
+
+/// What a run did.
+struct CrowdResult {
+    std::size_t clamped = 0;  ///< active instances whose angle was beyond their body's and was clamped
+};
+
+/// Deforms all active instances on the calling thread. `job` must validate. Does not allocate, lock or log.
+/// Thread-safe where outputs do not overlap. The bits are those of run() for each instance.
+CrowdResult run(const CrowdJob& job) noexcept;
+
+/// The same with oneTBB in the caller's arena, split by vertices: a few large bodies and many small ones
+/// spread alike. The same bits. goffer allocates nothing; the scheduler's own pools fill in the first frames.
+CrowdResult run_parallel(const CrowdJob& job);
+
+}  // namespace goffer::bend
