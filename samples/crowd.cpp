@@ -3,8 +3,7 @@
 // A small crowd: one body, bound once, deformed for many instances in parallel, each with a pose of its own.
 // Writes crowd.png and crowd.glb into the given folder.
 
-#include <goffer/bend/job.hpp>
-#include <goffer/engine/parallel.hpp>
+#include <goffer/bend/crowd.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/view/picture.hpp>
@@ -35,15 +34,17 @@ glm::vec3 place_of(std::size_t instance) {
 
 std::vector<mesh::Records> deform_crowd(const bend::Body& body, const mesh::Records& rest) {
     std::vector<mesh::Records> crowd(columns * rows, rest);
-    parallel_ranges(crowd.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            bend::DeformJob job{.body = &body, .pose = pose_of(i)};
-            job.positions = interleaved<3>(&crowd[i].positions[0].x, crowd[i].positions.size());
-            job.normals = interleaved<3>(&crowd[i].normals[0].x, crowd[i].normals.size());
-            bend::run(job);
-            for (glm::vec3& position : crowd[i].positions) position += place_of(i);
-        }
-    });
+    std::vector<bend::DeformJob> jobs;  // an engine keeps these, and sets poses in every frame
+    for (mesh::Records& instance : crowd) {
+        bend::DeformJob job{.body = &body, .pose = pose_of(jobs.size())};
+        job.positions = interleaved<3>(&instance.positions[0].x, instance.positions.size());
+        job.normals = interleaved<3>(&instance.normals[0].x, instance.normals.size());
+        jobs.push_back(job);
+    }
+    bend::run_parallel(bend::CrowdJob{.instances = jobs});
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        for (glm::vec3& position : crowd[i].positions) position += place_of(i);
+    }
     return crowd;
 }
 

@@ -49,7 +49,9 @@ struct Request {
         : axis(parse_axis(options.axis)),
           pose{static_cast<float>(radians(options.angle)), static_cast<float>(radians(options.direction))},
           isa(parse_isa_option(options.isa)),
-          threads(options.threads > 0 ? options.threads : tbb::info::default_concurrency()) {
+          threads(tbb::info::default_concurrency()) {
+        // oneTBB has no more than the machine's anyway, and would say so on standard error.
+        if (options.threads > 0) threads = std::min(threads, options.threads);
         bind.folds = options.folds;
         bind.amplitude = parse_amplitude(options.amplitude);
         bind.profile = parse_profile(options.profile);
@@ -260,7 +262,7 @@ void add_bend(CLI::App& app, Action& action) {
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();
-    command->add_option("--threads", options->threads, "Threads, 0 for all")
+    command->add_option("--threads", options->threads, "Threads, at most the machine's; 0 for all of them")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command->add_option("--png", options->png, "Write a picture, 1280 x 960");

@@ -4,6 +4,7 @@
 #include <goffer/fit/geometry.hpp>
 
 #include <glm/vec3.hpp>
+
 #include <optional>
 #include <vector>
 
@@ -25,30 +26,30 @@ struct Cylinder {
 
 /// Fits a straight base cylinder to any triangle mesh.
 ///
-/// `axis`: the direction from base to tip (any length, any sign is kept), or nothing to find the mesh's long axis. A found
-/// axis is signed so that its largest component is positive. `zero` is the world axis (the one most nearly
-/// orthogonal to `axis`; x before y before z) made orthogonal to `axis`.
+/// `axis`: the direction from base to tip (any length, any sign is kept), or nothing to find the mesh's long
+/// axis. A found axis is signed so that its largest component is positive. `zero` is the world axis (the one
+/// most nearly orthogonal to `axis`; x before y before z) made orthogonal to `axis`.
 ///
-/// The result does not depend on how densely parts are tessellated, on duplicated vertices, nor on whether the ends
-/// are open or closed; it follows rotation, translation and uniform scale of the mesh.
-/// Throws Error: what `check` throws; a mesh without a long axis when none is given (says how to give one);
-/// an axis that is zero, not finite, or along which the mesh has no extent; a body thinner than float can carry.
-/// Pure; may be called from any thread.
+/// The result does not depend on how densely parts are tessellated, on duplicated vertices, nor on whether
+/// the ends are open or closed; it follows rotation, translation and uniform scale of the mesh. Throws Error:
+/// what `check` throws; a mesh without a long axis when none is given (says how to give one); an axis that is
+/// zero, not finite, or along which the mesh has no extent; a body thinner than float can carry. Pure; may be
+/// called from any thread.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt);
 
-/// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or radius
-/// not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
+/// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or
+/// radius not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
 void check(const Cylinder& cylinder);
 
-/// The most folds per half length that the mesh can carry: a fold needs 8 rows of vertices along z, so an edge
-/// may reach over at most L / (16 k). Decided by the triangles' extents along the axis, by area, the coarsest 2 %
-/// left out, so that it does not turn on one sliver. 0: too coarse for any wrinkle. Both arguments as `check`
-/// accepts them. Pure; may be called from any thread.
+/// The most folds per half length that the mesh can carry: a fold needs 8 rows of vertices along z, so an
+/// edge may reach over at most L / (16 k). Decided by the triangles' extents along the axis, by area, the
+/// coarsest 2 % left out, so that it does not turn on one sliver. 0: too coarse for any wrinkle. Both
+/// arguments as `check` accepts them. Pure; may be called from any thread.
 [[nodiscard]] int folds_capacity(const Geometry& geometry, const Cylinder& cylinder);
 
-/// The number of folds to use when nobody says: folds about as long as the radius, k = round(L / (2 r)), at most
-/// what the mesh can carry; none where it can carry less than half of that, since fewer and so deeper folds would
-/// reach past the axis. At least 0. Pure; may be called from any thread.
+/// The number of folds to use when nobody says: folds about as long as the radius, k = round(L / (2 r)), at
+/// most what the mesh can carry; none where it can carry less than half of that, since fewer and so deeper
+/// folds would reach past the axis. At least 0. Pure; may be called from any thread.
 [[nodiscard]] int sensible_folds(const Cylinder& cylinder, int capacity);
 
 /// Unit normals, one per vertex: angle-weighted over the triangles that meet at the vertex's place, so that
