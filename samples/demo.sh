@@ -14,7 +14,7 @@ run() {
 mkdir -p out
 run goffer_caterpillar out/caterpillar.glb
 run goffer inspect out/caterpillar.glb
-run goffer bend out/caterpillar.glb --angle 90 -o out/bent.glb --png out/bent.png --ghost
+run goffer bend out/caterpillar.glb --angle 90 --direction 90 -o out/bent.glb --png out/bent.png --ghost
 run goffer_crowd_sample out/caterpillar.glb out
 
 cat <<END

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+
+/// Outputs that cannot be written and fits that cannot be used: exit code 1, one line, nothing written.
+
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+struct Place {
+    Folder folder;
+    json fit;
+
+    Place() {
+        fit = report(folder, {"inspect", base(folder)});
+        for (const std::string name : {"out.ply", "out.png", "out.json"}) folder.write(name, "kept");
+        std::filesystem::create_directory(folder / "sub.ply");
+        std::filesystem::create_directory(folder / "sub.png");
+    }
+
+    void refuse_bend(const Words& words, const Words& pieces) const {
+        refused(folder, 1, Words{"bend", "base.ply"} + words, pieces);
+    }
+    void refuse_fit(const std::string& text, const Words& pieces) const {
+        folder.write("fit.json", text);
+        refuse_bend({"-o", "out.ply", "--fit", "fit.json"}, Words{"fit.json"} + pieces);
+    }
+    void refuse_field(const char* name, const json& value, const Words& pieces) const {
+        json changed = fit;
+        changed["fit"][name] = value;
+        CAPTURE(name);
+        refuse_fit(changed.dump(), pieces);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bad files: outputs that cannot be written") {
+    const Place place;
+    for (const std::string name : {"no/out.ply", "base.ply/out.ply", "sub.ply", "/proc/out.ply"}) {
+        place.refuse_bend({"-o", name}, {name});
+        place.refuse_bend({"-o", "new.ply", "--json", name}, {name});
+    }
+    for (const std::string name : {"no/out.png", "base.ply/out.png", "sub.png", "/proc/out.png"})
+        place.refuse_bend({"-o", "out.ply", "--png", name}, {name});
+    refused(place.folder, 1, {"inspect", "base.ply", "--json", "no/out.json"}, {"no/out.json", "folder"});
+    place.refuse_bend({"-o", "out.ply", "--json", "/dev/full"}, {"/dev/full", "not a regular file"});
+}
+
+TEST_CASE("bad files: one output that fails keeps the others from being written") {
+    const Place place;
+    place.refuse_bend({"-o", "out.ply", "--png", "out.png", "--json", "no/out.json"}, {"no/out.json"});
+    place.refuse_bend({"-o", "new.ply", "--png", "new.png", "--json", "no/out.json"}, {"no/out.json"});
+    place.refuse_bend({"-o", "new.ply", "--png", "no/new.png", "--json", "new.json"}, {"no/new.png"});
+    place.refuse_bend({"-o", "no/new.ply", "--png", "new.png", "--json", "new.json"}, {"no/new.ply"});
+}
+
+TEST_CASE("bad files: fits that are none") {
+    const Place place;
+    place.refuse_bend({"-o", "out.ply", "--fit", "none.json"}, {"none.json", "goffer inspect --json"});
+    place.refuse_bend({"-o", "out.ply", "--fit", "sub.ply"}, {"sub.ply", "goffer inspect --json"});
+    for (const std::string text : {"", "garbage", "{", "[]", "{}", "null", "3", "{\"fit\": []}",
+                                   "{\"fit\": {}}", "\xff\xfe\x00\x01", "{\"fit\": {\"origin\": [0, 0]}}"}) {
+        CAPTURE(text);
+        place.refuse_fit(text, {"not a fit", "goffer inspect --json"});
+    }
+    place.refuse_fit(place.fit.dump().substr(0, 200), {"not a fit"});
+    place.refuse_fit(std::string(100000, '['), {"not a fit"});
+}
+
+TEST_CASE("bad files: fits with a field that cannot be") {
+    const Place place;
+    place.refuse_field("radius", -1, {"radius", "-1"});
+    place.refuse_field("radius", 0, {"radius"});
+    place.refuse_field("radius", "wide", {"not a fit"});
+    place.refuse_field("radius", nullptr, {"not a fit"});
+    place.refuse_field("length", -10, {"length", "-10"});
+    place.refuse_field("axis", {0, 0, 0}, {"axis"});
+    place.refuse_field("axis", {0, 0, 7}, {"axis"});
+    place.refuse_field("axis", {1, 0}, {"not a fit"});
+    place.refuse_field("axis", {1, 0, 0}, {"zero", "orthogonal"});
+    place.refuse_field("zero", {0, 0, 0}, {"zero"});
+    place.refuse_field("origin", {"a", "b", "c"}, {"not a fit"});
+    place.refuse_field("rest_angle", 30, {"rest_angle"});
+}
+
+TEST_CASE("bad files: the fit of another mesh") {
+    const Place place;
+    place.refuse_field("length", 5, {"vertex", "outside", "0..5"});
+    place.refuse_field("length", 1e-30, {"vertex", "outside", "0..1e-30"});
+    place.refuse_field("origin", {0, 0, 3}, {"vertex", "z = -3", "outside"});
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+
+/// Wrong usage: exit code 2, one line, nothing written.
+
+using namespace goffer::test;
+
+namespace {
+
+/// A model and one of every output, to be left as they are.
+struct Place {
+    Folder folder;
+
+    Place() {
+        base(folder);
+        for (const std::string name : {"out.ply", "out.png", "out.json"}) folder.write(name, "kept");
+    }
+
+    void refuse_bend(const Words& words, const Words& pieces) const {
+        refused(folder, 2, Words{"bend", "base.ply", "-o", "out.ply"} + words, pieces);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bad words: angles") {
+    const Place place;
+    for (const std::string option : {"--angle", "--direction"}) {
+        for (const std::string word :
+             {"nan", "1e9", "-1e9", "inf", "-inf", "1e400", "abc", "", "90deg", "9 0"}) {
+            place.refuse_bend({option, word}, {option, std::string("'") + word + "'", "degrees", "36000"});
+        }
+    }
+    place.refuse_bend({"--angle"}, {"--angle"});
+    place.refuse_bend({"--angle", "1", "--angle", "2"}, {"--angle"});
+}
+
+TEST_CASE("bad words: axes") {
+    const Place place;
+    for (const std::string word : {"0,0,0", "nan,0,1", "inf,0,0"}) {
+        place.refuse_bend({"--axis", word}, {"--axis", word, "three finite numbers"});
+        refused(place.folder, 2, {"inspect", "base.ply", "--axis", word}, {"--axis", word});
+    }
+    for (const std::string word : {"1,2", "1,2,3,4", "1,,2", "foo", "", "xy", "--", "1 2 3"}) {
+        place.refuse_bend({std::string("--axis=") + word}, {"--axis"});
+        refused(place.folder, 2, {"inspect", "base.ply", std::string("--axis=") + word}, {"--axis"});
+    }
+}
+
+TEST_CASE("bad words: numbers and names out of range") {
+    const Place place;
+    for (const std::string word : {"65", "-1", "2.5", "many", ""})
+        place.refuse_bend({"--folds", word}, {"--folds"});
+    for (const std::string word : {"-1", "1025", "x"}) place.refuse_bend({"--threads", word}, {"--threads"});
+    place.refuse_bend({"--amplitude", "mesh"}, {"--amplitude", "mesh", "paper", "area", "none"});
+    place.refuse_bend({"--profile", "round"}, {"--profile", "round", "damped", "smooth"});
+    place.refuse_bend({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});
+}
+
+TEST_CASE("bad words: what does not go together") {
+    const Place place;
+    place.refuse_bend({"--ghost"}, {"--ghost", "--png"});
+    place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
+}
+
+TEST_CASE("bad words: no or another command, unknown options, too many words") {
+    const Place place;
+    refused(place.folder, 2, {}, {"subcommand is required", "goffer --help"});
+    refused(place.folder, 2, {"fold", "base.ply"}, {"no command 'fold'", "goffer --help"});
+    refused(place.folder, 2, {"bend"}, {"required"});
+    refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required"});
+    refused(place.folder, 2, {"inspect"}, {"model is required"});
+    refused(place.folder, 2, {"base"}, {"--output is required"});
+    refused(place.folder, 2, {"inspect", "base.ply", "other.ply"}, {"other.ply"});
+    place.refuse_bend({"--wave"}, {"--wave"});
+}
+
+TEST_CASE("bad words: endings") {
+    const Place place;
+    for (const std::string name : {"out", "out.xyz", ".ply.", "out.fbx", ""}) {
+        refused(place.folder, 2, {"bend", "base.ply", "-o", name}, {"-o: ", name, ".glb"});
+    }
+    place.refuse_bend({"--png", "out.jpg"}, {"--png", "out.jpg", ".png"});
+}
+
+TEST_CASE("bad words: an output in the place of another file of the command") {
+    const Place place;
+    std::filesystem::create_symlink("base.ply", place.folder / "link.ply");
+    std::filesystem::create_directory(place.folder / "sub");
+    place.folder.write("fit.json", "{}");
+    for (const std::string name : {"base.ply", "./base.ply", "sub/../base.ply", "link.ply"}) {
+        refused(place.folder, 2, {"bend", "base.ply", "-o", name}, {"-o", name, "MODEL"});
+        refused(place.folder, 2, {"inspect", "base.ply", "--json", name}, {"--json", name, "MODEL"});
+    }
+    place.refuse_bend({"--json", "base.ply"}, {"--json", "base.ply", "MODEL"});
+    place.refuse_bend({"--json", "out.ply"}, {"--json", "out.ply", "-o"});
+    place.refuse_bend({"--json", "new.png", "--png", "sub/../new.png"}, {"new.png", "--png", "--json"});
+    place.refuse_bend({"--json", "fit.json", "--fit", "fit.json"}, {"--json", "fit.json", "--fit"});
+    refused(place.folder, 2, {"base", "-o", "new.ply", "--json", "new.ply"}, {"--json", "new.ply", "-o"});
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "support/models.hpp"
+
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace goffer;
+using namespace goffer::test;
+
+namespace {
+
+void check_same_mesh(const mesh::Mesh& bent, const mesh::Mesh& rest) {
+    CHECK(bent.positions.size() == rest.positions.size());
+    CHECK(bent.corners == rest.corners);
+    CHECK(bent.faces == rest.faces);
+    CHECK(bent.parts.size() == rest.parts.size());
+    CHECK(bent.uvs == rest.uvs);
+    CHECK(bent.colors == rest.colors);
+}
+
+/// At 30, 90 and the largest angle, into the format that it came in.
+void check_bends(const char* name, const char* axis = "auto") {
+    const std::filesystem::path file = model(name);
+    if (file.empty()) return;
+    CAPTURE(name);
+    const Folder folder;
+    const mesh::Mesh rest = mesh::load(file);
+    for (const std::string angle : {"30", "90", "36000"}) {
+        CAPTURE(angle);
+        const auto all = report(folder, {"bend", file.string(), "-o", name, "--axis", axis, "--angle", angle,
+                                         "--direction", "25"});
+        CHECK(all["vertices"] == rest.positions.size());
+        CHECK(all["triangles"] == mesh::triangle_count(rest));
+        CHECK(std::isfinite(all["area_after"].get<double>()));
+        CHECK(all["clamped"] == (std::abs(std::stod(angle)) > all["max_angle"].get<double>()));
+        check_same_mesh(mesh::load(folder / name), rest);  // which refuses what is not finite
+    }
+    CHECK(folder.files() == 1);
+}
+
+}  // namespace
+
+TEST_CASE("models: OBJ") {
+    check_bends("banana.obj");
+    check_bends("blub_open.obj");
+    check_bends("softball.obj", "z");
+}
+
+TEST_CASE("models: a large OBJ") {
+    check_bends("koala.obj");
+}
+
+TEST_CASE("models: PLY") {
+    check_bends("fuze.ply");
+}
+
+TEST_CASE("models: STL") {
+    check_bends("lh_trochanterfemur.stl");
+    check_bends("l_arista.stl");
+}
+
+TEST_CASE("models: GLB and glTF") {
+    check_bends("cushion_02.glb");
+    check_bends("insect_leg.glb");
+    check_bends("log_01.glb");
+    check_bends("wine_bottle.glb");
+    check_bends("WaterBottle.gltf");
+}
+
+TEST_CASE("models: a ball has no long axis, the way out is named") {
+    const std::filesystem::path file = model("softball.obj");
+    if (file.empty()) return;
+    const Folder folder;
+    folder.write("out.obj", "kept");
+    refused(folder, 1, {"inspect", file.string()}, {"softball.obj", "no long axis", "--axis x|y|z"});
+    refused(folder, 1, {"bend", file.string(), "-o", "out.obj"}, {"softball.obj", "no long axis", "--axis"});
+    CHECK(run(folder, {"inspect", file.string(), "--axis", "x"}).code == 0);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "support/models.hpp"
+
+#include <doctest/doctest.h>
+#include <png.h>
+
+#include <algorithm>
+
+using namespace goffer::test;
+
+namespace {
+
+/// The brightness of every pixel.
+std::vector<png_byte> grey_of(const std::filesystem::path& file) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    REQUIRE(png_image_begin_read_from_file(&image, file.string().c_str()) != 0);
+    CHECK(image.width == 1280);
+    CHECK(image.height == 960);
+    image.format = PNG_FORMAT_GRAY;
+    std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
+    REQUIRE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0);
+    return pixels;
+}
+
+/// The solid's share of the picture: what is darker than the background and a ghost on it.
+double covered(const std::filesystem::path& file) {
+    const std::vector<png_byte> pixels = grey_of(file);
+    const auto solid = std::ranges::count_if(pixels, [](png_byte p) { return p < 190; });
+    return static_cast<double>(solid) / static_cast<double>(pixels.size());
+}
+
+/// Bends a model, takes its picture, and checks that the model fills a good part of it; how much.
+double check_picture(const char* name, const Words& more = {}) {
+    const std::filesystem::path file = model(name);
+    if (file.empty()) return 0;
+    CAPTURE(name);
+    const Folder folder;
+    const std::string picture = "é ö.PNG";
+    (void)report(folder, Words{"bend", file.string(), "-o", name, "--png", picture} + more);
+    CHECK(folder.files() == 2);
+    const double share = covered(folder / picture);
+    CAPTURE(share);
+    CHECK(share > 0.05);
+    CHECK(share < 0.9);
+    return share;
+}
+
+}  // namespace
+
+TEST_CASE("pictures: OBJ") {
+    check_picture("banana.obj");
+}
+
+TEST_CASE("pictures: PLY, with a ghost there is more to frame") {
+    const double plain = check_picture("fuze.ply");
+    CHECK(check_picture("fuze.ply", {"--ghost"}) < 0.9 * plain);
+}
+
+TEST_CASE("pictures: STL, tiny units") {
+    check_picture("lh_trochanterfemur.stl");
+}
+
+TEST_CASE("pictures: several primitives, materials and nodes") {
+    check_picture("insect_leg.glb");
+}
+
+TEST_CASE("pictures: glTF") {
+    check_picture("WaterBottle.gltf");
+}

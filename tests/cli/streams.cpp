@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+
+/// What goes to which stream, names of files, and help.
+
+using namespace goffer::test;
+
+TEST_CASE("streams: nothing on standard error where all is well") {
+    const Folder folder;
+    base(folder);
+    well(folder, {"inspect", "base.ply"});
+    const std::string said = well(folder, {"bend", "base.ply", "-o", "out.ply"});
+    CHECK(said.find('\r') == said.npos);
+    CHECK(said.find('\033') == said.npos);
+    CHECK(said.find("area change") != said.npos);
+}
+
+TEST_CASE("streams: help and version") {
+    const Folder folder;
+    for (const Words& words :
+         {Words{"--help"}, {"-h"}, {"base", "--help"}, {"inspect", "-h"}, {"bend", "--help"}}) {
+        CHECK(well(folder, words).find("Usage: goffer") != std::string::npos);
+    }
+    const std::string help = well(folder, {"bend", "--help"});
+    for (const std::string option :
+         {"--output", "--angle", "--direction", "--folds", "--amplitude", "--profile", "--axis", "--fit",
+          "--isa", "--threads", "--png", "--ghost", "--json"}) {
+        CAPTURE(option);
+        CHECK(help.find(option) != help.npos);
+    }
+    CHECK(well(folder, {"--version"}).starts_with("0."));
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("streams: a full standard output is an error") {
+    const Folder folder;
+    base(folder);
+    if (!std::filesystem::exists("/dev/full")) return;
+    for (const std::string more : {"", " --json -"}) {
+        const std::string line = std::string("'") + GOFFER_COMMAND + "' inspect '" +
+                                 (folder / "base.ply").string() + "'" + more + " >/dev/full 2>/dev/null";
+        CHECK(std::system(line.c_str()) != 0);
+    }
+}
+
+TEST_CASE("streams: names with spaces, quotes and letters of any script, relative and dotted paths") {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "a b/ümläut 日本");
+    const std::string name = "a b/ümläut 日本/it's ö.ply";
+    base(folder, name);
+    CHECK(report(folder, {"inspect", name})["file"] == name);
+    well(folder, {"bend", name, "-o", "./a b/../a b/out é.gltf", "--json", "a b/日本.json"});
+    for (const std::string file : {"a b/out é.gltf", "a b/日本.json"}) {
+        CAPTURE(file);
+        CHECK(std::filesystem::file_size(folder / file) > 500);
+    }
+}
+
+TEST_CASE("streams: a name that is not UTF-8 leaves the report JSON") {
+    const Folder folder;
+    const std::string name = "\xff\xfe.ply";
+    base(folder, name);
+    CHECK(report(folder, {"inspect", name})["vertices"] == 10304);
+}
+
+TEST_CASE("streams: an output replaces a file and follows a link") {
+    const Folder folder;
+    base(folder);
+    folder.write("old.ply", "old");
+    std::filesystem::create_symlink("old.ply", folder / "link.ply");
+    well(folder, {"bend", "base.ply", "-o", "link.ply"});
+    CHECK(std::filesystem::is_symlink(folder / "link.ply"));
+    CHECK(bytes_of(folder / "old.ply").starts_with("ply"));
+    CHECK(folder.files() == 3);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+
+// What a game does: bends a body with goffer::bend alone. Its one vertex is the tip of the outer line, which
+// lies at (L / alpha - r, 0, L / alpha) after a quarter turn.
+
+#include <goffer/bend/job.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+int main() {
+    constexpr double length = 10;
+    constexpr double radius = 1;
+    constexpr double quarter = std::numbers::pi / 2;
+    const goffer::bend::RestVertex tip{.beta = std::numbers::pi, .z = length, .rho = radius};
+    const goffer::bend::RestVector outwards{.rho = 1};
+
+    goffer::bend::BodyInput input;
+    input.length = length;
+    input.radius = radius;
+    input.max_angle = 3;
+    input.vertices = {&tip, 1};
+    input.normals = {&outwards, 1};
+    const auto body = goffer::bend::Body::make(input);
+    if (!body) return std::puts(describe(goffer::bend::Body::check(input)).data()), 1;
+
+    float position[3] = {};
+    goffer::bend::DeformJob job{.body = &*body, .pose = {.angle = static_cast<float>(quarter)}};
+    job.positions = goffer::interleaved<3>(position, 1);
+    if (const auto fault = validate(job); fault != goffer::bend::JobFault::none)
+        return std::puts(describe(fault).data()), 1;
+    run(job);
+
+    std::printf("the tip is at %g %g %g\n", position[0], position[1], position[2]);
+    const double away =
+        std::hypot(position[0] - (length / quarter - radius), position[1], position[2] - length / quarter);
+    return away <= 5e-6 * length ? 0 : 1;
+}
