@@ -68,5 +68,10 @@ int run(int argc, char** argv) {
 }  // namespace goffer::cli
 
 int main(int argc, char** argv) {
-    return goffer::cli::run(argc, argv);
+    try {
+        return goffer::cli::run(argc, argv);
+    } catch (...) {  // not even a message could be put together
+        std::fputs("goffer: not enough memory for this; use a smaller mesh\n", stderr);
+        return 1;
+    }
 }
