@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace goffer::bend {
 namespace {
@@ -60,13 +61,44 @@ void write_vectors(Columns& columns, std::size_t first, std::span<const RestVect
 void write_vertices(Columns& columns, const BodyInput& input) {
     for (std::size_t i = 0; i < input.vertices.size(); ++i) {
         const RestVertex& v = input.vertices[i];
-        columns[Body::cos_half_beta][i] = static_cast<float>(std::cos(v.beta / 2));
-        columns[Body::sin_half_beta][i] = static_cast<float>(std::sin(v.beta / 2));
+        columns[Body::cos_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::cos(v.beta / 2));
+        columns[Body::sin_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::sin(v.beta / 2));
         columns[Body::rho][i] = static_cast<float>(v.rho);
+        columns[Body::lift][i] = static_cast<float>(v.wrinkle * v.rho);
         columns[Body::height][i] = static_cast<float>(v.z / input.length - 0.5);
         columns[Body::wrinkle][i] = static_cast<float>(v.wrinkle);
         columns[Body::slope][i] = static_cast<float>(v.slope);
     }
+}
+
+BodyFrame frame_of(const BodyInput& input) {
+    BodyFrame frame;
+    for (int row = 0; row < 3; ++row) {
+        for (int c = 0; c < 3; ++c) frame.axes[c][row] = static_cast<float>(input.axes[c][row]);
+        frame.origin[row] = static_cast<float>(input.origin[row]);
+    }
+    frame.length = static_cast<float>(input.length);
+    frame.radius = static_cast<float>(input.radius);
+    return frame;
+}
+
+Bands bands_of(const Columns& columns) {
+    Bands bands;
+    const std::span<const float> heights = columns[Body::height];
+    const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+    bands.lowest = *lowest;
+    bands.highest = *highest;
+    bands.rho.fill(-1);
+    const float per_height =
+        *highest > *lowest ? static_cast<float>(Bands::count) / (*highest - *lowest) : 0.0f;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const auto place = static_cast<std::size_t>((heights[i] - *lowest) * per_height);
+        const std::size_t band = std::min(place, Bands::count - 1);
+        bands.rho[band] = std::max(bands.rho[band], columns[Body::rho][i]);
+        bands.lift[band] = std::max(bands.lift[band], columns[Body::lift][i]);
+        bands.dip[band] = std::max(bands.dip[band], -columns[Body::lift][i]);
+    }
+    return bands;
 }
 
 }  // namespace
@@ -134,6 +166,8 @@ std::optional<Body> Body::make(const BodyInput& input) {
     body.radius_ = input.radius;
     body.max_angle_ = static_cast<float>(input.max_angle);
     write_vertices(body.columns_, input);
+    body.frame_ = frame_of(input);
+    body.bands_ = bands_of(body.columns_);
     write_vectors(body.columns_, normal_rho, input.normals);
     if (tangents) {
         write_vectors(body.columns_, tangent_rho, input.tangents);

@@ -24,12 +24,14 @@ struct Place {
 };
 
 bool is_active(const CrowdJob& job, std::size_t instance) noexcept {
-    return job.active.empty() || job.active[instance] != 0;
+    return (job.visible.empty() || job.visible[instance] != 0) &&
+           (job.changed.empty() || job.changed[instance] != 0);
 }
 
-std::size_t output_floats(const DeformJob& job) noexcept {
-    return (job.positions.empty() ? 0u : 3u) + (job.normals.empty() ? 0u : 3u) +
-           (job.tangents.empty() ? 0u : 4u);
+std::size_t vertex_bytes(const DeformJob& job) noexcept {
+    return (job.positions.empty() ? 0u : 12u) + (job.normals.empty() ? 0u : 12u) +
+           (job.tangents.empty() ? 0u : 16u) + (job.packed.empty() ? 0u : 12u) +
+           (job.previous_positions.empty() ? 0u : 12u);
 }
 
 struct Size {
@@ -43,7 +45,7 @@ Size size_of(const CrowdJob& job) noexcept {
         if (!is_active(job, i)) continue;
         const std::size_t count = job.instances[i].body->vertex_count();
         size.vertices += count;
-        size.bytes += count * output_floats(job.instances[i]) * sizeof(float);
+        size.bytes += count * vertex_bytes(job.instances[i]);
     }
     return size;
 }
@@ -53,45 +55,43 @@ bool streams(const CrowdJob& job, std::size_t bytes) noexcept {
            (job.stores == Stores::automatic && bytes >= streaming_threshold);
 }
 
-/// Instances of one body that are deformed together, block by block.
+/// Passes over instances of one body that are run together, block by block.
 class Group {
 public:
     [[nodiscard]] bool takes(const DeformJob& job) const noexcept {
-        return count_ == 0 || (count_ < group_size && jobs_[0]->body == job.body);
+        return count_ == 0 || (count_ + pass_count <= capacity && passes_[0].job->body == job.body);
     }
 
     /// Returns whether the pose was clamped.
-    bool add(const DeformJob& job) noexcept {
-        bool clamped = false;
-        coefficients_[count_] = prepare(*job.body, job.pose, clamped);
-        jobs_[count_++] = &job;
-        return clamped;
+    bool add(const DeformJob& job, bool leave_bounds) noexcept {
+        const PreparedJob prepared = prepare(job, passes_ + count_, leave_bounds);
+        count_ += prepared.passes;
+        return prepared.clamped;
     }
 
     /// Deforms the vertices [first, last) of all, and empties the group.
     void run(std::size_t first, std::size_t last, bool streaming) noexcept {
         for (; first < last; first += block_vertices) {
             const std::size_t end = std::min(first + block_vertices, last);
-            for (std::size_t i = 0; i < count_; ++i)
-                run_prepared(*jobs_[i], coefficients_[i], first, end, streaming);
+            for (std::size_t i = 0; i < count_; ++i) run_pass(passes_[i], first, end, streaming);
         }
         count_ = 0;
     }
 
     void run(bool streaming) noexcept {
-        if (count_ != 0) run(0, jobs_[0]->body->vertex_count(), streaming);
+        if (count_ != 0) run(0, passes_[0].job->body->vertex_count(), streaming);
     }
 
 private:
-    Coefficients coefficients_[group_size];
-    const DeformJob* jobs_[group_size];
+    static constexpr std::size_t capacity = group_size + pass_count - 1;
+    PreparedPass passes_[capacity];
     std::size_t count_ = 0;
 };
 
-/// Deforms what lies between two places. An instance counts as clamped where its first vertex lies.
-std::size_t run_between(const CrowdJob& job, Place from, Place to, bool streaming) noexcept {
+/// Deforms what lies between two places. An instance counts where its first vertex lies.
+CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool streaming) noexcept {
     Group group;
-    std::size_t clamped = 0;
+    CrowdResult result;
     const std::size_t end = to.vertex == 0 ? to.instance : to.instance + 1;
     for (std::size_t i = from.instance; i < end; ++i) {
         if (!is_active(job, i)) continue;
@@ -101,44 +101,75 @@ std::size_t run_between(const CrowdJob& job, Place from, Place to, bool streamin
         const std::size_t last = i == to.instance ? to.vertex : count;
         const bool whole = first == 0 && last == count;
         if (!whole || !group.takes(instance)) group.run(streaming);
-        const bool was_clamped = group.add(instance);
-        clamped += first == 0 && was_clamped ? 1 : 0;
+        const bool clamped = group.add(instance, first == 0);
+        if (first == 0) {
+            ++result.deformed;
+            result.clamped += clamped ? 1 : 0;
+        }
         if (!whole) group.run(first, last, streaming);
     }
     group.run(streaming);
-    return clamped;
+    return result;
 }
 
-/// Cuts the crowd's active vertices into `count` pieces of about the same size. Places[i] begins piece i.
-void cut(const CrowdJob& job, std::size_t vertices, std::size_t count, Place* places) noexcept {
-    std::size_t before = 0;
-    std::size_t piece = 0;
-    for (std::size_t i = 0; i < job.instances.size(); ++i) {
+/// Where piece `piece` of `pieces` begins, for a crowd of `vertices` active vertices. Places are asked for in
+/// order: `cursor` is where the last one was found.
+struct Cursor {
+    Place place = {};
+    std::size_t before = 0;  // active vertices before place.instance
+};
+
+Place begin_of(const CrowdJob& job, std::size_t vertices, std::size_t piece, std::size_t pieces,
+               Cursor& cursor) noexcept {
+    const std::size_t wanted = piece * vertices / pieces;
+    if (piece == pieces) return {job.instances.size(), 0};
+    for (std::size_t i = cursor.place.instance; i < job.instances.size(); ++i) {
         if (!is_active(job, i)) continue;
         const std::size_t size = job.instances[i].body->vertex_count();
-        for (; piece < count && piece * vertices / count < before + size; ++piece) {
+        if (wanted < cursor.before + size) {
             // On whole lines, so that no two pieces stream into the same one.
-            places[piece] = {i, (piece * vertices / count - before) / line_floats * line_floats};
+            cursor.place = {i, (wanted - cursor.before) / line_floats * line_floats};
+            return cursor.place;
         }
-        before += size;
+        cursor.before += size;
+        cursor.place.instance = i + 1;
     }
-    for (; piece <= count; ++piece) places[piece] = {job.instances.size(), 0};
+    return {job.instances.size(), 0};
 }
 
 }  // namespace
 
+std::string_view describe(const CrowdFault& fault) noexcept {
+    if (fault.visible_count) return "visible: neither empty nor one per instance";
+    if (fault.changed_count) return "changed: neither empty nor one per instance";
+    return describe(fault.fault);
+}
+
 CrowdFault validate(const CrowdJob& job) noexcept {
-    if (!job.active.empty() && job.active.size() != job.instances.size()) return {JobFault::none, 0, true};
-    for (std::size_t i = 0; i < job.instances.size(); ++i) {
+    CrowdFault result;
+    const std::size_t count = job.instances.size();
+    result.visible_count = !job.visible.empty() && job.visible.size() != count;
+    result.changed_count = !job.changed.empty() && job.changed.size() != count;
+    if (!result.none()) return result;
+    for (std::size_t i = 0; i < count; ++i) {
         if (!is_active(job, i)) continue;
-        const JobFault fault = validate(job.instances[i]);
-        if (fault != JobFault::none) return {fault, i, false};
+        result.fault = validate(job.instances[i]);
+        result.instance = i;
+        if (!result.none()) return result;
     }
     return {};
 }
 
 CrowdResult run(const CrowdJob& job) noexcept {
-    return {run_between(job, {0, 0}, {job.instances.size(), 0}, streams(job, size_of(job).bytes))};
+    return run_between(job, {0, 0}, {job.instances.size(), 0}, streams(job, size_of(job).bytes));
+}
+
+CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces) noexcept {
+    const Size size = size_of(job);
+    Cursor cursor;
+    const Place from = begin_of(job, size.vertices, piece, pieces, cursor);
+    const Place to = begin_of(job, size.vertices, piece + 1, pieces, cursor);
+    return run_between(job, from, to, streams(job, size.bytes));
 }
 
 CrowdResult run_parallel(const CrowdJob& job) {
@@ -146,15 +177,20 @@ CrowdResult run_parallel(const CrowdJob& job) {
     const bool streaming = streams(job, size.bytes);
     const std::size_t pieces = std::clamp<std::size_t>(size.vertices / least_vertices, 1, most_pieces);
     Place places[most_pieces + 1];
-    cut(job, size.vertices, pieces, places);
+    Cursor cursor;
+    for (std::size_t piece = 0; piece <= pieces; ++piece) {
+        places[piece] = begin_of(job, size.vertices, piece, pieces, cursor);
+    }
+    std::atomic<std::size_t> deformed = 0;
     std::atomic<std::size_t> clamped = 0;
     parallel_ranges(pieces, 1, [&](std::size_t first, std::size_t last) {
         for (; first < last; ++first) {
-            clamped.fetch_add(run_between(job, places[first], places[first + 1], streaming),
-                              std::memory_order_relaxed);
+            const CrowdResult part = run_between(job, places[first], places[first + 1], streaming);
+            deformed.fetch_add(part.deformed, std::memory_order_relaxed);
+            clamped.fetch_add(part.clamped, std::memory_order_relaxed);
         }
     });
-    return {clamped.load()};
+    return {deformed.load(), clamped.load()};
 }
 
 }  // namespace goffer::bend

@@ -29,6 +29,32 @@ JobFault check(const Stream<N>& stream, std::size_t vertices, const StreamFaults
     return stream.count < vertices ? faults.count : JobFault::none;
 }
 
+JobFault check(const PackedStream& stream, std::size_t vertices) noexcept {
+    if (reinterpret_cast<std::uintptr_t>(stream.first) % alignof(float) != 0) return JobFault::packed_first;
+    if (stream.stride < sizeof(PackedVertex) || stream.stride % sizeof(float) != 0) {
+        return JobFault::packed_stride;
+    }
+    return stream.count < vertices ? JobFault::packed_count : JobFault::none;
+}
+
+bool finite(const glm::mat4x3& matrix) noexcept {
+    for (int c = 0; c < 4; ++c) {
+        for (int row = 0; row < 3; ++row) {
+            if (!std::isfinite(matrix[c][row])) return false;
+        }
+    }
+    return true;
+}
+
+JobFault check_previous(const DeformJob& job) noexcept {
+    if (!std::isfinite(job.previous_pose.angle)) return JobFault::previous_pose_angle;
+    if (!std::isfinite(job.previous_pose.direction)) return JobFault::previous_pose_direction;
+    if (!finite(job.previous_transform)) return JobFault::previous_transform;
+    return check(job.previous_positions, job.body->vertex_count(),
+                 {JobFault::previous_positions_count, JobFault::previous_positions_stride,
+                  JobFault::previous_positions_component});
+}
+
 }  // namespace
 
 std::string_view describe(JobFault fault) noexcept {
@@ -42,7 +68,7 @@ std::string_view describe(JobFault fault) noexcept {
         case JobFault::pose_direction:
             return "pose.direction: not finite";
         case JobFault::no_streams:
-            return "positions, normals, tangents: all empty, nothing to write";
+            return "positions, normals, tangents, packed, previous_positions: all empty, nothing to write";
         case JobFault::positions_count:
             return "positions.count: below the body's vertex_count()";
         case JobFault::positions_stride:
@@ -65,6 +91,26 @@ std::string_view describe(JobFault fault) noexcept {
             return "tangents: asked for, but the body was bound without tangents";
         case JobFault::isa:
             return "isa: not built, or not supported by this processor";
+        case JobFault::transform:
+            return "transform: not finite";
+        case JobFault::packed_count:
+            return "packed.count: below the body's vertex_count()";
+        case JobFault::packed_stride:
+            return "packed.stride: below 12, or not a multiple of 4";
+        case JobFault::packed_first:
+            return "packed.first: not aligned to 4 bytes";
+        case JobFault::previous_pose_angle:
+            return "previous_pose.angle: not finite";
+        case JobFault::previous_pose_direction:
+            return "previous_pose.direction: not finite";
+        case JobFault::previous_transform:
+            return "previous_transform: not finite";
+        case JobFault::previous_positions_count:
+            return "previous_positions.count: below the body's vertex_count()";
+        case JobFault::previous_positions_stride:
+            return "previous_positions.stride: not a multiple of 4, or below 4 (12 for interleaved)";
+        case JobFault::previous_positions_component:
+            return "previous_positions.component: null, or not aligned to 4 bytes";
     }
     return "unknown fault";
 }
@@ -73,27 +119,33 @@ JobFault validate(const DeformJob& job) noexcept {
     if (job.body == nullptr) return JobFault::body;
     if (!std::isfinite(job.pose.angle)) return JobFault::pose_angle;
     if (!std::isfinite(job.pose.direction)) return JobFault::pose_direction;
-    if (streams_wanted(job) == 0) return JobFault::no_streams;
+    if (!finite(job.transform)) return JobFault::transform;
+    const bool packed = !job.packed.empty();
+    const bool previous = !job.previous_positions.empty();
+    if (streams_wanted(job) == 0 && !packed && !previous) return JobFault::no_streams;
     const std::size_t vertices = job.body->vertex_count();
-    JobFault fault =
+    const JobFault faults[] = {
         check(job.positions, vertices,
-              {JobFault::positions_count, JobFault::positions_stride, JobFault::positions_component});
-    if (fault != JobFault::none) return fault;
-    fault = check(job.normals, vertices,
-                  {JobFault::normals_count, JobFault::normals_stride, JobFault::normals_component});
-    if (fault != JobFault::none) return fault;
-    fault = check(job.tangents, vertices,
-                  {JobFault::tangents_count, JobFault::tangents_stride, JobFault::tangents_component});
-    if (fault != JobFault::none) return fault;
+              {JobFault::positions_count, JobFault::positions_stride, JobFault::positions_component}),
+        check(job.normals, vertices,
+              {JobFault::normals_count, JobFault::normals_stride, JobFault::normals_component}),
+        check(job.tangents, vertices,
+              {JobFault::tangents_count, JobFault::tangents_stride, JobFault::tangents_component}),
+        packed ? check(job.packed, vertices) : JobFault::none,
+        previous ? check_previous(job) : JobFault::none,
+    };
+    for (const JobFault fault : faults) {
+        if (fault != JobFault::none) return fault;
+    }
     if (!job.tangents.empty() && !job.body->has_tangents()) return JobFault::body_without_tangents;
     return runs_here(job.isa) ? JobFault::none : JobFault::isa;
 }
 
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept {
-    DeformResult result;
-    const Coefficients coefficients = prepare(*job.body, job.pose, result.clamped);
-    run_prepared(job, coefficients, first, last, false);
-    return result;
+    PreparedPass passes[pass_count];
+    const PreparedJob prepared = prepare(job, passes, first == 0);
+    for (std::size_t i = 0; i < prepared.passes; ++i) run_pass(passes[i], first, last, false);
+    return {prepared.clamped};
 }
 
 DeformResult run(const DeformJob& job) noexcept {
@@ -101,12 +153,12 @@ DeformResult run(const DeformJob& job) noexcept {
 }
 
 DeformResult run_parallel(const DeformJob& job, std::size_t grain) {
-    DeformResult result;
-    const Coefficients coefficients = prepare(*job.body, job.pose, result.clamped);
+    PreparedPass passes[pass_count];
+    const PreparedJob prepared = prepare(job, passes, true);
     parallel_ranges(job.body->vertex_count(), grain, [&](std::size_t first, std::size_t last) {
-        run_prepared(job, coefficients, first, last, false);
+        for (std::size_t i = 0; i < prepared.passes; ++i) run_pass(passes[i], first, last, false);
     });
-    return result;
+    return {prepared.clamped};
 }
 
 }  // namespace goffer::bend

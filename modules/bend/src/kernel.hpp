@@ -3,11 +3,12 @@
 
 #include "kernel_args.hpp"
 
-/// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes or
-/// XsimdLanes<Arch>.
+/// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
+/// XsimdLanes<Arch>, or two of them in step.
 ///
-/// h = cos((beta - theta) / 2) and h' = sin((beta - theta) / 2) come from stored half angles by a rotation,
-/// and give c = cos(beta - theta) = 2 h^2 - 1, s = 2 h h', and sqrt(q) = sqrt(2 kappa) |h| without a root. At
+/// Half angles are stored, and used here, times the root of two: h = sqrt(2) cos((beta - theta) / 2) and
+/// h' = sqrt(2) sin((beta - theta) / 2) come from the columns by a rotation, and give T = h^2 = 1 + c with
+/// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root. At
 /// alpha = 0 every term that bends vanishes exactly.
 
 namespace goffer::bend {
@@ -19,16 +20,29 @@ typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
     return sum;
 }
 
+/// The same for an even N, even and odd powers side by side: one operation more, half the wait.
+template <class L, std::size_t N>
+typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec x) {
+    const typename L::Vec xx = x * x;
+    typename L::Vec even = L::set(coefficients[N - 2]);
+    typename L::Vec odd = L::set(coefficients[N - 1]);
+    for (std::size_t n = N - 2; n > 0; n -= 2) {
+        even = L::madd(even, xx, L::set(coefficients[n - 2]));
+        odd = L::madd(odd, xx, L::set(coefficients[n - 1]));
+    }
+    return L::madd(odd, x, even);
+}
+
 /// What positions, normals and tangents of one batch share.
 template <class L>
 struct Bent {
     using Vec = typename L::Vec;
-    Vec h, h_prime, t;      // t = h^2
-    Vec c, s;               // cos and sin of beta - theta
-    Vec amplitude, growth;  // A; rho' / rho = 1 + A shape / rho
-    Vec rho_c, rho_s;       // rho' c, rho' s
-    Vec rise, reach;        // L (1 - cos delta) / alpha, L sin delta / alpha
-    Vec stretch;            // (1 - kappa) - alpha / L rho' c: d(arc) / dz
+    Vec h, h_prime, t;  // t = T = h^2
+    Vec c, s;           // cos and sin of beta - theta
+    Vec amplitude;      // A
+    Vec rho_c, rho_s;   // rho' c, rho' s
+    Vec rise, reach;    // L (1 - cos delta) / alpha, L sin delta / alpha
+    Vec stretch;        // (1 - kappa) - alpha / L rho' c: d(arc) / dz
 };
 
 template <class L>
@@ -43,12 +57,11 @@ Bent<L> bend_batch(const KernelArgs& args, const Coefficients& k, std::size_t i)
     b.h = L::madd(sin_half, st, cos_half * ct);
     b.h_prime = L::nmadd(cos_half, st, sin_half * ct);
     b.t = b.h * b.h;
-    b.c = b.t + b.t - L::set(1.0f);
-    b.s = (b.h + b.h) * b.h_prime;
+    b.c = b.t - L::set(1.0f);
+    b.s = b.h * b.h_prime;
 
-    b.amplitude = L::abs(b.h) * polynomial<L>(k.amplitude, b.t);
-    b.growth = L::madd(b.amplitude, L::load(args.wrinkle + i), L::set(1.0f));
-    const Vec rho = L::load(args.rho + i) * b.growth;
+    b.amplitude = L::abs(b.h) * long_polynomial<L>(k.amplitude, b.t);
+    const Vec rho = L::madd(b.amplitude, L::load(args.lift + i), L::load(args.rho + i));
     b.rho_c = rho * b.c;
     b.rho_s = rho * b.s;
 
@@ -81,16 +94,17 @@ Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typ
     for (int row = 0; row < 3; ++row) {
         typename L::Vec sum =
             offset ? L::madd(L::set(matrix[row]), x, L::set(offset[row])) : L::set(matrix[row]) * x;
-        sum = L::madd(L::set(matrix[3 + row]), y, sum);
-        result.component[row] = L::madd(L::set(matrix[6 + row]), z, sum);
+        sum = L::madd(L::set(matrix[4 + row]), y, sum);
+        result.component[row] = L::madd(L::set(matrix[8 + row]), z, sum);
     }
     return result;
 }
 
-/// A vector given in the bent frame (n, b, t) at the vertex, to unit length and to model space.
+/// A vector given in the bent frame (n, b, t) at the vertex, in the streams' space and of no particular
+/// length.
 template <class L>
-Vector<L> place_direction(const Coefficients& k, const Bent<L>& b, typename L::Vec n, typename L::Vec bt,
-                          typename L::Vec t) {
+Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent<L>& b, typename L::Vec n,
+                          typename L::Vec bt, typename L::Vec t) {
     using Vec = typename L::Vec;
     const Vec cosine = L::nmadd(L::set(k.curvature), b.rise, L::set(1.0f));
     const Vec sine = L::set(k.curvature) * b.reach;
@@ -98,15 +112,23 @@ Vector<L> place_direction(const Coefficients& k, const Bent<L>& b, typename L::V
     const Vec x = L::madd(p, cosine, t * sine);
     const Vec y = L::madd(b.c, bt, b.s * n);
     const Vec z = L::nmadd(p, sine, t * cosine);
-    // Last, so that the roundings of sines and cosines go out as well. A vector that the map squeezed to
-    // nothing stays zero: the bound keeps its root finite.
+    return place<L>(matrix, nullptr, x, y, z);
+}
+
+/// To unit length. Last of all, so that a transform's scale and all roundings go out with it. A vector that
+/// the map squeezed to nothing stays zero: the bound keeps its root finite.
+template <class L>
+Vector<L> normalised(const Vector<L>& v) {
+    using Vec = typename L::Vec;
+    const auto& [x, y, z] = v.component;
     const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::set(1e-30f));
-    return place<L>(k.matrix, nullptr, x * inverse, y * inverse, z * inverse);
+    return {{x * inverse, y * inverse, z * inverse}};
 }
 
 /// The Jacobian's entries in the bent frame (DESIGN's 2.3): rows (a, b, d), (0, growth, 0), (0, 0, stretch).
 template <class L>
 struct Jacobian {
+    typename L::Vec growth;  // rho' / rho
     typename L::Vec a, b, d;
 };
 
@@ -115,12 +137,14 @@ Jacobian<L> jacobian(const KernelArgs& args, const Coefficients& k, const Bent<L
     using Vec = typename L::Vec;
     // A has a corner where h changes sign, on the outer line; across it the two slopes are blended
     // (crease_width).
-    const Vec sign = L::clamp(bent.h * L::set(1000.0f), L::set(-1.0f), L::set(1.0f));
-    const Vec slope = sign * bent.h_prime * polynomial<L>(k.amplitude_slope, bent.t);
+    const Vec sign = L::clamp(bent.h * L::set(707.10678f), L::set(-1.0f), L::set(1.0f));
+    const Vec slope = sign * bent.h_prime * long_polynomial<L>(k.amplitude_slope, bent.t);
+    const Vec wrinkle = L::load(args.wrinkle + i);
+    const Vec growth = L::madd(bent.amplitude, wrinkle, L::set(1.0f));
     // Below half the radius the depth weight grows like rho, so the wrinkle stretches rho as it stretches the
     // circle.
-    return {L::where_less(L::load(args.rho + i), L::set(k.half_radius), bent.growth, L::set(1.0f)),
-            slope * L::load(args.wrinkle + i), bent.amplitude * L::load(args.slope + i)};
+    return {growth, L::where_less(L::load(args.rho + i), L::set(k.half_radius), growth, L::set(1.0f)),
+            slope * wrinkle, bent.amplitude * L::load(args.slope + i)};
 }
 
 template <class L>
@@ -130,10 +154,10 @@ Vector<L> bend_normals(const KernelArgs& args, const Coefficients& k, const Bent
     const Vec rho = L::load(args.normal[0] + i);
     const Vec beta = L::load(args.normal[1] + i);
     const Vec z = L::load(args.normal[2] + i);
-    const Vec n = b.growth * b.stretch * rho;
+    const Vec n = j.growth * b.stretch * rho;
     const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
-    const Vec t = b.growth * L::nmadd(j.d, rho, j.a * z);
-    return place_direction<L>(k, b, n, bt, t);
+    const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
+    return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
 }
 
 template <class L>
@@ -144,7 +168,26 @@ Vector<L> bend_tangents(const KernelArgs& args, const Coefficients& k, const Ben
     const Vec beta = L::load(args.tangent[1] + i);
     const Vec z = L::load(args.tangent[2] + i);
     const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
-    return place_direction<L>(k, b, n, b.growth * beta, b.stretch * z);
+    return place_direction<L>(k, k.matrix, b, n, j.growth * beta, b.stretch * z);
+}
+
+/// PackedVertex's three words. `position` is in steps of the bounds, 0..65535; `normal` of any length.
+template <class L>
+Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
+    using Vec = typename L::Vec;
+    const Vec zero = L::set(0.0f), one = L::set(1.0f), most = L::set(65535.0f), steps = L::set(32767.0f);
+    const auto step = [&](Vec value) { return L::clamp(value, zero, most); };
+    const auto& [x, y, z] = normal.component;
+    // Octahedral: onto |x| + |y| + |z| = 1, the lower half folded outwards over the upper.
+    const Vec root = L::rsqrt(L::abs(x) + L::abs(y) + L::abs(z) + L::set(1e-30f));
+    const Vec u = x * root * root;
+    const Vec v = y * root * root;
+    const Vec folded_u = L::copysign(one - L::abs(v), u);
+    const Vec folded_v = L::copysign(one - L::abs(u), v);
+    return {{L::pair_words(step(position.component[0]), step(position.component[1])),
+             L::pair_words(step(position.component[2]), zero),
+             L::pair_words(L::where_less(z, zero, folded_u, u) * steps,
+                           L::where_less(z, zero, folded_v, v) * steps)}};
 }
 
 /// What is wanted of one batch; only the wanted parts are set and used.
@@ -153,7 +196,7 @@ struct Results {
     Vector<L> position, normal, tangent;
 };
 
-template <class L, unsigned streams>
+template <class L, unsigned streams, bool packed>
 Results<L> deform_batch(const KernelArgs& args, const Coefficients& k, std::size_t i) {
     Results<L> results;
     const Bent<L> b = bend_batch<L>(args, k, i);
@@ -166,56 +209,69 @@ Results<L> deform_batch(const KernelArgs& args, const Coefficients& k, std::size
         if constexpr ((streams & 2) != 0) results.normal = bend_normals<L>(args, k, b, j, i);
         if constexpr ((streams & 4) != 0) results.tangent = bend_tangents<L>(args, k, b, j, i);
     }
+    if constexpr (packed) {
+        results.position = pack<L>(results.position, results.normal);
+    } else {
+        if constexpr ((streams & 2) != 0) results.normal = normalised<L>(results.normal);
+        if constexpr ((streams & 4) != 0) results.tangent = normalised<L>(results.tangent);
+    }
     return results;
 }
 
-/// Stores one batch, or the batches of one cache line: a line is written whole before the next one is begun,
-/// since the processor has few buffers for lines that are written past the cache.
-template <class L, bool streaming, std::size_t batches>
+/// Stores the batches of one line, or the first `count` values of it. A line is written whole before the next
+/// one is begun, since the processor has few buffers for lines that are written past the cache.
+template <class L, std::size_t batches>
 void store(const Results<L> (&results)[batches], Vector<L> Results<L>::*part, float* const (&out)[3],
-           std::size_t i) {
+           std::size_t i, std::size_t count, bool streaming) {
     for (int c = 0; c < 3; ++c) {
         for (std::size_t b = 0; b < batches; ++b) {
             const typename L::Vec value = (results[b].*part).component[c];
-            if constexpr (streaming) {
-                L::stream(out[c] + i + b * L::width, value);
+            float* to = out[c] + i + b * L::width;
+            if (count < line_floats) [[unlikely]] {
+                const std::size_t before = b * L::width;
+                L::store_first(to, value, count < before ? 0 : count - before);
+            } else if (streaming) {
+                L::stream(to, value);
             } else {
-                L::store(out[c] + i + b * L::width, value);
+                L::store(to, value);
             }
         }
     }
 }
 
-// Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
-// what the arguments point to tell the compiler that no store changes them.
-template <class L, unsigned streams, bool streaming>
-[[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last) {
-    const KernelArgs args = arguments;
-    const Coefficients k = *arguments.coefficients;
-    constexpr std::size_t batches = streaming ? line_floats / L::width : 1;
-    for (std::size_t i = first; i < last; i += batches * L::width) {
-        Results<L> results[batches];
-        for (std::size_t b = 0; b < batches; ++b)
-            results[b] = deform_batch<L, streams>(args, k, i + b * L::width);
-        if constexpr ((streams & 1) != 0)
-            store<L, streaming>(results, &Results<L>::position, args.position_out, i);
-        if constexpr ((streams & 2) != 0)
-            store<L, streaming>(results, &Results<L>::normal, args.normal_out, i);
-        if constexpr ((streams & 4) != 0)
-            store<L, streaming>(results, &Results<L>::tangent, args.tangent_out, i);
-    }
-    if constexpr (streaming) L::fence();
+/// Vertices from `first` to where `plane` begins a cache line. (A template, like all here: see
+/// kernel_args.hpp.)
+template <class L>
+std::size_t to_line(const float* plane, std::size_t first) {
+    return (0 - reinterpret_cast<std::size_t>(plane + first) / sizeof(float)) % line_floats;
 }
 
-template <class L>
-constexpr KernelSet kernel_set() {
-    return {
-        L::width,
-        {nullptr, &bend_range<L, 1, false>, &bend_range<L, 2, false>, &bend_range<L, 3, false>,
-         &bend_range<L, 4, false>, &bend_range<L, 5, false>, &bend_range<L, 6, false>,
-         &bend_range<L, 7, false>},
-        {nullptr, &bend_range<L, 1, true>, &bend_range<L, 2, true>, &bend_range<L, 3, true>,
-         &bend_range<L, 4, true>, &bend_range<L, 5, true>, &bend_range<L, 6, true>, &bend_range<L, 7, true>}};
+// Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
+// what the arguments point to tell the compiler that no store changes them.
+template <class L, unsigned streams, bool packed = false>
+[[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last,
+                                 bool streaming) {
+    const KernelArgs args = arguments;
+    const Coefficients k = *arguments.coefficients;
+    constexpr std::size_t batches = line_floats / L::width;
+    const float* plane = (streams & 1) != 0   ? args.position_out[0]
+                         : (streams & 2) != 0 ? args.normal_out[0]
+                                              : args.tangent_out[0];
+    std::size_t next = streaming ? first + to_line<L>(plane, first) : first + line_floats;
+    if (next == first) next += line_floats;
+    for (std::size_t i = first; i < last; i = next, next += line_floats) {
+        const std::size_t count = (next < last ? next : last) - i;
+        Results<L> results[batches];
+        for (std::size_t b = 0; b < batches; ++b)
+            results[b] = deform_batch<L, streams, packed>(args, k, i + b * L::width);
+        if constexpr ((streams & 1) != 0)
+            store<L>(results, &Results<L>::position, args.position_out, i, count, streaming);
+        if constexpr ((streams & 2) != 0 && !packed)
+            store<L>(results, &Results<L>::normal, args.normal_out, i, count, streaming);
+        if constexpr ((streams & 4) != 0)
+            store<L>(results, &Results<L>::tangent, args.tangent_out, i, count, streaming);
+    }
+    if (streaming) L::fence();
 }
 
 }  // namespace goffer::bend

@@ -9,15 +9,15 @@
 namespace goffer::bend {
 
 constexpr std::size_t amplitude_terms = 8;  ///< wrinkle_degree + 1
-constexpr std::size_t arc_terms = 5;
+constexpr std::size_t arc_terms = 4;
 
 /// One instance's numbers. The map (DESIGN's 2.1 to 2.3, eq 2-6) is evaluated in the frame of the arc's
-/// middle, where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in model space by `matrix`
-/// and `offset`.
+/// middle, where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in the streams' space by
+/// `matrix` and `offset`.
 struct Coefficients {
     float cos_half_direction, sin_half_direction;  ///< of theta / 2
-    float amplitude[amplitude_terms];              ///< A = |h| sum amplitude[n] h^(2n)
-    float amplitude_slope[amplitude_terms];        ///< dA/dbeta = sign(h) h' sum amplitude_slope[n] h^(2n)
+    float amplitude[amplitude_terms];              ///< A = |h| sum amplitude[n] T^n
+    float amplitude_slope[amplitude_terms];        ///< dA/dbeta = sign(h) h' sum amplitude_slope[n] T^n
     float rise[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum rise[n] v^(2n), v = z / L - 1/2
     float reach[arc_terms];  ///< L sin delta / alpha = v sum reach[n] v^(2n)
     int doublings;           ///< rise and reach are for alpha / 2^doublings
@@ -25,14 +25,16 @@ struct Coefficients {
     float curvature;         ///< alpha / L
     float one_minus_kappa;
     float half_radius;  ///< depth weight: inner parts lie below it
-    float matrix[9];    ///< columns: middle frame's n, b, t in model space
-    float offset[3];    ///< the arc's middle in model space
+    float matrix[12];   ///< columns of four, the last unused: middle frame's n, b, t in the streams' space
+    float offset[4];    ///< the arc's middle in the streams' space
+    float normal_matrix[12];  ///< as `matrix`: its cofactors, to scale and facing outwards
+    float handedness;         ///< -1 where `matrix` mirrors, else 1
 };
 
 /// Rest columns and output streams of one kernel call. Streams are planar; index i of a stream is vertex i.
 struct KernelArgs {
     const Coefficients* coefficients;
-    const float *cos_half_beta, *sin_half_beta, *rho, *height, *wrinkle, *slope;
+    const float *cos_half_beta, *sin_half_beta, *rho, *lift, *height, *wrinkle, *slope;
     const float* normal[3];
     const float* tangent[3];
     float* position_out[3];
@@ -40,18 +42,23 @@ struct KernelArgs {
     float* tangent_out[3];
 };
 
-/// Deforms [first, last), a multiple of the kernel's width; reads a whole batch from every multiple of it.
-using Kernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last);
-
-/// One instruction set's kernels, by the streams wanted (bit 0: positions, 1: normals, 2: tangents). The
-/// streaming ones write whole cache lines past the cache: their outputs are aligned to lines at `first`, and
-/// the count is a multiple of a line's.
-struct KernelSet {
-    std::size_t width;
-    Kernel by_streams[8];
-    Kernel streaming[8];
-};
-
+/// Vertices that a kernel deforms at once: as many as there are floats in a cache line.
 constexpr std::size_t line_floats = 16;
+
+/// Deforms [first, last); reads whole lines of vertices from `first` on. `streaming`: whole cache lines are
+/// written past the cache; the planes written are then equally aligned.
+using Kernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last, bool streaming);
+
+/// Writes `lines` times 16 records of N floats, gathered from planes that are `plane_stride` floats apart.
+/// `streaming`: past the cache; `to` is then aligned to a line.
+using Interleave = void (*)(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
+                            bool streaming);
+
+/// One instruction set's kernels.
+struct KernelSet {
+    Kernel by_streams[8];       ///< bit 0: positions, 1: normals, 2: tangents
+    Kernel packed;              ///< PackedVertex's three words into position_out, as if they were floats
+    Interleave interleave[11];  ///< by floats a record; null where there is none
+};
 
 }  // namespace goffer::bend

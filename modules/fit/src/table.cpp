@@ -69,9 +69,10 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
         const Chebyshev profile_in_t(0, 1, static_cast<int>(bend::wrinkle_degree) + 1,
                                      [&](double t) { return scale * q_part(two_kappa * t); });
         const std::vector<double> coefficients = profile_in_t.monomials();
-        std::transform(coefficients.begin(), coefficients.end(),
-                       table.rows[static_cast<std::size_t>(i)].begin(),
-                       [](double value) { return static_cast<float>(value); });
+        bend::WrinkleRow& row = table.rows[static_cast<std::size_t>(i)];
+        for (std::size_t n = 0; n < row.size(); ++n) {  // from t = T / 2 to T
+            row[n] = static_cast<float>(std::ldexp(coefficients[n], -static_cast<int>(n)));
+        }
     }
     return table;
 }

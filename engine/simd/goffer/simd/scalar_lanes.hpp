@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 /// The operations that kernels are written in, on one float. XsimdLanes says the same with an xsimd batch.
 
@@ -18,6 +20,10 @@ struct ScalarLanes {
     /// Past the cache where the processor can; `to` aligned to the batch. Ordered by the next fence.
     static void stream(float* to, Vec value) { *to = value; }
     static void fence() {}
+    /// The first `count` lanes alone; all of them where there are fewer.
+    static void store_first(float* to, Vec value, std::size_t count) {
+        if (count != 0) *to = value;
+    }
     /// a b + c
     static Vec madd(Vec a, Vec b, Vec c) { return a * b + c; }
     /// c - a b
@@ -28,6 +34,15 @@ struct ScalarLanes {
     static Vec rsqrt(Vec a) { return 1.0f / std::sqrt(a); }
     /// a < b ? yes : no
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) { return a < b ? yes : no; }
+    static Vec copysign(Vec magnitude, Vec sign) { return std::copysign(magnitude, sign); }
+    /// A word of two 16-bit halves as if it were a float: both rounded to the nearest integer, of which the
+    /// low 16 bits are taken; `low` in -32768..65535, `high` likewise.
+    static Vec pair_words(Vec low, Vec high) {
+        const auto bits = [](Vec value) {
+            return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::nearbyint(value)));
+        };
+        return std::bit_cast<float>((bits(low) & 0xffffu) | bits(high) << 16);
+    }
 };
 
 }  // namespace goffer::simd

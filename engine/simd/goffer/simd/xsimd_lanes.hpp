@@ -4,7 +4,10 @@
 #include <xsimd/xsimd.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <type_traits>
+#include <utility>
 
 /// The operations that kernels are written in, on a batch of floats. Only a kernel's file for one instruction
 /// set includes this. All is a template on the architecture, so that nothing compiled with that set's flags
@@ -40,6 +43,22 @@ struct XsimdLanes {
         _mm_sfence();
 #endif
     }
+    static void store_first(float* to, Vec value, std::size_t count) {
+        if (count >= width) return store(to, value);
+        alignas(64) float lanes[width];
+        store(lanes, value);
+        // In pieces of known size: a copy of any size is a call that costs more than all the batch.
+        std::size_t done = 0;
+        const auto piece = [&](auto size) {
+            if ((count & size) == 0) return;
+            std::memcpy(to + done, lanes + done, size * sizeof(float));
+            done += size;
+        };
+        if constexpr (width > 8) piece(std::integral_constant<std::size_t, 8>());
+        if constexpr (width > 4) piece(std::integral_constant<std::size_t, 4>());
+        piece(std::integral_constant<std::size_t, 2>());
+        piece(std::integral_constant<std::size_t, 1>());
+    }
     static Vec madd(Vec a, Vec b, Vec c) {
         return xsimd::fma(a, b, c);
     }
@@ -63,6 +82,27 @@ struct XsimdLanes {
 
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) {
         return xsimd::select(a < b, yes, no);
+    }
+    static Vec copysign(Vec magnitude, Vec sign) {
+        return xsimd::copysign(magnitude, sign);
+    }
+    static Vec pair_words(Vec low, Vec high) {
+        using Words = xsimd::batch<std::int32_t, Arch>;
+        const Words words =
+            (xsimd::nearbyint_as_int(low) & Words(0xffff)) | (xsimd::nearbyint_as_int(high) << 16);
+        return xsimd::bitwise_cast<Vec>(words);
+    }
+
+    /// Lane l of the result is lane Picks::at(l) of `a`, or of `b` where that is `width` and more.
+    template <class Picks>
+    static Vec shuffle(Vec a, Vec b) {
+        return shuffle<Picks>(a, b, std::make_index_sequence<width>());
+    }
+
+private:
+    template <class Picks, std::size_t... lane>
+    static Vec shuffle(Vec a, Vec b, std::index_sequence<lane...>) {
+        return Vec(__builtin_shufflevector(a.data, b.data, Picks::at(static_cast<int>(lane))...));
     }
 };
 

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -67,6 +68,25 @@ enum class BodyFault : std::uint8_t {
 /// One line on `fault`, in static storage. Thread-safe.
 [[nodiscard]] std::string_view describe(BodyFault fault) noexcept;
 
+/// A body's frame and size in float: what an instance's set-up reads.
+struct BodyFrame {
+    float axes[3][4] = {};  ///< e1, e2, e3, each followed by a 0
+    float origin[4] = {};   ///< centre of the base end, followed by a 0
+    float length = 1;
+    float radius = 1;
+};
+
+/// What bounds() needs to know of the vertices in a band of z: one of Bands::count between the lowest and the
+/// highest vertex.
+struct Bands {
+    static constexpr std::size_t count = 8;
+    float lowest = 0;                 ///< v = z / L - 1/2 where the first band begins
+    float highest = 0;                ///< and where the last one ends
+    std::array<float, count> rho{};   ///< largest distance from the axis, model units; below 0: no vertex
+    std::array<float, count> lift{};  ///< largest g w, at least 0
+    std::array<float, count> dip{};   ///< largest -g w, at least 0
+};
+
 /// An immutable body. Move-only; share it by reference among jobs and threads. All functions are thread-safe.
 ///
 /// Vertices keep the order they were given in: vertex i of the body is vertex i of every output stream.
@@ -74,11 +94,12 @@ class Body {
 public:
     /// The columns that kernels read, one value per vertex.
     enum Column : std::size_t {
-        cos_half_beta,
-        sin_half_beta,
+        cos_half_beta,  ///< sqrt(2) cos(beta / 2)
+        sin_half_beta,  ///< sqrt(2) sin(beta / 2)
         rho,
-        height,
-        wrinkle,
+        lift,     ///< g w: rho' = rho + amplitude * lift
+        height,   ///< z / L - 1/2
+        wrinkle,  ///< g w / rho
         slope,
         normal_rho,
         normal_beta,
@@ -107,11 +128,14 @@ public:
     [[nodiscard]] const glm::dvec3& origin() const noexcept { return origin_; }
     [[nodiscard]] const glm::dmat3& axes() const noexcept { return axes_; }
     [[nodiscard]] const WrinkleTable& table() const noexcept { return table_; }
+    /// origin(), axes(), length() and radius(), rounded.
+    [[nodiscard]] const BodyFrame& frame() const noexcept { return frame_; }
+    /// The vertices' extent, band by band.
+    [[nodiscard]] const Bands& bands() const noexcept { return bands_; }
     /// Bytes of memory that the body holds.
     [[nodiscard]] std::size_t bytes() const noexcept;
 
-    /// A column, aligned and padded as Columns says. `height` is z / L - 1/2. Tangent columns exist only
-    /// where has_tangents().
+    /// A column, aligned and padded as Columns says. Tangent columns exist only where has_tangents().
     [[nodiscard]] std::span<const float> column(Column column) const noexcept { return columns_[column]; }
 
 private:
@@ -119,6 +143,8 @@ private:
 
     Columns columns_;
     WrinkleTable table_;
+    Bands bands_;
+    BodyFrame frame_;
     glm::dvec3 origin_{0};
     glm::dmat3 axes_{1};
     double length_ = 1;

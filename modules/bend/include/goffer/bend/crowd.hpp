@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 /// The crowd: a frame's worth of instances, any mix of bodies and poses, in one call.
 ///
@@ -22,8 +23,8 @@ enum class Stores : std::uint8_t {
     automatic,  ///< past the cache when the whole crowd's output is larger than the cache, else into it
     cached,     ///< into the cache: the next reader is this processor, soon
     streaming,  ///< past the cache, whole lines at a time: the next reader is the GPU, or nobody for a while.
-                ///< Where a stream is interleaved, or its planes are not equally aligned, it is cached all
-                ///< the same.
+                ///< Only where whole lines are written: planes that are equally aligned, or records
+                ///< without gaps. What else there is is cached all the same.
 };
 
 /// Output bytes from which on `Stores::automatic` streams.
@@ -32,8 +33,11 @@ inline constexpr std::size_t streaming_threshold = std::size_t{16} << 20;
 /// A crowd. A plain value; everything it points to is the caller's.
 struct CrowdJob {
     std::span<const DeformJob> instances;  ///< outputs must not overlap
-    std::span<const std::uint8_t> active =
-        {};  ///< empty: all; else one per instance, 0: nothing is done for it
+    /// Empty: all; else one per instance. 0: not seen in this frame, nothing is done for it. (See bounds().)
+    std::span<const std::uint8_t> visible = {};
+    /// Empty: all; else one per instance. 0: its pose and its outputs are as they were, nothing is done for
+    /// it.
+    std::span<const std::uint8_t> changed = {};
     Stores stores = Stores::automatic;
 };
 
@@ -41,10 +45,17 @@ struct CrowdJob {
 struct CrowdFault {
     JobFault fault = JobFault::none;  ///< of the instance named below
     std::size_t instance = 0;         ///< index of the first instance at fault
-    bool active_count = false;        ///< `active` is neither empty nor one per instance
+    bool visible_count = false;       ///< `visible` is neither empty nor one per instance
+    bool changed_count = false;       ///< `changed` likewise
 
-    [[nodiscard]] bool none() const noexcept { return fault == JobFault::none && !active_count; }
+    [[nodiscard]] bool none() const noexcept {
+        return fault == JobFault::none && !visible_count && !changed_count;
+    }
 };
+
+/// One line on `fault`, in static storage; of an instance's fault, what describe(fault.fault) says.
+/// Thread-safe.
+[[nodiscard]] std::string_view describe(const CrowdFault& fault) noexcept;
 
 /// The first fault of `job`. A crowd without fault cannot make a run read or write out of bounds. Does not
 /// allocate. Thread-safe.
@@ -52,15 +63,22 @@ struct CrowdFault {
 
 /// What a run did.
 struct CrowdResult {
-    std::size_t clamped = 0;  ///< active instances whose angle was beyond their body's and was clamped
+    std::size_t deformed = 0;  ///< instances that were visible and changed
+    std::size_t clamped = 0;   ///< of these, instances whose angle was beyond their body's and was clamped
 };
 
-/// Deforms all active instances on the calling thread. `job` must validate. Does not allocate, lock or log.
-/// Thread-safe where outputs do not overlap. The bits are those of run() for each instance.
+/// Deforms all visible, changed instances on the calling thread. `job` must validate. Does not allocate, lock
+/// or log. Thread-safe where outputs do not overlap. The bits are those of run() for each instance.
 CrowdResult run(const CrowdJob& job) noexcept;
 
 /// The same with oneTBB in the caller's arena, split by vertices: a few large bodies and many small ones
 /// spread alike. The same bits. goffer allocates nothing; the scheduler's own pools fill in the first frames.
 CrowdResult run_parallel(const CrowdJob& job);
+
+/// Deforms piece `piece` of `pieces`, piece < pieces, on the calling thread: what any scheduler can call,
+/// each piece once, in any order, from any thread. Pieces are about equal in vertices; an instance may lie in
+/// several. Finding a piece takes a look at every instance: some tens of pieces are enough. The same bits;
+/// the results of all pieces add up to those of run().
+CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces) noexcept;
 
 }  // namespace goffer::bend

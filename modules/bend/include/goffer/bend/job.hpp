@@ -2,9 +2,13 @@
 #pragma once
 
 #include <goffer/bend/body.hpp>
+#include <goffer/bend/packed.hpp>
 #include <goffer/bend/pose.hpp>
 #include <goffer/engine/isa.hpp>
 #include <goffer/engine/streams.hpp>
+
+#include <glm/mat4x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,13 +25,32 @@
 
 namespace goffer::bend {
 
+/// An axis-aligned box.
+struct Bounds {
+    glm::vec3 low{0};
+    glm::vec3 high{0};
+};
+
 /// Inputs and outputs of one deformation. A plain value; everything it points to is the caller's.
 struct DeformJob {
     const Body* body = nullptr;  ///< must outlive the run
     Pose pose = {};              ///< both numbers finite
-    Stream3 positions = {};      ///< model space, model units; empty: not wanted
-    Stream3 normals = {};        ///< model space, unit length; empty: not wanted
-    Stream4 tangents = {};  ///< model space, unit length, w is the rest tangent's; needs a body with tangents
+    /// From model space to the space of all outputs: an instance's model matrix, if vertices are wanted in
+    /// world space. Any finite matrix; scale, shear and mirroring included. Costs nothing per vertex.
+    glm::mat4x3 transform{1};
+
+    Stream3 positions = {};    ///< empty: not wanted
+    Stream3 normals = {};      ///< unit length; empty: not wanted
+    Stream4 tangents = {};     ///< unit length, w the rest tangent's (negated where `transform` mirrors);
+                               ///< needs a body with tangents
+    PackedStream packed = {};  ///< position and normal in 12 bytes, in bounds(job)
+    Bounds* bounds = nullptr;  ///< null, or where a run leaves bounds(job)
+
+    /// Positions at another pose, the last frame's for motion vectors. Costs as much as positions do.
+    Stream3 previous_positions = {};
+    Pose previous_pose = {};            ///< both numbers finite
+    glm::mat4x3 previous_transform{1};  ///< as `transform`
+
     Isa isa = Isa::automatic;  ///< kernels to use
 };
 
@@ -49,6 +72,16 @@ enum class JobFault : std::uint8_t {
     tangents_component,
     body_without_tangents,
     isa,
+    transform,
+    packed_count,
+    packed_stride,
+    packed_first,
+    previous_pose_angle,
+    previous_pose_direction,
+    previous_transform,
+    previous_positions_count,
+    previous_positions_stride,
+    previous_positions_component,
 };
 
 /// One line on `fault`, in static storage. Thread-safe.

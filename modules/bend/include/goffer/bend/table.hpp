@@ -9,15 +9,15 @@
 
 namespace goffer::bend {
 
-/// Degree of the amplitude profile in t = cos^2((beta - theta) / 2).
+/// Degree of the amplitude profile in T = 1 + cos(beta - theta).
 inline constexpr std::size_t wrinkle_degree = 7;
 
 /// Coefficients of the amplitude profile over the columns, for one bend angle.
 ///
 /// The amplitude of the column at beta is
-///     A = sqrt(2 kappa) |h| P(h^2),   h = cos((beta - theta) / 2),   P(t) = sum of row[n] t^n,
-/// in model units, with the body's size and the area factor m(alpha) in it. (The squeeze is q = 2 kappa h^2,
-/// so that sqrt(2 kappa) |h| is sqrt(q), the square-root start of eq 7's solution; P is its smooth rest.)
+///     A = sqrt(kappa T) P(T),   T = 1 + cos(beta - theta),   P(T) = sum of row[n] T^n,
+/// in model units, with the body's size and the area factor m(alpha) in it. (The squeeze is q = kappa T: its
+/// root is the square-root start of eq 7's solution; P is its smooth rest.)
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
 /// Rows from angle 0 to `max_angle`, at equal steps of the angle's root: row i of n is for max_angle (i / (n

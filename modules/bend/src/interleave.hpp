@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel_args.hpp"
+
+#include <utility>
+
+/// From planes to records, in registers: batches of N planes become the same number of batches of records.
+///
+/// For odd N, value i of plane c belongs at place N i + c of the records, whose lane in its batch is
+/// (N i + c) mod width. N and the width have no common factor, so one permutation takes a whole plane to its
+/// lanes, and each batch of records takes from each plane by blending alone. For even N the same is done with
+/// pairs: (plane 2 c, plane 2 c + 1).
+
+namespace goffer::bend {
+
+/// Values of N planes, `group` planes together (1 or 2), in batches of W lanes.
+template <int W, int N, int group>
+struct Places {
+    static constexpr int planes = N / group;  // as many groups
+    static constexpr int lanes = W / group;   // groups in a batch
+    static_assert(group == 1 || lanes == 1 || planes % 2 == 1 || group * 2 == N);
+
+    static constexpr int inverse() {  // of `planes`, modulo `lanes`
+        for (int i = 1; i < lanes; ++i) {
+            if (planes * i % lanes == 1) return i;
+        }
+        return 1;
+    }
+
+    /// Takes plane group `c`, from vertex `from` on, to its lanes. Of two batches: index W and more is the
+    /// second one.
+    template <int c, int from>
+    struct Spread {
+        static constexpr int at(int lane) {
+            const int vertex = (lane / group - c % lanes + lanes) * inverse() % lanes;
+            return from + vertex + (lane % group) * W;
+        }
+    };
+
+    /// Lanes of batch `j` of the records that come from plane group `c`; the others stay.
+    template <int c, int j>
+    struct Blend {
+        static constexpr int at(int lane) {
+            return (j * lanes + lane / group) % planes == c ? W + lane : lane;
+        }
+    };
+};
+
+template <class L, int N, int group, int j, int... c>
+typename L::Vec records(const typename L::Vec (&spread)[N / group], std::integer_sequence<int, c...>) {
+    typename L::Vec result = spread[0];
+    using P = Places<static_cast<int>(L::width), N, group>;
+    ((result = L::template shuffle<typename P::template Blend<c + 1, j>>(result, spread[c + 1])), ...);
+    return result;
+}
+
+/// The records of W / group vertices from `from` on: N / group batches.
+template <class L, int N, int group, int from, int... c>
+void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool streaming,
+                      std::integer_sequence<int, c...>) {
+    using P = Places<static_cast<int>(L::width), N, group>;
+    const typename L::Vec spread[N / group] = {L::template shuffle<typename P::template Spread<c, from>>(
+        planes[c * group], planes[c * group + group - 1])...};
+    const typename L::Vec batches[N / group] = {
+        records<L, N, group, c>(spread, std::make_integer_sequence<int, N / group - 1>())...};
+    for (int j = 0; j < N / group; ++j) {
+        float* at = to + j * static_cast<int>(L::width);
+        streaming ? L::stream(at, batches[j]) : L::store(at, batches[j]);
+    }
+}
+
+template <class L, int N>
+[[gnu::flatten]] void interleave(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
+                                 bool streaming) {
+    constexpr int W = static_cast<int>(L::width);
+    for (std::size_t i = 0; i < lines * line_floats; i += W, to += N * W) {
+        typename L::Vec batch[N];
+        for (int c = 0; c < N; ++c)
+            batch[c] = L::load(planes + static_cast<std::size_t>(c) * plane_stride + i);
+        if constexpr (W == 1) {
+            for (int c = 0; c < N; ++c) L::store(to + c, batch[c]);
+        } else if constexpr (N % 2 == 1) {
+            spread_and_store<L, N, 1, 0>(batch, to, streaming, std::make_integer_sequence<int, N>());
+        } else {
+            constexpr auto groups = std::make_integer_sequence<int, N / 2>();
+            spread_and_store<L, N, 2, 0>(batch, to, streaming, groups);
+            spread_and_store<L, N, 2, W / 2>(batch, to + N / 2 * W, streaming, groups);
+        }
+    }
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "outputs.hpp"
+
+#include "streams_wanted.hpp"
+
+#include <goffer/simd/four.hpp>
+
+#include <algorithm>
+#include <functional>
+
+namespace goffer::bend {
+namespace {
+
+constexpr std::size_t line_bytes = line_floats * sizeof(float);
+
+template <std::size_t N>
+Output output(const Stream<N>& stream) noexcept {
+    Output out;
+    if (stream.empty()) return out;
+    out.floats = N;
+    out.stride = stream.stride;
+    for (std::size_t c = 0; c < N; ++c) out.component[c] = stream.component[c];
+    return out;
+}
+
+Output output(const PackedStream& stream) noexcept {
+    float* const first = reinterpret_cast<float*>(stream.first);
+    return {{first, first + 1, first + 2, nullptr}, stream.stride, 3};
+}
+
+float* at(float* first, std::size_t stride, std::size_t i) noexcept {
+    return reinterpret_cast<float*>(reinterpret_cast<std::byte*>(first) + i * stride);
+}
+
+/// Vertices from `first` to where a record begins a cache line; line_floats where none does.
+std::size_t to_line(const Output& out, std::size_t first) noexcept {
+    for (std::size_t head = 0; head < line_floats; ++head) {
+        if (reinterpret_cast<std::uintptr_t>(at(out.component[0], out.stride, first + head)) % line_bytes ==
+            0) {
+            return head;
+        }
+    }
+    return line_floats;
+}
+
+/// Four consecutive planes at most, to `count` records. Reads planes in fours of vertices.
+template <std::size_t floats>
+void write_rows(const float* planes, std::size_t count, float* to, std::size_t stride) noexcept {
+    for (std::size_t i = 0; i < count; i += 4) {
+        simd::Four rows[4] = {};
+        for (std::size_t c = 0; c < floats; ++c)
+            rows[c] = simd::load_four(planes + c * RecordWriter::plane_stride + i);
+        simd::transpose(rows);
+        const std::size_t vertices = std::min<std::size_t>(count - i, 4);
+        for (std::size_t v = 0; v < vertices; ++v) simd::store_first(at(to, stride, i + v), rows[v], floats);
+    }
+}
+
+}  // namespace
+
+bool Output::record() const noexcept {
+    for (std::size_t c = 1; c < floats; ++c) {
+        if (component[c] != component[0] + c) return false;
+    }
+    return stride != sizeof(float);
+}
+
+bool Outputs::planar() const noexcept {
+    return std::ranges::all_of(
+        std::initializer_list<const Output*>{&positions, &normals, &tangents},
+        [](const Output* out) { return out->floats == 0 || out->stride == sizeof(float); });
+}
+
+bool Outputs::equally_aligned() const noexcept {
+    std::size_t offset = line_bytes;  // none seen yet
+    for (const Output* out : {&positions, &normals, &tangents}) {
+        for (std::size_t c = 0; c < std::min<std::size_t>(out->floats, 3); ++c) {
+            const std::size_t at = reinterpret_cast<std::uintptr_t>(out->component[c]) % line_bytes;
+            if (offset != line_bytes && at != offset) return false;
+            offset = at;
+        }
+    }
+    return true;
+}
+
+Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept {
+    if (pass == Pass::packed) return {output(job.packed), {}, {}, set.packed};
+    if (pass == Pass::previous) return {output(job.previous_positions), {}, {}, set.by_streams[1]};
+    return {output(job.positions), output(job.normals), output(job.tangents),
+            set.by_streams[streams_wanted(job)]};
+}
+
+RecordWriter::RecordWriter(const Outputs& outputs, const KernelSet& set) noexcept : set_(set) {
+    // In the order of their addresses, so that neighbours in memory are neighbours among the planes.
+    const Output* const all[3] = {&outputs.positions, &outputs.normals, &outputs.tangents};
+    std::size_t order[3];  // indices into `all`
+    std::size_t count = 0;
+    for (std::size_t stream = 0; stream < 3; ++stream) {
+        if (all[stream]->floats == 0) continue;
+        std::size_t at = count++;
+        for (; at > 0 && std::less<>()(all[stream]->component[0], all[order[at - 1]]->component[0]); --at) {
+            order[at] = order[at - 1];
+        }
+        order[at] = stream;
+    }
+    std::size_t plane = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Output& out = *all[order[i]];
+        first_plane_[order[i]] = plane;
+        Record* last = record_count_ != 0 ? &records_[record_count_ - 1] : nullptr;
+        const bool joins = last != nullptr && last->out.record() && out.record() &&
+                           out.stride == last->out.stride &&
+                           out.component[0] == last->out.component[0] + last->floats;
+        if (joins) {
+            last->floats += out.floats;
+        } else {
+            records_[record_count_++] = {out, plane, out.floats};
+        }
+        plane += out.floats;
+    }
+}
+
+bool RecordWriter::dense(const Record& record) const noexcept {
+    return record.out.record() && record.floats * sizeof(float) == record.out.stride &&
+           set_.interleave[record.floats] != nullptr;
+}
+
+std::size_t RecordWriter::first_block(std::size_t first, bool streaming) const noexcept {
+    constexpr std::size_t lines = most_vertices - line_floats;
+    if (!streaming || !dense(records_[0])) return most_vertices;
+    const std::size_t head = to_line(records_[0].out, first);
+    return head == line_floats ? most_vertices : lines + head;
+}
+
+void RecordWriter::write(std::size_t first, std::size_t count, bool streaming) const noexcept {
+    for (std::size_t r = 0; r < record_count_; ++r) write(records_[r], first, count, streaming);
+}
+
+void RecordWriter::write(const Record& record, std::size_t first, std::size_t count,
+                         bool streaming) const noexcept {
+    const Output& out = record.out;
+    if (!out.record()) {  // planes, or components in some order of the caller's
+        for (std::size_t c = 0; c < out.floats; ++c) {
+            const float* from = plane(record.plane + c);
+            for (std::size_t i = 0; i < count; ++i) *at(out.component[c], out.stride, first + i) = from[i];
+        }
+        return;
+    }
+    const auto rows = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = 0; c < record.floats; c += 4) {
+            const float* from = plane(record.plane + c) + begin;
+            float* to = at(out.component[0], out.stride, first + begin) + c;
+            switch (record.floats - c) {
+                case 1:
+                    write_rows<1>(from, end - begin, to, out.stride);
+                    break;
+                case 2:
+                    write_rows<2>(from, end - begin, to, out.stride);
+                    break;
+                case 3:
+                    write_rows<3>(from, end - begin, to, out.stride);
+                    break;
+                default:
+                    write_rows<4>(from, end - begin, to, out.stride);
+            }
+        }
+    };
+    if (!dense(record)) return rows(0, count);
+    std::size_t head = streaming ? to_line(out, first) : 0;
+    const bool past = streaming && head != line_floats;
+    head = past ? std::min(head, count) : 0;
+    const std::size_t lines = (count - head) / line_floats;
+    rows(0, head);
+    set_.interleave[record.floats](plane(record.plane) + head, plane_stride, lines,
+                                   at(out.component[0], out.stride, first + head), past);
+    rows(head + lines * line_floats, count);
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "instance.hpp"
+#include "kernels.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace goffer::bend {
+
+/// A stream's place in memory, whatever it holds: `floats` planes or components.
+struct Output {
+    float* component[4] = {};
+    std::size_t stride = 0;
+    std::size_t floats = 0;  // 3; 4 for tangents
+
+    /// Components lie one behind the other, as in a record.
+    [[nodiscard]] bool record() const noexcept;
+};
+
+/// What one pass writes, and the kernel that makes it. Which outputs are wanted is in their `floats`.
+struct Outputs {
+    Output positions, normals, tangents;
+    Kernel kernel = nullptr;
+
+    [[nodiscard]] bool planar() const noexcept;
+    /// Whether all planes begin their cache lines at the same vertices.
+    [[nodiscard]] bool equally_aligned() const noexcept;
+};
+
+[[nodiscard]] Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept;
+
+/// The planes of a block of vertices, written out as records and planes of the caller's.
+class RecordWriter {
+public:
+    static constexpr std::size_t most_vertices = 256;
+    static constexpr std::size_t plane_stride = most_vertices + line_floats;
+
+    RecordWriter(const Outputs& outputs, const KernelSet& set) noexcept;
+
+    /// The block's plane for component `c` of the positions, normals or tangents.
+    [[nodiscard]] float* position(std::size_t c) noexcept { return plane(first_plane_[0] + c); }
+    [[nodiscard]] float* normal(std::size_t c) noexcept { return plane(first_plane_[1] + c); }
+    [[nodiscard]] float* tangent(std::size_t c) noexcept { return plane(first_plane_[2] + c); }
+
+    /// How many vertices from `first` on make the first block, so that later blocks begin on whole lines.
+    [[nodiscard]] std::size_t first_block(std::size_t first, bool streaming) const noexcept;
+
+    /// Writes `count` vertices of the block, which are the caller's vertices from `first` on.
+    void write(std::size_t first, std::size_t count, bool streaming) const noexcept;
+
+private:
+    /// Streams that lie one behind the other in the same records.
+    struct Record {
+        Output out;
+        std::size_t plane;   // of the first component
+        std::size_t floats;  // of all
+    };
+
+    [[nodiscard]] float* plane(std::size_t index) noexcept { return planes_ + index * plane_stride; }
+    [[nodiscard]] const float* plane(std::size_t index) const noexcept {
+        return planes_ + index * plane_stride;
+    }
+    [[nodiscard]] bool dense(const Record& record) const noexcept;
+    void write(const Record& record, std::size_t first, std::size_t count, bool streaming) const noexcept;
+
+    alignas(64) float planes_[10 * plane_stride];
+    Record records_[3];
+    std::size_t record_count_ = 0;
+    std::size_t first_plane_[3] = {};
+    const KernelSet& set_;
+};
+
+}  // namespace goffer::bend
