@@ -7,12 +7,15 @@
 #include <goffer/paper/closed_form.hpp>
 
 #include <glm/geometric.hpp>
+#include <glm/mat4x3.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 /// Random bodies and the double reference of their deformation.
@@ -89,6 +92,56 @@ inline Subject random_subject(Random& random, double slenderness, double scale, 
         add_vertex(subject, random, axes, uniform(random, -4, 4), z, rho);
     }
     return subject;
+}
+
+/// A body of any vertices at all, that no mesh need have: for tests that ask where values go. Length 1,
+/// radius 0.1, three folds.
+inline bend::Body loose_body(Random& random, std::size_t count) {
+    static const bend::WrinkleTable table =
+        fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 3, 1, 0.1, 4.9, 32);
+    std::vector<bend::RestVertex> vertices(count);
+    std::vector<bend::RestVector> normals(count), tangents(count);
+    std::vector<float> signs(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double rho = i % 10 == 3 ? 0 : uniform(random, 0, 0.11);
+        const double depth = rho < 0.05 ? 20 : 1 / rho;
+        vertices[i] = {uniform(random, -4, 4), uniform(random, 0, 1), rho, depth * uniform(random, -1, 1),
+                       uniform(random, -20, 20)};
+        const glm::dmat3 frame = random_rotation(random);
+        normals[i] = {frame[0].x, frame[0].y, frame[0].z};
+        tangents[i] = {frame[1].x, frame[1].y, frame[1].z};
+        signs[i] = random() % 2 == 0 ? 1.0f : -1.0f;
+    }
+    bend::BodyInput input;
+    input.length = 1;
+    input.radius = 0.1;
+    input.max_angle = 4.9;
+    input.table = table;
+    input.vertices = vertices;
+    input.normals = normals;
+    input.tangents = tangents;
+    input.tangent_signs = signs;
+    return std::move(bend::Body::make(input).value());
+}
+
+/// A rotation, scaled, sheared and mirrored or not; `distance` from the origin at most.
+inline glm::mat4x3 random_transform(Random& random, double distance) {
+    glm::dmat3 linear = random_rotation(random);
+    if (random() % 2 == 0) linear *= std::pow(10, uniform(random, -1, 1));
+    if (random() % 3 == 0) {
+        for (int c = 0; c < 3; ++c) linear[c] *= uniform(random, 0.3, 3) * (random() % 4 == 0 ? -1 : 1);
+        linear = random_rotation(random) * linear;
+    }
+    const glm::dvec3 offset =
+        distance * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(offset)};
+}
+
+/// The instruction sets that are built and run here.
+inline std::vector<Isa> isas_here() {
+    std::vector<Isa> result;
+    std::ranges::copy_if(built_isas(), std::back_inserter(result), runs_here);
+    return result;
 }
 
 /// Planar output of every stream, with room to see writes out of bounds.

@@ -4,6 +4,7 @@
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/engine/parallel.hpp>
+#include <goffer/simd/fence.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -109,6 +110,7 @@ CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool streamin
         if (!whole) group.run(first, last, streaming);
     }
     group.run(streaming);
+    if (streaming) simd::fence();
     return result;
 }
 

@@ -70,23 +70,28 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool stream
     }
 }
 
+/// One register's planes as so many records of N floats.
+template <class L, int N>
+void store_records(const typename L::Vec (&planes)[N], float* to, bool streaming) {
+    constexpr int W = static_cast<int>(L::width);
+    if constexpr (W == 1) {
+        for (int c = 0; c < N; ++c) L::store(to + c, planes[c]);
+    } else if constexpr (N % 2 == 1) {
+        spread_and_store<L, N, 1, 0>(planes, to, streaming, std::make_integer_sequence<int, N>());
+    } else {
+        constexpr auto groups = std::make_integer_sequence<int, N / 2>();
+        spread_and_store<L, N, 2, 0>(planes, to, streaming, groups);
+        spread_and_store<L, N, 2, W / 2>(planes, to + N / 2 * W, streaming, groups);
+    }
+}
+
 template <class L, int N>
 [[gnu::flatten]] void interleave(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
                                  bool streaming) {
-    constexpr int W = static_cast<int>(L::width);
-    for (std::size_t i = 0; i < lines * line_floats; i += W, to += N * W) {
+    for (std::size_t i = 0; i < lines * line_floats; i += L::width, to += N * L::width) {
         typename L::Vec batch[N];
-        for (int c = 0; c < N; ++c)
-            batch[c] = L::load(planes + static_cast<std::size_t>(c) * plane_stride + i);
-        if constexpr (W == 1) {
-            for (int c = 0; c < N; ++c) L::store(to + c, batch[c]);
-        } else if constexpr (N % 2 == 1) {
-            spread_and_store<L, N, 1, 0>(batch, to, streaming, std::make_integer_sequence<int, N>());
-        } else {
-            constexpr auto groups = std::make_integer_sequence<int, N / 2>();
-            spread_and_store<L, N, 2, 0>(batch, to, streaming, groups);
-            spread_and_store<L, N, 2, W / 2>(batch, to + N / 2 * W, streaming, groups);
-        }
+        for (std::size_t c = 0; c < N; ++c) batch[c] = L::load(planes + c * plane_stride + i);
+        store_records<L, N>(batch, to, streaming);
     }
 }
 

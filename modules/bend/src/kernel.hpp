@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "interleave.hpp"
 #include "kernel_args.hpp"
 
 /// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
@@ -175,19 +176,19 @@ Vector<L> bend_tangents(const KernelArgs& args, const Coefficients& k, const Ben
 template <class L>
 Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
     using Vec = typename L::Vec;
-    const Vec zero = L::set(0.0f), one = L::set(1.0f), most = L::set(65535.0f), steps = L::set(32767.0f);
-    const auto step = [&](Vec value) { return L::clamp(value, zero, most); };
+    const Vec zero = L::set(0.0f);
+    const auto step = [&](Vec value) { return L::clamp(value, zero, L::set(65535.0f)); };
     const auto& [x, y, z] = normal.component;
-    // Octahedral: onto |x| + |y| + |z| = 1, the lower half folded outwards over the upper.
-    const Vec root = L::rsqrt(L::abs(x) + L::abs(y) + L::abs(z) + L::set(1e-30f));
-    const Vec u = x * root * root;
-    const Vec v = y * root * root;
-    const Vec folded_u = L::copysign(one - L::abs(v), u);
-    const Vec folded_v = L::copysign(one - L::abs(u), v);
+    // Octahedral: onto |x| + |y| + |z| = 1; the lower half is folded outwards over the upper, to where
+    // |x| + |z| and |y| + |z| say.
+    const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::set(1e-30f);
+    const Vec scale = L::reciprocal(sum) * L::set(32767.0f);
+    const Vec below = L::larger(L::nmadd(z, scale, zero), zero);
+    const Vec u = x * scale;
+    const Vec v = y * scale;
     return {{L::pair_words(step(position.component[0]), step(position.component[1])),
-             L::pair_words(step(position.component[2]), zero),
-             L::pair_words(L::where_less(z, zero, folded_u, u) * steps,
-                           L::where_less(z, zero, folded_v, v) * steps)}};
+             L::word(step(position.component[2])),
+             L::pair_words(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
 }
 
 /// What is wanted of one batch; only the wanted parts are set and used.
@@ -218,17 +219,27 @@ Results<L> deform_batch(const KernelArgs& args, const Coefficients& k, std::size
     return results;
 }
 
-/// Stores the batches of one line, or the first `count` values of it. A line is written whole before the next
+/// What a kernel writes.
+enum class Form { planes, records, packed_planes, packed_records };
+
+/// Vertices that a kernel deforms at a time: a cache line of each plane, or a batch that is wider.
+template <class L>
+constexpr std::size_t unit = L::width > line_floats ? L::width : line_floats;
+
+template <class L>
+constexpr std::size_t batches = unit<L> / L::width;
+
+/// Stores the batches of one unit, or the first `count` values of it. A line is written whole before the next
 /// one is begun, since the processor has few buffers for lines that are written past the cache.
-template <class L, std::size_t batches>
-void store(const Results<L> (&results)[batches], Vector<L> Results<L>::*part, float* const (&out)[3],
-           std::size_t i, std::size_t count, bool streaming) {
+template <class L>
+void store_planes(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*part,
+                  float* const (&out)[3], std::size_t i, std::size_t count, bool streaming) {
     for (int c = 0; c < 3; ++c) {
-        for (std::size_t b = 0; b < batches; ++b) {
+        for (std::size_t b = 0; b < batches<L>; ++b) {
             const typename L::Vec value = (results[b].*part).component[c];
-            float* to = out[c] + i + b * L::width;
-            if (count < line_floats) [[unlikely]] {
-                const std::size_t before = b * L::width;
+            const std::size_t before = b * L::width;
+            float* to = out[c] + i + before;
+            if (count < unit<L>) [[unlikely]] {
                 L::store_first(to, value, count < before ? 0 : count - before);
             } else if (streaming) {
                 L::stream(to, value);
@@ -239,39 +250,60 @@ void store(const Results<L> (&results)[batches], Vector<L> Results<L>::*part, fl
     }
 }
 
-/// Vertices from `first` to where `plane` begins a cache line. (A template, like all here: see
-/// kernel_args.hpp.)
-template <class L>
-std::size_t to_line(const float* plane, std::size_t first) {
-    return (0 - reinterpret_cast<std::size_t>(plane + first) / sizeof(float)) % line_floats;
+/// The same as records of position, and normal where N is 6.
+template <class L, int N>
+void write_records(const Results<L> (&results)[batches<L>], float* to, bool streaming) {
+    using Single = typename L::Single;
+    for (std::size_t b = 0; b < batches<L>; ++b) {
+        for (std::size_t part = 0; part < L::width / Single::width; ++part) {
+            typename Single::Vec planes[N];
+            for (int c = 0; c < N; ++c) {
+                const Vector<L>& from = c < 3 ? results[b].position : results[b].normal;
+                planes[c] = L::single(from.component[c % 3], part);
+            }
+            store_records<Single, N>(planes, to, streaming);
+            to += N * Single::width;
+        }
+    }
+}
+
+template <class L, int N>
+void store_records_of(const Results<L> (&results)[batches<L>], float* to, std::size_t count, bool streaming) {
+    if (count == unit<L>) [[likely]] {
+        write_records<L, N>(results, to, streaming);
+    } else {
+        alignas(64) float line[N * unit<L>];
+        write_records<L, N>(results, line, false);
+        for (std::size_t f = 0; f < N * count; ++f) to[f] = line[f];
+    }
 }
 
 // Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
 // what the arguments point to tell the compiler that no store changes them.
-template <class L, unsigned streams, bool packed = false>
+template <class L, unsigned streams, Form form>
 [[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last,
                                  bool streaming) {
     const KernelArgs args = arguments;
     const Coefficients k = *arguments.coefficients;
-    constexpr std::size_t batches = line_floats / L::width;
-    const float* plane = (streams & 1) != 0   ? args.position_out[0]
-                         : (streams & 2) != 0 ? args.normal_out[0]
-                                              : args.tangent_out[0];
-    std::size_t next = streaming ? first + to_line<L>(plane, first) : first + line_floats;
-    if (next == first) next += line_floats;
-    for (std::size_t i = first; i < last; i = next, next += line_floats) {
+    constexpr bool packed = form == Form::packed_planes || form == Form::packed_records;
+    constexpr int record = streams == 3 && !packed ? 6 : 3;
+    std::size_t next = first + (args.head != 0 ? args.head : unit<L>);
+    for (std::size_t i = first; i < last; i = next, next += unit<L>) {
         const std::size_t count = (next < last ? next : last) - i;
-        Results<L> results[batches];
-        for (std::size_t b = 0; b < batches; ++b)
+        Results<L> results[batches<L>];
+        for (std::size_t b = 0; b < batches<L>; ++b)
             results[b] = deform_batch<L, streams, packed>(args, k, i + b * L::width);
-        if constexpr ((streams & 1) != 0)
-            store<L>(results, &Results<L>::position, args.position_out, i, count, streaming);
-        if constexpr ((streams & 2) != 0 && !packed)
-            store<L>(results, &Results<L>::normal, args.normal_out, i, count, streaming);
-        if constexpr ((streams & 4) != 0)
-            store<L>(results, &Results<L>::tangent, args.tangent_out, i, count, streaming);
+        if constexpr (form == Form::records || form == Form::packed_records) {
+            store_records_of<L, record>(results, args.record_out + i * record, count, streaming);
+        } else {
+            if constexpr ((streams & 1) != 0)
+                store_planes<L>(results, &Results<L>::position, args.position_out, i, count, streaming);
+            if constexpr ((streams & 2) != 0 && !packed)
+                store_planes<L>(results, &Results<L>::normal, args.normal_out, i, count, streaming);
+            if constexpr ((streams & 4) != 0)
+                store_planes<L>(results, &Results<L>::tangent, args.tangent_out, i, count, streaming);
+        }
     }
-    if (streaming) L::fence();
 }
 
 }  // namespace goffer::bend

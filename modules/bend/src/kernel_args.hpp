@@ -40,24 +40,32 @@ struct KernelArgs {
     float* position_out[3];
     float* normal_out[3];
     float* tangent_out[3];
+    float* record_out;  ///< vertex 0's record, for kernels that write records
+    std::size_t head;   ///< where they stream: vertices before the first whole line, 0 to 15
 };
 
-/// Vertices that a kernel deforms at once: as many as there are floats in a cache line.
+/// Floats in a cache line.
 constexpr std::size_t line_floats = 16;
 
-/// Deforms [first, last); reads whole lines of vertices from `first` on. `streaming`: whole cache lines are
-/// written past the cache; the planes written are then equally aligned.
+/// Deforms [first, last); reads widest_batch rest vertices from any of them. `streaming`: whole cache lines
+/// are written past the cache, and not fenced; planes are then equally aligned.
 using Kernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last, bool streaming);
 
 /// Writes `lines` times 16 records of N floats, gathered from planes that are `plane_stride` floats apart.
-/// `streaming`: past the cache; `to` is then aligned to a line.
+/// `streaming`: past the cache, and not fenced; `to` is then aligned to a line.
 using Interleave = void (*)(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
                             bool streaming);
 
+/// The streams that a kernel is for: bit 0: positions, 1: normals, 2: tangents. Or the packed stream alone.
+constexpr std::size_t packed_streams = 8;
+
 /// One instruction set's kernels.
 struct KernelSet {
-    Kernel by_streams[8];       ///< bit 0: positions, 1: normals, 2: tangents
-    Kernel packed;              ///< PackedVertex's three words into position_out, as if they were floats
+    /// By streams: to planes. Of the packed stream: PackedVertex's three words to position_out, as if they
+    /// were floats.
+    Kernel planes[9];
+    /// By streams: to records without gaps, positions first. Null where there is none.
+    Kernel records[9];
     Interleave interleave[11];  ///< by floats a record; null where there is none
 };
 

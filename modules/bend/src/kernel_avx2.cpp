@@ -8,6 +8,6 @@ namespace goffer::bend {
 
 using Lanes = simd::XsimdLanes<xsimd::fma3<xsimd::avx2>>;
 
-extern constexpr KernelSet kernels_avx2 = kernel_set<simd::DoubledLanes<Lanes>, Lanes>();
+extern constexpr KernelSet kernels_avx2 = kernel_set<simd::DoubledLanes<Lanes>>();
 
 }  // namespace goffer::bend

@@ -2,9 +2,10 @@
 #include "kernel_set.hpp"
 
 #include <goffer/simd/avx512_lanes.hpp>
+#include <goffer/simd/doubled_lanes.hpp>
 
 namespace goffer::bend {
 
-extern constexpr KernelSet kernels_avx512 = kernel_set<simd::Avx512Lanes>();
+extern constexpr KernelSet kernels_avx512 = kernel_set<simd::DoubledLanes<simd::Avx512Lanes>>();
 
 }  // namespace goffer::bend

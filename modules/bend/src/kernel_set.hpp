@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "interleave.hpp"
 #include "kernel.hpp"
 
 namespace goffer::bend {
 
-/// All kernels of one instruction set: `L` deforms, `Narrow` (one register) interleaves.
-template <class L, class Narrow = L>
+/// All kernels over the lanes `L`.
+template <class L>
 constexpr KernelSet kernel_set() {
+    using Single = typename L::Single;
     KernelSet set{};
-    set.by_streams[1] = &bend_range<L, 1>;
-    set.by_streams[2] = &bend_range<L, 2>;
-    set.by_streams[3] = &bend_range<L, 3>;
-    set.by_streams[4] = &bend_range<L, 4>;
-    set.by_streams[5] = &bend_range<L, 5>;
-    set.by_streams[6] = &bend_range<L, 6>;
-    set.by_streams[7] = &bend_range<L, 7>;
-    set.packed = &bend_range<L, 3, true>;
-    set.interleave[3] = &interleave<Narrow, 3>;
-    set.interleave[6] = &interleave<Narrow, 6>;
-    set.interleave[7] = &interleave<Narrow, 7>;
-    set.interleave[10] = &interleave<Narrow, 10>;
+    set.planes[1] = &bend_range<L, 1, Form::planes>;
+    set.planes[2] = &bend_range<L, 2, Form::planes>;
+    set.planes[3] = &bend_range<L, 3, Form::planes>;
+    set.planes[4] = &bend_range<L, 4, Form::planes>;
+    set.planes[5] = &bend_range<L, 5, Form::planes>;
+    set.planes[6] = &bend_range<L, 6, Form::planes>;
+    set.planes[7] = &bend_range<L, 7, Form::planes>;
+    set.planes[packed_streams] = &bend_range<L, 3, Form::packed_planes>;
+    set.records[1] = &bend_range<L, 1, Form::records>;
+    set.records[3] = &bend_range<L, 3, Form::records>;
+    set.records[packed_streams] = &bend_range<L, 3, Form::packed_records>;
+    set.interleave[3] = &interleave<Single, 3>;
+    set.interleave[6] = &interleave<Single, 6>;
+    set.interleave[7] = &interleave<Single, 7>;
+    set.interleave[10] = &interleave<Single, 10>;
     return set;
 }
 

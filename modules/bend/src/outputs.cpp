@@ -71,6 +71,20 @@ bool Outputs::planar() const noexcept {
         [](const Output* out) { return out->floats == 0 || out->stride == sizeof(float); });
 }
 
+bool Outputs::dense() const noexcept {
+    if (records == nullptr || tangents.floats != 0 || !positions.record()) return false;
+    if (normals.floats == 0) return positions.stride == 3 * sizeof(float);
+    return positions.stride == 6 * sizeof(float) && normals.stride == positions.stride && normals.record() &&
+           normals.component[0] == positions.component[0] + 3;
+}
+
+std::size_t Outputs::head(std::size_t first) const noexcept {
+    for (const Output* out : {&positions, &normals, &tangents}) {
+        if (out->floats != 0) return to_line(*out, first);
+    }
+    return line_floats;
+}
+
 bool Outputs::equally_aligned() const noexcept {
     std::size_t offset = line_bytes;  // none seen yet
     for (const Output* out : {&positions, &normals, &tangents}) {
@@ -84,10 +98,22 @@ bool Outputs::equally_aligned() const noexcept {
 }
 
 Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept {
-    if (pass == Pass::packed) return {output(job.packed), {}, {}, set.packed};
-    if (pass == Pass::previous) return {output(job.previous_positions), {}, {}, set.by_streams[1]};
-    return {output(job.positions), output(job.normals), output(job.tangents),
-            set.by_streams[streams_wanted(job)]};
+    Outputs outputs;
+    std::size_t streams = 1;
+    if (pass == Pass::packed) {
+        outputs.positions = output(job.packed);
+        streams = packed_streams;
+    } else if (pass == Pass::previous) {
+        outputs.positions = output(job.previous_positions);
+    } else {
+        outputs.positions = output(job.positions);
+        outputs.normals = output(job.normals);
+        outputs.tangents = output(job.tangents);
+        streams = streams_wanted(job);
+    }
+    outputs.planes = set.planes[streams];
+    outputs.records = set.records[streams];
+    return outputs;
 }
 
 RecordWriter::RecordWriter(const Outputs& outputs, const KernelSet& set) noexcept : set_(set) {
@@ -126,10 +152,9 @@ bool RecordWriter::dense(const Record& record) const noexcept {
 }
 
 std::size_t RecordWriter::first_block(std::size_t first, bool streaming) const noexcept {
-    constexpr std::size_t lines = most_vertices - line_floats;
     if (!streaming || !dense(records_[0])) return most_vertices;
     const std::size_t head = to_line(records_[0].out, first);
-    return head == line_floats ? most_vertices : lines + head;
+    return head == line_floats ? most_vertices : head + most_vertices;
 }
 
 void RecordWriter::write(std::size_t first, std::size_t count, bool streaming) const noexcept {

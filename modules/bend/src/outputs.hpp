@@ -20,14 +20,20 @@ struct Output {
     [[nodiscard]] bool record() const noexcept;
 };
 
-/// What one pass writes, and the kernel that makes it. Which outputs are wanted is in their `floats`.
+/// What one pass writes, and the kernels that make it. Which outputs are wanted is in their `floats`.
 struct Outputs {
     Output positions, normals, tangents;
-    Kernel kernel = nullptr;
+    Kernel planes = nullptr;
+    Kernel records = nullptr;  ///< null where there is none
 
     [[nodiscard]] bool planar() const noexcept;
+    /// Whether all of it is records without gaps, as `records` writes them.
+    [[nodiscard]] bool dense() const noexcept;
     /// Whether all planes begin their cache lines at the same vertices.
     [[nodiscard]] bool equally_aligned() const noexcept;
+    /// Of planes that are equally aligned, or of dense records: how many vertices from `first` on lie before
+    /// the first cache line that begins with a vertex; line_floats where none does.
+    [[nodiscard]] std::size_t head(std::size_t first) const noexcept;
 };
 
 [[nodiscard]] Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept;
@@ -35,7 +41,7 @@ struct Outputs {
 /// The planes of a block of vertices, written out as records and planes of the caller's.
 class RecordWriter {
 public:
-    static constexpr std::size_t most_vertices = 256;
+    static constexpr std::size_t most_vertices = 256;  // whole lines; and the head of the first of them
     static constexpr std::size_t plane_stride = most_vertices + line_floats;
 
     RecordWriter(const Outputs& outputs, const KernelSet& set) noexcept;

@@ -42,8 +42,21 @@ void run_planar(const PreparedPass& pass, const Outputs& out, std::size_t first,
         args.normal_out[c] = out.normals.component[c];
         args.tangent_out[c] = out.tangents.component[c];
     }
-    out.kernel(args, first, last, streaming && out.equally_aligned());
+    const bool past = streaming && out.equally_aligned();
+    args.head = past ? out.head(first) : 0;
+    out.planes(args, first, last, past);
     if (out.tangents.floats != 0) write_signs(pass, first, last - first, out.tangents.component[3] + first);
+}
+
+/// The kernel writes the caller's records itself.
+void run_dense(const PreparedPass& pass, const Outputs& out, std::size_t first, std::size_t last,
+               bool streaming) noexcept {
+    KernelArgs args = rest_columns(*pass.job->body, pass.coefficients, 0);
+    args.record_out = out.positions.component[0];
+    args.head = streaming ? out.head(first) : 0;
+    const bool past = streaming && args.head != line_floats;
+    if (!past) args.head = 0;
+    out.records(args, first, last, past);
 }
 
 /// Any streams: the kernel fills a block of planes in the first-level cache, which is then written out.
@@ -59,7 +72,7 @@ void run_blocks(const PreparedPass& pass, const Outputs& out, const KernelSet& s
             args.normal_out[c] = writer.normal(c);
             args.tangent_out[c] = writer.tangent(c);
         }
-        out.kernel(args, 0, count, false);
+        out.planes(args, 0, count, false);
         if (out.tangents.floats != 0) write_signs(pass, first, count, writer.tangent(3));
         writer.write(first, count, streaming);
         first += count;
@@ -74,6 +87,8 @@ void run_pass(const PreparedPass& pass, std::size_t first, std::size_t last, boo
     const Outputs outputs = outputs_of(*pass.job, pass.pass, set);
     if (outputs.planar()) {
         run_planar(pass, outputs, first, last, streaming);
+    } else if (outputs.dense()) {
+        run_dense(pass, outputs, first, last, streaming);
     } else {
         run_blocks(pass, outputs, set, first, last, streaming);
     }

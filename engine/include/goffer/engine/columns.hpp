@@ -12,8 +12,8 @@ namespace goffer {
 /// Bytes that every column starts at a multiple of: a cache line, and the widest register.
 inline constexpr std::size_t column_alignment = 64;
 
-/// Floats in the widest register that any kernel uses.
-inline constexpr std::size_t widest_batch = 16;
+/// Floats that any kernel reads at once at most: two of the widest registers.
+inline constexpr std::size_t widest_batch = 32;
 
 /// A block of `columns` columns with `count` floats each.
 ///

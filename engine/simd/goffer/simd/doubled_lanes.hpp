@@ -17,6 +17,10 @@ struct DoubledLanes {
     };
     static constexpr std::size_t half = Lanes::width;
     static constexpr std::size_t width = 2 * half;
+    using Single = Lanes;
+    static typename Lanes::Vec single(Vec value, std::size_t part) {
+        return part == 0 ? value.low : value.high;
+    }
 
     static Vec set(float value) {
         const typename Lanes::Vec both = Lanes::set(value);
@@ -31,7 +35,6 @@ struct DoubledLanes {
         Lanes::stream(to, value.low);
         Lanes::stream(to + half, value.high);
     }
-    static void fence() { Lanes::fence(); }
     static void store_first(float* to, Vec value, std::size_t count) {
         Lanes::store_first(to, value.low, count < half ? count : half);
         Lanes::store_first(to + half, value.high, count < half ? 0 : count - half);
@@ -51,9 +54,12 @@ struct DoubledLanes {
         return {Lanes::where_less(a.low, b.low, yes.low, no.low),
                 Lanes::where_less(a.high, b.high, yes.high, no.high)};
     }
-    static Vec copysign(Vec magnitude, Vec sign) {
-        return {Lanes::copysign(magnitude.low, sign.low), Lanes::copysign(magnitude.high, sign.high)};
+    static Vec larger(Vec a, Vec b) { return {Lanes::larger(a.low, b.low), Lanes::larger(a.high, b.high)}; }
+    static Vec reciprocal(Vec a) { return {Lanes::reciprocal(a.low), Lanes::reciprocal(a.high)}; }
+    static Vec with_sign(Vec magnitude, Vec sign) {
+        return {Lanes::with_sign(magnitude.low, sign.low), Lanes::with_sign(magnitude.high, sign.high)};
     }
+    static Vec word(Vec value) { return {Lanes::word(value.low), Lanes::word(value.high)}; }
     static Vec pair_words(Vec low, Vec high) {
         return {Lanes::pair_words(low.low, high.low), Lanes::pair_words(low.high, high.high)};
     }

@@ -14,12 +14,15 @@ struct ScalarLanes {
     using Vec = float;
     static constexpr std::size_t width = 1;
 
+    /// The lanes of one register, and register `part` of `value`.
+    using Single = ScalarLanes;
+    static Vec single(Vec value, std::size_t /*part*/) { return value; }
+
     static Vec set(float value) { return value; }
     static Vec load(const float* from) { return *from; }
     static void store(float* to, Vec value) { *to = value; }
-    /// Past the cache where the processor can; `to` aligned to the batch. Ordered by the next fence.
+    /// Past the cache where the processor can; `to` aligned to the batch. Ordered by the next simd::fence().
     static void stream(float* to, Vec value) { *to = value; }
-    static void fence() {}
     /// The first `count` lanes alone; all of them where there are fewer.
     static void store_first(float* to, Vec value, std::size_t count) {
         if (count != 0) *to = value;
@@ -34,14 +37,21 @@ struct ScalarLanes {
     static Vec rsqrt(Vec a) { return 1.0f / std::sqrt(a); }
     /// a < b ? yes : no
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) { return a < b ? yes : no; }
-    static Vec copysign(Vec magnitude, Vec sign) { return std::copysign(magnitude, sign); }
-    /// A word of two 16-bit halves as if it were a float: both rounded to the nearest integer, of which the
-    /// low 16 bits are taken; `low` in -32768..65535, `high` likewise.
+    static Vec larger(Vec a, Vec b) { return a > b ? a : b; }
+    /// 1 / a, a > 0, to about the last bit
+    static Vec reciprocal(Vec a) { return 1.0f / a; }
+    /// `magnitude`, which is not negative, with the sign of `sign`
+    static Vec with_sign(Vec magnitude, Vec sign) { return std::copysign(magnitude, sign); }
+    /// The nearest integer's bits, as if they were a float.
+    static Vec word(Vec value) { return std::bit_cast<float>(integer(value)); }
+    /// The low halves of two such words: `low`'s in the lower half of the result.
     static Vec pair_words(Vec low, Vec high) {
-        const auto bits = [](Vec value) {
-            return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::nearbyint(value)));
-        };
-        return std::bit_cast<float>((bits(low) & 0xffffu) | bits(high) << 16);
+        return std::bit_cast<float>((integer(low) & 0xffffu) | integer(high) << 16);
+    }
+
+private:
+    static std::uint32_t integer(Vec value) {
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::nearbyint(value)));
     }
 };
 

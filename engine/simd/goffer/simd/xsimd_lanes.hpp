@@ -19,6 +19,10 @@ template <class Arch>
 struct XsimdLanes {
     using Vec = xsimd::batch<float, Arch>;
     static constexpr std::size_t width = Vec::size;
+    using Single = XsimdLanes;
+    static Vec single(Vec value, std::size_t /*part*/) { return value; }
+    /// Of Newton's, after an estimate: one from 12 bits, two from Arm's 8.
+    static constexpr int estimate_steps = std::is_base_of_v<xsimd::neon, Arch> ? 2 : 1;
 
     static Vec set(float value) { return Vec(value); }
     static Vec load(const float* from) { return Vec::load_unaligned(from); }
@@ -36,11 +40,6 @@ struct XsimdLanes {
 #endif
 #else
         value.store_unaligned(to);
-#endif
-    }
-    static void fence() {
-#if defined(__SSE__)
-        _mm_sfence();
 #endif
     }
     static void store_first(float* to, Vec value, std::size_t count) {
@@ -72,25 +71,34 @@ struct XsimdLanes {
         return xsimd::min(xsimd::max(a, low), high);
     }
 
-    /// The processor's estimate and Newton's steps: one from 12 bits, two from Arm's 8.
+    /// The processor's estimate and Newton's steps.
     static Vec rsqrt(Vec a) {
         Vec y = xsimd::rsqrt(a);
-        constexpr int steps = std::is_base_of_v<xsimd::neon, Arch> ? 2 : 1;
-        for (int step = 0; step < steps; ++step) y = y * madd(Vec(-0.5f) * a * y, y, Vec(1.5f));
+        for (int step = 0; step < estimate_steps; ++step) y = y * madd(Vec(-0.5f) * a * y, y, Vec(1.5f));
         return y;
     }
 
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) {
         return xsimd::select(a < b, yes, no);
     }
-    static Vec copysign(Vec magnitude, Vec sign) {
-        return xsimd::copysign(magnitude, sign);
+    static Vec larger(Vec a, Vec b) {
+        return xsimd::max(a, b);
+    }
+    static Vec reciprocal(Vec a) {
+        Vec y = xsimd::reciprocal(a);
+        for (int step = 0; step < estimate_steps; ++step) y = y * nmadd(a, y, Vec(2.0f));
+        return y;
+    }
+    static Vec with_sign(Vec magnitude, Vec sign) {
+        return magnitude | (sign & Vec(-0.0f));
+    }
+    static Vec word(Vec value) {
+        return xsimd::bitwise_cast<Vec>(xsimd::nearbyint_as_int(value));
     }
     static Vec pair_words(Vec low, Vec high) {
         using Words = xsimd::batch<std::int32_t, Arch>;
-        const Words words =
-            (xsimd::nearbyint_as_int(low) & Words(0xffff)) | (xsimd::nearbyint_as_int(high) << 16);
-        return xsimd::bitwise_cast<Vec>(words);
+        const Words lower = xsimd::nearbyint_as_int(low) & Words(0xffff);
+        return xsimd::bitwise_cast<Vec>(lower | (xsimd::nearbyint_as_int(high) << 16));
     }
 
     /// Lane l of the result is lane Picks::at(l) of `a`, or of `b` where that is `width` and more.

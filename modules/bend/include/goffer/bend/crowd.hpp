@@ -71,8 +71,9 @@ struct CrowdResult {
 /// or log. Thread-safe where outputs do not overlap. The bits are those of run() for each instance.
 CrowdResult run(const CrowdJob& job) noexcept;
 
-/// The same with oneTBB in the caller's arena, split by vertices: a few large bodies and many small ones
-/// spread alike. The same bits. goffer allocates nothing; the scheduler's own pools fill in the first frames.
+/// The same with oneTBB in the caller's arena (GOFFER_TBB=OFF: on the calling thread), split by vertices: a
+/// few large bodies and many small ones spread alike. The same bits. goffer allocates nothing; the
+/// scheduler's own pools fill in the first frames.
 CrowdResult run_parallel(const CrowdJob& job);
 
 /// Deforms piece `piece` of `pieces`, piece < pieces, on the calling thread: what any scheduler can call,

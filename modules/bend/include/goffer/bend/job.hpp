@@ -104,8 +104,9 @@ DeformResult run(const DeformJob& job) noexcept;
 /// scheduler can call. Otherwise as run(); the union of ranges gives the same bits as run().
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept;
 
-/// Deforms all vertices with oneTBB in the caller's arena, in ranges of `grain` vertices or more. The same
-/// bits as run(). Worth it for a large body; a crowd is better split by instance. The scheduler may allocate.
+/// Deforms all vertices with oneTBB in the caller's arena (in a build with GOFFER_TBB=OFF: on the calling
+/// thread), in ranges of `grain` vertices or more. The same bits as run(). Worth it for a large body; a crowd
+/// is better split by instance. The scheduler may allocate.
 DeformResult run_parallel(const DeformJob& job, std::size_t grain = 8192);
 
 }  // namespace goffer::bend
