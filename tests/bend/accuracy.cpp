@@ -105,7 +105,7 @@ TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
                 CHECK(one.normal <= 0.01);
                 CHECK(one.tangent <= 0.01);
                 CHECK(one.unit <= 1e-6);
-                CHECK(one.skew <= 5e-6);
+                CHECK(one.skew <= 1e-5);  // a few of float's steps, doubled with the arc beyond a half turn
                 worst[i].add(one);
             }
         }

@@ -1,159 +1,257 @@
 // SPDX-License-Identifier: MIT
+#include "support/arena.hpp"
 #include "support/bodies.hpp"
+#include "support/layout.hpp"
 
+#include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
 
 #include <doctest/doctest.h>
-#include <tbb/task_arena.h>
 
-#include <cstring>
+#include <array>
 #include <limits>
+#include <thread>
+#include <vector>
 
-/// The crowd's contract: the bits of single jobs, whatever the arena, the stores and the neighbours; faults
-/// named.
+/// The crowd's contract: the bits of single jobs, whatever the arena, the split, the stores and the
+/// neighbours; faults named.
 
 namespace goffer::test {
 namespace {
 
-/// Instances of several bodies of very different sizes, in runs and alone, their outputs in one buffer each.
+/// Instances of bodies of very different sizes, in runs and alone, each with streams of its own kind.
 class Crowd {
 public:
-    Crowd(Random& random, std::size_t instances, std::size_t misalignment) {
-        for (const int rows : {9, 41, 400}) {
-            const Subject subject = random_subject(random, 10, 1, 24, rows, 0);
-            bodies_.push_back(std::move(fit::bind(subject.geometry(), subject.cylinder).body));
-        }
+    Crowd(Random& random, std::size_t instances) : boxes_(instances) {
+        constexpr std::string_view pictures[] = {"x y z",
+                                                 "x y z u v w",
+                                                 "xyzuvw",
+                                                 "123",
+                                                 "xyz u v w a b c d",
+                                                 "xyz.uvw.abcd.123.pqr",
+                                                 "p q r xyzuvwabcd",
+                                                 "wvuzyx"};
+        for (const std::size_t count : {210u, 990u, 1u, 20000u}) bodies_.push_back(loose_body(random, count));
         for (std::size_t i = 0; i < instances; ++i) {
-            const bend::Body& body = bodies_[i % 40 == 7 ? 2 : i % 5 == 0 ? 1 : 0];
-            const std::size_t count = body.vertex_count();
-            buffers_.emplace_back(10, count + misalignment);
-            Columns& out = buffers_.back();
-            const auto plane = [&](std::size_t c) { return out[c].subspan(misalignment); };
+            const bend::Body& body = bodies_[i % 40 == 7 ? 3 : i % 11 == 9 ? 2 : i % 5 == 0 ? 1 : 0];
+            outputs_.emplace_back(pictures[random() % std::size(pictures)], body.vertex_count(),
+                                  random() % 16, random() % 3);
             bend::DeformJob job;
             job.body = &body;
-            job.pose = {static_cast<float>(uniform(random, -1, i % 3 == 0 ? 60 : 1)),
-                        static_cast<float>(uniform(random, -9, 9))};
-            job.positions = planar(plane(0), plane(1), plane(2));
-            if (i % 2 == 0) job.normals = planar(plane(3), plane(4), plane(5));
-            if (i % 3 == 0) job.tangents = planar(plane(6), plane(7), plane(8), plane(9));
+            job.pose = random_pose(random);
+            job.previous_pose = random_pose(random);
+            job.transform = random_transform(random, 5);
+            outputs_[i].attach(job);
+            if (i % 3 == 0) job.bounds = &boxes_[i];
             jobs.push_back(job);
         }
     }
 
     void clear() {
-        for (Columns& buffer : buffers_) {
-            for (std::size_t c = 0; c < buffer.columns(); ++c)
-                std::fill(buffer[c].begin(), buffer[c].end(), 0.0f);
-        }
+        for (Layout& output : outputs_) output.clear();
+        boxes_.assign(boxes_.size(), {});
     }
 
-    /// FNV-1a over every output.
+    /// Over every output of every instance.
     [[nodiscard]] std::uint64_t hash() const {
-        std::uint64_t sum = 14695981039346656037u;
-        for (const Columns& buffer : buffers_) {
-            for (std::size_t c = 0; c < buffer.columns(); ++c) {
-                for (const float value : buffer[c]) {
-                    std::uint32_t bits = 0;
-                    std::memcpy(&bits, &value, sizeof bits);
-                    sum = (sum ^ bits) * 1099511628211u;
-                }
+        std::uint64_t sum = 1;
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            sum = outputs_[i].hash(sum);
+            for (const float value : {boxes_[i].low.x, boxes_[i].low.y, boxes_[i].low.z, boxes_[i].high.x,
+                                      boxes_[i].high.y, boxes_[i].high.z}) {
+                sum = (sum ^ std::bit_cast<std::uint32_t>(value)) * 1099511628211u;
             }
         }
         return sum;
     }
 
+    /// What a run of the active ones, one by one, leaves and counts.
+    struct Expected {
+        std::uint64_t hash = 0;
+        bend::CrowdResult result;
+    };
+    [[nodiscard]] Expected expected(Isa isa, std::span<const std::uint8_t> active = {}) {
+        Expected expected;
+        clear();
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            jobs[i].isa = isa;
+            if (!active.empty() && active[i] == 0) continue;
+            ++expected.result.deformed;
+            expected.result.clamped += bend::run(jobs[i]).clamped ? 1 : 0;
+        }
+        expected.hash = hash();
+        return expected;
+    }
+
     std::vector<bend::DeformJob> jobs;
 
 private:
+    /// Every third beyond the body's limit.
+    static bend::Pose random_pose(Random& random) {
+        return {static_cast<float>(uniform(random, -4, random() % 3 == 0 ? 60 : 4)),
+                static_cast<float>(uniform(random, -9, 9))};
+    }
+
     std::vector<bend::Body> bodies_;
-    std::vector<Columns> buffers_;
+    std::vector<Layout> outputs_;
+    std::vector<bend::Bounds> boxes_;
 };
+
+/// Runs `run`, which returns a CrowdResult, on a cleared crowd.
+template <class Run>
+void check(Crowd& crowd, const Crowd::Expected& expected, Run run) {
+    crowd.clear();
+    const bend::CrowdResult result = run();
+    CHECK(result.deformed == expected.result.deformed);
+    CHECK(result.clamped == expected.result.clamped);
+    CHECK(crowd.hash() == expected.hash);
+}
+
+bend::CrowdResult run_pieces(const bend::CrowdJob& job, std::size_t first, std::size_t step,
+                             std::size_t pieces) {
+    bend::CrowdResult sum;
+    for (std::size_t piece = first; piece < pieces; piece += step) {
+        const bend::CrowdResult result = bend::run_piece(job, piece, pieces);
+        sum.deformed += result.deformed;
+        sum.clamped += result.clamped;
+    }
+    return sum;
+}
+
+/// Pieces dealt out to threads of the caller.
+bend::CrowdResult run_on_threads(const bend::CrowdJob& job, std::size_t threads, std::size_t pieces) {
+    std::vector<bend::CrowdResult> results(threads);
+    std::vector<std::thread> workers;
+    for (std::size_t i = 0; i < threads; ++i)
+        workers.emplace_back([&, i] { results[i] = run_pieces(job, i, threads, pieces); });
+    bend::CrowdResult sum;
+    for (std::size_t i = 0; i < threads; ++i) {
+        workers[i].join();
+        sum.deformed += results[i].deformed;
+        sum.clamped += results[i].clamped;
+    }
+    return sum;
+}
+
+constexpr std::array all_stores = {bend::Stores::automatic, bend::Stores::cached, bend::Stores::streaming};
 
 }  // namespace
 
 TEST_CASE("P5: a crowd gives the bits of its single jobs, in any arena, by any stores") {
-    for (const std::size_t misalignment : {0u, 5u}) {
-        Random random(31);
-        Crowd crowd(random, 150, misalignment);
-        for (const Isa isa : built_isas()) {
-            if (!runs_here(isa)) continue;
-            CAPTURE(name(isa));
-            std::size_t clamped = 0;
-            crowd.clear();
-            for (bend::DeformJob& job : crowd.jobs) {
-                job.isa = isa;
-                clamped += bend::run(job).clamped ? 1 : 0;
-            }
-            CHECK(clamped > 10);
-            const std::uint64_t expected = crowd.hash();
-            for (const bend::Stores stores :
-                 {bend::Stores::automatic, bend::Stores::cached, bend::Stores::streaming}) {
-                const bend::CrowdJob job{.instances = crowd.jobs, .stores = stores};
-                REQUIRE(bend::validate(job).none());
-                crowd.clear();
-                CHECK(bend::run(job).clamped == clamped);
-                CHECK(crowd.hash() == expected);
-                for (const int threads : {1, 2, 4, 7}) {
-                    tbb::task_arena arena(threads);
-                    crowd.clear();
-                    arena.execute([&] { CHECK(bend::run_parallel(job).clamped == clamped); });
-                    CHECK(crowd.hash() == expected);
-                }
+    Random random(31);
+    Crowd crowd(random, 150);
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        const Crowd::Expected expected = crowd.expected(isa);
+        CHECK(expected.result.deformed == 150);
+        CHECK(expected.result.clamped > 10);
+        for (const bend::Stores stores : all_stores) {
+            const bend::CrowdJob job{.instances = crowd.jobs, .stores = stores};
+            REQUIRE(bend::validate(job).none());
+            check(crowd, expected, [&] { return bend::run(job); });
+            for (const int threads : {1, 2, 4, 7}) {
+                check(crowd, expected, [&] {
+                    bend::CrowdResult result;
+                    in_arena(threads, [&] { result = bend::run_parallel(job); });
+                    return result;
+                });
             }
         }
     }
 }
 
-TEST_CASE("instances that are not active are not touched") {
+TEST_CASE("P5: pieces on the caller's threads give the same bits, in any number") {
     Random random(32);
-    Crowd crowd(random, 60, 0);
-    std::vector<std::uint8_t> active(60);
-    for (std::size_t i = 0; i < active.size(); ++i) active[i] = i % 3 != 1;
-    for (std::size_t i = 0; i < active.size(); ++i) {
-        if (active[i] != 0) bend::run(crowd.jobs[i]);
+    Crowd crowd(random, 120);
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        const Crowd::Expected expected = crowd.expected(isa);
+        const bend::CrowdJob job{.instances = crowd.jobs, .stores = bend::Stores::streaming};
+        for (const std::size_t pieces : {1u, 2u, 3u, 7u, 64u, 1000u}) {
+            CAPTURE(pieces);
+            check(crowd, expected, [&] { return run_pieces(job, 0, 1, pieces); });
+        }
+        for (const std::size_t threads : {1u, 2u, 4u, 7u}) {
+            CAPTURE(threads);
+            check(crowd, expected, [&] { return run_on_threads(job, threads, 3 * threads + 1); });
+        }
     }
-    const std::uint64_t expected = crowd.hash();
-    const bend::CrowdJob job{.instances = crowd.jobs, .active = active};
-    crowd.clear();
-    bend::run_parallel(job);
-    CHECK(crowd.hash() == expected);
-
-    crowd.jobs[1].body = nullptr;  // asleep: nobody looks
-    CHECK(bend::validate(job).none());
-    crowd.clear();
-    bend::run(job);
-    CHECK(crowd.hash() == expected);
 }
 
-TEST_CASE("interleaved instances stand beside planar ones") {
+TEST_CASE("pieces share the work out by vertices") {
     Random random(33);
-    Crowd crowd(random, 20, 0);
-    bend::DeformJob& job = crowd.jobs[4];
-    std::vector<float> alone(job.body->vertex_count() * 6), among(alone.size());
-    const auto redirect = [&](std::vector<float>& buffer) {
-        job.positions = interleaved<3>(buffer.data(), job.body->vertex_count(), 24);
-        job.normals = interleaved<3>(buffer.data() + 3, job.body->vertex_count(), 24);
-        job.tangents = {};
+    Crowd crowd(random, 120);
+    std::size_t all = 0;
+    for (const bend::DeformJob& job : crowd.jobs) all += job.body->vertex_count();
+    crowd.clear();
+    const std::uint64_t before = crowd.hash();
+    // Of two pieces neither is empty, though the first instances are most of the crowd's work.
+    std::ranges::stable_sort(crowd.jobs, std::ranges::greater{},
+                             [](const bend::DeformJob& job) { return job.body->vertex_count(); });
+    const bend::CrowdJob job{.instances = crowd.jobs};
+    const std::size_t first = bend::run_piece(job, 0, 2).deformed;
+    CHECK(crowd.hash() != before);
+    std::size_t vertices = 0, instances = 0;
+    for (; vertices < all / 2; ++instances) vertices += crowd.jobs[instances].body->vertex_count();
+    CHECK(first == instances);
+}
+
+TEST_CASE("instances that are not seen, or not changed, are not touched") {
+    Random random(34);
+    Crowd crowd(random, 90);
+    std::vector<std::uint8_t> visible(90), changed(90), both(90);
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        visible[i] = i % 3 == 1 ? 0 : static_cast<std::uint8_t>(1 + random() % 255);
+        changed[i] = i < 11 || i % 7 == 4 ? 0 : 1;
+        both[i] = visible[i] != 0 && changed[i] != 0 ? 1 : 0;
+    }
+    const auto check_masks = [&](std::span<const std::uint8_t> active, const bend::CrowdJob& job) {
+        const Crowd::Expected expected = crowd.expected(Isa::automatic, active);
+        check(crowd, expected, [&] { return bend::run(job); });
+        check(crowd, expected, [&] { return bend::run_parallel(job); });
+        check(crowd, expected, [&] { return run_pieces(job, 0, 1, 13); });
     };
-    redirect(alone);
-    bend::run(job);
-    redirect(among);
-    bend::run_parallel({.instances = crowd.jobs, .stores = bend::Stores::streaming});
-    CHECK(alone == among);
+    check_masks(visible, {.instances = crowd.jobs, .visible = visible});
+    check_masks(changed, {.instances = crowd.jobs, .changed = changed});
+    check_masks(both, {.instances = crowd.jobs, .visible = visible, .changed = changed});
+    const std::vector<std::uint8_t> none(90, 0);
+    check_masks(none, {.instances = crowd.jobs, .visible = none});
+
+    crowd.jobs[1].body = nullptr;  // asleep: nobody looks
+    const bend::CrowdJob job{.instances = crowd.jobs, .visible = visible};
+    CHECK(bend::validate(job).none());
+    check_masks(visible, job);
 }
 
 TEST_CASE("a crowd's fault names its instance") {
-    Random random(34);
-    Crowd crowd(random, 12, 0);
+    Random random(35);
+    Crowd crowd(random, 12);
     crowd.jobs[9].pose.angle = std::numeric_limits<float>::quiet_NaN();
+    crowd.jobs[10].body = nullptr;
     const bend::CrowdFault fault = bend::validate(bend::CrowdJob{.instances = crowd.jobs});
     CHECK_FALSE(fault.none());
     CHECK(fault.instance == 9);
     CHECK(fault.fault == bend::JobFault::pose_angle);
-    const std::vector<std::uint8_t> short_mask(11, 1);
-    CHECK(bend::validate(bend::CrowdJob{.instances = crowd.jobs, .active = short_mask}).active_count);
-    CHECK(bend::validate(bend::CrowdJob{}).none());
-    CHECK(bend::run_parallel(bend::CrowdJob{}).clamped == 0);
+    CHECK(bend::describe(fault) == bend::describe(bend::JobFault::pose_angle));
+
+    const std::vector<std::uint8_t> one_short(11, 1);
+    const bend::CrowdFault visible = bend::validate({.instances = crowd.jobs, .visible = one_short});
+    CHECK(visible.visible_count);
+    CHECK_FALSE(visible.none());
+    CHECK(bend::describe(visible) == "visible: neither empty nor one per instance");
+    const bend::CrowdFault changed = bend::validate({.instances = crowd.jobs, .changed = one_short});
+    CHECK(changed.changed_count);
+    CHECK_FALSE(changed.none());
+    CHECK(bend::describe(changed) == "changed: neither empty nor one per instance");
+}
+
+TEST_CASE("an empty crowd is no fault and no work") {
+    const bend::CrowdJob nobody;
+    CHECK(bend::validate(nobody).none());
+    CHECK(bend::describe(bend::CrowdFault{}) == "no fault");
+    CHECK(bend::run(nobody).deformed == 0);
+    CHECK(bend::run_parallel(nobody).deformed == 0);
+    CHECK(bend::run_piece(nobody, 2, 3).deformed == 0);
 }
 
 }  // namespace goffer::test

@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <thread>
 
 /// The job's contract: faults named, any count and stride, nothing written out of bounds, bits that depend on
@@ -104,36 +105,6 @@ TEST_CASE("streams wanted alone give the bits that they give together") {
     }
 }
 
-TEST_CASE("interleaved streams of any stride hold the planar values, and nothing beside them is written") {
-    Random random(8);
-    const fit::Bound bound = bound_body(random);
-    const std::size_t count = bound.body.vertex_count();
-    for (const Isa isa : built_isas()) {
-        if (!runs_here(isa)) continue;
-        Output whole(count);
-        bend::run(make_job(bound.body, pose, isa, whole));
-        for (const std::size_t floats : {10u, 11u, 16u}) {
-            constexpr float untouched = -12345.0f;
-            std::vector<float> buffer(count * floats, untouched);  // exactly as long as documented
-            bend::DeformJob job;
-            job.body = &bound.body;
-            job.pose = pose;
-            job.isa = isa;
-            const std::size_t stride = floats * sizeof(float);
-            job.positions = interleaved<3>(buffer.data(), count, stride);
-            job.normals = interleaved<3>(buffer.data() + 3, count, stride);
-            job.tangents = interleaved<4>(buffer.data() + 6, count, stride);
-            REQUIRE(bend::validate(job) == bend::JobFault::none);
-            bend::run(job);
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::size_t c = 0; c < floats; ++c) {
-                    REQUIRE(buffer[i * floats + c] == (c < 10 ? whole.columns[c][i] : untouched));
-                }
-            }
-        }
-    }
-}
-
 TEST_CASE("exact edges: every vertex count, misaligned outputs of exactly that length") {
     Random random(9);
     const Subject subject = random_subject(random, 10, 1, 8, 9, 0);
@@ -201,8 +172,13 @@ TEST_CASE("P7: validate names the field at fault") {
     CHECK(fault([&](DeformJob& j) { j.positions = interleaved<3>(out.columns[0].data(), count, 8); }) ==
           JobFault::positions_stride);
     CHECK(fault([](DeformJob& j) { j.isa = static_cast<Isa>(99); }) == JobFault::isa);
-    for (int i = 0; i <= static_cast<int>(JobFault::isa); ++i) {
-        CHECK(bend::describe(static_cast<JobFault>(i)) != "unknown fault");
+    for (int c = 0; c < 4; ++c) {
+        for (int row = 0; row < 3; ++row) {
+            CHECK(fault([&](DeformJob& j) { j.transform[c][row] = nan; }) == JobFault::transform);
+            CHECK(fault([&](DeformJob& j) { j.transform[c][row] = -infinity; }) == JobFault::transform);
+            CHECK(fault([&](DeformJob& j) { j.transform[c][row] = -2e18f; }) == JobFault::transform);
+            CHECK(fault([&](DeformJob& j) { j.transform[c][row] = 1e18f; }) == JobFault::none);
+        }
     }
 
     Subject plain = random_subject(random, 10, 1, 8, 9, 0);
@@ -211,6 +187,74 @@ TEST_CASE("P7: validate names the field at fault") {
     DeformJob job = good;
     job.body = &without.body;
     CHECK(bend::validate(job) == JobFault::body_without_tangents);
+}
+
+TEST_CASE("P7: validate names the field at fault of packed vertices and of previous positions") {
+    Random random(12);
+    const bend::Body body = loose_body(random, 20);
+    Output out(20);
+    std::vector<bend::PackedVertex> vertices(21);
+    using bend::DeformJob;
+    using bend::JobFault;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto fault = [](DeformJob job, auto change) {
+        change(job);
+        return bend::validate(job);
+    };
+
+    DeformJob packed{.body = &body};
+    packed.packed = {vertices.data(), sizeof(bend::PackedVertex), 20};
+    CHECK(bend::validate(packed) == JobFault::none);
+    CHECK(fault(packed, [](DeformJob& j) { j.packed.count = 19; }) == JobFault::packed_count);
+    CHECK(fault(packed, [](DeformJob& j) { j.packed.stride = 8; }) == JobFault::packed_stride);
+    CHECK(fault(packed, [](DeformJob& j) { j.packed.stride = 0; }) == JobFault::packed_stride);
+    CHECK(fault(packed, [](DeformJob& j) { j.packed.stride = 14; }) == JobFault::packed_stride);
+    CHECK(fault(packed, [](DeformJob& j) { j.packed.stride = 16; }) == JobFault::none);
+    CHECK(fault(packed, [&](DeformJob& j) {
+              j.packed.first = reinterpret_cast<bend::PackedVertex*>(&vertices[0].position[1]);
+          }) == JobFault::packed_first);
+    bend::Bounds box;
+    CHECK(fault(packed, [&](DeformJob& j) { j.packed = {}, j.bounds = &box; }) == JobFault::no_streams);
+
+    DeformJob previous{.body = &body};
+    previous.previous_positions = planar(out.columns[0], out.columns[1], out.columns[2]);
+    CHECK(bend::validate(previous) == JobFault::none);
+    CHECK(fault(previous, [&](DeformJob& j) { j.previous_pose.angle = nan; }) ==
+          JobFault::previous_pose_angle);
+    CHECK(fault(previous, [&](DeformJob& j) { j.previous_pose.direction = nan; }) ==
+          JobFault::previous_pose_direction);
+    CHECK(fault(previous, [&](DeformJob& j) { j.previous_transform[3][1] = nan; }) ==
+          JobFault::previous_transform);
+    CHECK(fault(previous, [](DeformJob& j) { --j.previous_positions.count; }) ==
+          JobFault::previous_positions_count);
+    CHECK(fault(previous, [](DeformJob& j) { j.previous_positions.stride = 10; }) ==
+          JobFault::previous_positions_stride);
+    CHECK(fault(previous, [&](DeformJob& j) {
+              j.previous_positions = interleaved<3>(out.columns[0].data(), 20, 8);
+          }) == JobFault::previous_positions_stride);
+    CHECK(fault(previous, [](DeformJob& j) { j.previous_positions.component[1] = nullptr; }) ==
+          JobFault::previous_positions_component);
+    // What is not asked for need not make sense.
+    CHECK(fault(packed, [&](DeformJob& j) {
+              j.previous_pose.angle = nan, j.previous_transform[0][0] = nan;
+          }) == JobFault::none);
+}
+
+TEST_CASE("every fault has a line of its own, which begins with the field") {
+    constexpr auto last = static_cast<int>(bend::JobFault::previous_positions_component);
+    std::vector<std::string_view> lines;
+    for (int i = 0; i <= last; ++i) {
+        const std::string_view line = bend::describe(static_cast<bend::JobFault>(i));
+        CAPTURE(line);
+        CHECK(line != "unknown fault");
+        CHECK(std::ranges::find(lines, line) == lines.end());
+        const std::size_t colon = line.find(": ");
+        CHECK((i == 0) == (colon == std::string_view::npos));
+        CHECK((i == 0 || (colon > 2 && colon + 2 < line.size())));
+        CHECK(line.back() != '.');
+        lines.push_back(line);
+    }
+    CHECK(bend::describe(static_cast<bend::JobFault>(last + 1)) == "unknown fault");
 }
 
 TEST_CASE("angles and directions of any finite size give finite results") {

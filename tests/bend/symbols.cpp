@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <goffer/engine/isa.hpp>
+
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// A function that the AVX-512 file emits under a name which another file emits too may be the copy that the
-/// linker keeps, and then fails on an older processor. So every function that a kernel's file defines must
-/// carry its own lanes' name.
+/// What the library's object files define, and what they call.
 
 namespace goffer::test {
 namespace {
@@ -23,15 +25,16 @@ std::string output_of(const std::string& command) {
     return text;
 }
 
-std::vector<std::string> kernel_objects() {
+/// The object files in a list by CMake.
+std::vector<std::string> objects(const char* list) {
     std::vector<std::string> objects;
-    std::istringstream list(GOFFER_KERNEL_OBJECTS);
-    for (std::string object; std::getline(list, object, '|');) {
-        if (object.find("/kernel_") != std::string::npos && object.find("scalar") == std::string::npos) {
-            objects.push_back(object);
-        }
-    }
+    std::istringstream names(list);
+    for (std::string object; std::getline(names, object, '|');) objects.push_back(object);
     return objects;
+}
+
+bool is(const std::string& object, std::string_view source) {
+    return object.find("/" + std::string(source)) != std::string::npos;
 }
 
 /// Names of the functions and data that `object` defines and others could share.
@@ -46,10 +49,42 @@ std::vector<std::string> shared_names(const std::string& object) {
     return names;
 }
 
+/// Names of the functions and data that `object` wants of others.
+std::vector<std::string> wanted_names(const std::string& object) {
+    std::vector<std::string> names;
+    std::istringstream lines(output_of("nm --undefined-only -C '" + object + "' 2>&1"));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.size() >= 20) names.push_back(line.substr(19));
+    }
+    return names;
+}
+
+/// Of the C library: arithmetic, copying and comparing.
+bool is_harmless(const std::string& name) {
+    constexpr std::string_view functions[] = {"memcpy",     "memmove", "memset",    "memcmp",
+                                              "sinf",       "cosf",    "sincosf",   "sqrtf",
+                                              "nearbyintf", "fabsf",   "copysignf", "sqrt"};
+    return std::ranges::find(functions, name) != std::end(functions);
+}
+
+/// What compilers ask for on their own account, sanitizers, and assertions of builds that have them.
+bool is_compilers(const std::string& name) {
+    constexpr std::string_view beginnings[] = {
+        "_GLOBAL_OFFSET_TABLE_", "__asan_",     "__ubsan_",      "__tsan_", "__sanitizer_",
+        "__stack_chk_",          "__cpu_model", "__assert_fail", "__gcov_"};
+    return std::ranges::any_of(beginnings, [&](std::string_view start) { return name.starts_with(start); });
+}
+
 }  // namespace
 
+// A function that the AVX-512 file emits under a name which another file emits too may be the copy that the
+// linker keeps, and then fails on an older processor. So every function that a kernel's file defines must
+// carry its own lanes' name.
 TEST_CASE("kernel files define nothing that another file could take for its own") {
-    for (const std::string& object : kernel_objects()) {
+    int kernels = 0;
+    for (const std::string& object : objects(GOFFER_BEND_OBJECTS)) {
+        if (!is(object, "kernel_") || is(object, "kernel_scalar")) continue;
+        ++kernels;
         const std::vector<std::string> names = shared_names(object);
         CHECK(!names.empty());
         for (const std::string& name : names) {
@@ -59,6 +94,32 @@ TEST_CASE("kernel files define nothing that another file could take for its own"
         }
         CHECK(output_of("nm '" + object + "' 2>&1").find("_GLOBAL__sub_I") == std::string::npos);
     }
+    CHECK(kernels == static_cast<int>(built_isas().size()) - 1);
+}
+
+// P6: what frames go through, all but the scheduler and the making of bodies, calls nothing that could
+// allocate, lock, or open, read and write a file.
+TEST_CASE("P6: the frame path calls nothing but itself and arithmetic") {
+    std::vector<std::string> frame_path;
+    for (const std::string& object : objects(GOFFER_BEND_OBJECTS)) {
+        if (!is(object, "body.cpp")) frame_path.push_back(object);
+    }
+    for (const std::string& object : objects(GOFFER_ENGINE_OBJECTS)) {
+        if (is(object, "isa.cpp")) frame_path.push_back(object);
+    }
+    CHECK(frame_path.size() > 8);
+    std::size_t wanted = 0;
+    for (const std::string& object : frame_path) {
+        for (const std::string& name : wanted_names(object)) {
+            ++wanted;
+            const bool own = name.starts_with("goffer::bend::") || name.starts_with("goffer::runs_here(") ||
+                             name.starts_with("goffer::resolve(") || name.starts_with("goffer::built_isas(");
+            const bool scheduler = name.starts_with("goffer::parallel_ranges(");
+            CHECK_MESSAGE((own || scheduler || is_harmless(name) || is_compilers(name)), object, " calls ",
+                          name);
+        }
+    }
+    CHECK(wanted > 20);
 }
 
 }  // namespace goffer::test

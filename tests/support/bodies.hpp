@@ -95,15 +95,15 @@ inline Subject random_subject(Random& random, double slenderness, double scale, 
 }
 
 /// A body of any vertices at all, that no mesh need have: for tests that ask where values go. Length 1,
-/// radius 0.1, three folds.
-inline bend::Body loose_body(Random& random, std::size_t count) {
+/// radius 0.1, three folds; vertices up to `widest` from the axis.
+inline bend::Body loose_body(Random& random, std::size_t count, double widest = 0.11) {
     static const bend::WrinkleTable table =
         fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 3, 1, 0.1, 4.9, 32);
     std::vector<bend::RestVertex> vertices(count);
     std::vector<bend::RestVector> normals(count), tangents(count);
     std::vector<float> signs(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const double rho = i % 10 == 3 ? 0 : uniform(random, 0, 0.11);
+        const double rho = i % 10 == 3 ? 0 : uniform(random, 0, widest);
         const double depth = rho < 0.05 ? 20 : 1 / rho;
         vertices[i] = {uniform(random, -4, 4), uniform(random, 0, 1), rho, depth * uniform(random, -1, 1),
                        uniform(random, -20, 20)};

@@ -78,6 +78,7 @@ BodyFrame frame_of(const BodyInput& input) {
         frame.origin[row] = static_cast<float>(input.origin[row]);
     }
     frame.length = static_cast<float>(input.length);
+    frame.per_length = static_cast<float>(1 / input.length);
     frame.radius = static_cast<float>(input.radius);
     return frame;
 }
@@ -92,11 +93,11 @@ Bands bands_of(const Columns& columns) {
     const float per_height =
         *highest > *lowest ? static_cast<float>(Bands::count) / (*highest - *lowest) : 0.0f;
     for (std::size_t i = 0; i < heights.size(); ++i) {
-        const auto place = static_cast<std::size_t>((heights[i] - *lowest) * per_height);
-        const std::size_t band = std::min(place, Bands::count - 1);
-        bands.rho[band] = std::max(bands.rho[band], columns[Body::rho][i]);
-        bands.lift[band] = std::max(bands.lift[band], columns[Body::lift][i]);
-        bands.dip[band] = std::max(bands.dip[band], -columns[Body::lift][i]);
+        const auto band = static_cast<std::size_t>((heights[i] - *lowest) * per_height);
+        const std::size_t place = std::min(band, Bands::count - 1) + 1;
+        bands.rho[place] = std::max(bands.rho[place], columns[Body::rho][i]);
+        bands.lift[place] = std::max(bands.lift[place], columns[Body::lift][i]);
+        bands.dip[place] = std::max(bands.dip[place], -columns[Body::lift][i]);
     }
     return bands;
 }
@@ -157,8 +158,8 @@ BodyFault Body::check(const BodyInput& input) noexcept {
 std::optional<Body> Body::make(const BodyInput& input) {
     if (check(input) != BodyFault::none) return std::nullopt;
     Body body;
-    const bool tangents = !input.tangents.empty();
-    body.columns_ = Columns(tangents ? column_count : column_count_without_tangents, input.vertices.size());
+    body.columns_ = Columns(!input.tangents.empty() ? column_count : column_count_without_tangents,
+                            input.vertices.size());
     body.table_ = input.table;
     body.origin_ = input.origin;
     body.axes_ = input.axes;
@@ -169,8 +170,8 @@ std::optional<Body> Body::make(const BodyInput& input) {
     body.frame_ = frame_of(input);
     body.bands_ = bands_of(body.columns_);
     write_vectors(body.columns_, normal_rho, input.normals);
-    if (tangents) {
-        write_vectors(body.columns_, tangent_rho, input.tangents);
+    write_vectors(body.columns_, tangent_rho, input.tangents);
+    if (body.has_tangents()) {
         std::copy(input.tangent_signs.begin(), input.tangent_signs.end(),
                   body.columns_[tangent_sign].begin());
     }

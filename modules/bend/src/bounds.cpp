@@ -5,158 +5,210 @@
 #include <goffer/simd/four.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace goffer::bend {
 namespace {
 
 using namespace simd;
 
-static_assert(Bands::count == 8, "two Fours of bands, three of their edges");
-constexpr std::size_t edges = 12;
+static_assert(Bands::count % 4 == 3 && Bands::places >= Bands::count + 5,
+              "Fours of edges, and all bands in them");
+constexpr std::size_t edges = Bands::count + 1;
 
-/// The centre line at the bands' edges, in the middle frame. (The last three places are beyond.)
+/// The centre line at bands' edges, in the middle frame.
 struct CentreLine {
-    float x[edges], z[edges];          // along n and t
-    float cosine[edges], sine[edges];  // of the arc angle
-    float step;                        // arc angle of a band
-    float length;                      // of a band's piece
+    Four x, z;          // along n and t
+    Four cosine, sine;  // of the arc angle
 };
 
-CentreLine centre_line(const Bands& bands, const Coefficients& k) noexcept {
-    CentreLine line;
-    const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
-    for (std::size_t j = 0; j < edges; j += 4) {
-        const Four place = all(static_cast<float>(j)) + Four{0, 1, 2, 3};
-        const Four v = all(bands.lowest) + place * all(height);
-        const Four vv = v * v;
-        Four rise = all(k.rise[arc_terms - 1]);
-        Four reach = all(k.reach[arc_terms - 1]);
-        for (std::size_t n = arc_terms - 1; n-- > 0;) {
-            rise = rise * vv + all(k.rise[n]);
-            reach = reach * vv + all(k.reach[n]);
-        }
-        rise *= vv;
-        reach *= v;
-        float curvature = k.first_curvature;
-        for (int n = 0; n < k.doublings; ++n, curvature += curvature) {
-            const Four cosine = all(1) - all(curvature) * rise;
-            rise = all(curvature) * reach * reach;
-            reach *= cosine;
-        }
-        store_four(line.x + j, all(k.one_minus_kappa) * rise);
-        store_four(line.z + j, all(k.one_minus_kappa) * reach);
-        store_four(line.cosine + j, all(1) - all(k.curvature) * rise);
-        store_four(line.sine + j, all(k.curvature) * reach);
+CentreLine centre_line(const Coefficients& k, Four v) noexcept {
+    const Four vv = v * v;
+    Four rise = all(k.rise[arc_terms - 1]);
+    Four reach = all(k.reach[arc_terms - 1]);
+    for (std::size_t n = arc_terms - 1; n-- > 0;) {
+        rise = rise * vv + all(k.rise[n]);
+        reach = reach * vv + all(k.reach[n]);
     }
-    line.length = k.one_minus_kappa * k.reach[0] * height;  // reach[0] is L
-    line.step = k.curvature * k.reach[0] * height;
-    return line;
+    rise *= vv;
+    reach *= v;
+    float curvature = k.first_curvature;
+    for (int n = 0; n < k.doublings; ++n, curvature += curvature) {
+        const Four cosine = all(1) - all(curvature) * rise;
+        rise = all(curvature) * reach * reach;
+        reach *= cosine;
+    }
+    return {all(k.one_minus_kappa) * rise, all(k.one_minus_kappa) * reach, all(1) - all(k.curvature) * rise,
+            all(k.curvature) * reach};
 }
 
-/// The largest amplitude on the inner and on the outer half of the cross-section. The amplitude grows with
-/// the squeeze; sampled all the same, since a caller's table may hold anything.
-struct Amplitudes {
-    float inner = 0, outer = 0;
-};
+/// A cross-section's columns are taken in sectors, from the outer line to the inner one: T = 1 + cos(beta -
+/// theta) from 0 to 1/2 to 1 to 3/2 to 2.
+constexpr int sectors = 4;
 
-Amplitudes amplitudes(const Coefficients& k) noexcept {
-    constexpr Four t = {0.5f, 1.0f, 1.5f, 2.0f};  // T = 1 + cos(beta - theta)
+/// The largest amplitude in each sector. It grows with T; the maximum is taken all the same, since a caller's
+/// table may hold anything.
+Four amplitudes(const Coefficients& k) noexcept {
+    constexpr Four t = {0.5f, 1.0f, 1.5f, 2.0f};
     Four sum = all(k.amplitude[amplitude_terms - 1]);
     for (std::size_t n = amplitude_terms - 1; n-- > 0;) sum = sum * t + all(k.amplitude[n]);
-    const Four amplitude = absolute(sum) * root(t);
-    const float outer = std::max(amplitude[0], amplitude[1]);
-    return {std::max(outer, std::max(amplitude[2], amplitude[3])), outer};
+    Four largest = absolute(sum) * root(t);
+    for (int i = 1; i < sectors; ++i) largest[i] = std::max(largest[i], largest[i - 1]);
+    return largest;
 }
 
-struct Interval {
-    float low, high;
-};
-
-/// How far bands reach from the centre line.
+/// The widest vertex and the deepest wrinkles of four bands, or of what meets at four edges.
 struct Girth {
-    float inner[Bands::count], outer[Bands::count];  // on the bend's side and on the other
+    Four rho, lift, dip;  // rho below 0: no vertex there
 };
 
-Girth girth_of(const Bands& bands, const Amplitudes& amplitude) noexcept {
-    Girth girth;
-    for (std::size_t j = 0; j < Bands::count; j += 4) {
-        const Four rho = load_four(&bands.rho[j]), lift = load_four(&bands.lift[j]);
-        // A wrinkle deeper than the radius comes out on the other side.
-        const Four through = all(amplitude.inner) * load_four(&bands.dip[j]);
-        const Four inner = larger(rho + all(amplitude.inner) * lift, through);
-        store_four(girth.inner + j, inner);
-        store_four(girth.outer + j, through > rho ? inner : rho + all(amplitude.outer) * lift);
-    }
-    return girth;
+Girth of_bands(const Bands& bands, std::size_t j) noexcept {
+    return {load_four(&bands.rho[j + 1]), load_four(&bands.lift[j + 1]), load_four(&bands.dip[j + 1])};
 }
 
-/// Where the body lies along one axis of the streams' space; (m0, m1, m2) is that axis along n, b, t.
+/// Edge j is where bands j - 1 and j meet.
+Girth at_edges(const Bands& bands, std::size_t j) noexcept {
+    const Girth behind = of_bands(bands, j);
+    return {larger(behind.rho, load_four(&bands.rho[j])), larger(behind.lift, load_four(&bands.lift[j])),
+            larger(behind.dip, load_four(&bands.dip[j]))};
+}
+
+/// How far cross-sections reach along an axis, and against it.
+struct Reach {
+    Four up, down;
+};
+
+/// `value` where the comparison holds, else 0.
+template <class Mask>
+Four where(Mask holds, Four value) noexcept {
+    return std::bit_cast<Four>(holds & std::bit_cast<Mask>(value));
+}
+
+/// `radius`: in each sector, no smaller than in the one before. (a, b): the axis within the section's plane,
+/// a towards the bend, b >= 0 across; `whole` its length there. Of an arc the farthest point is where the
+/// axis points to, or an end; of two that meet, the inner one's.
+inline Reach reach(const Four (&radius)[sectors], Four a, Four b, Four whole) noexcept {
+    const Four half = all(0.5f) * whole, slant = all(0.8660254f) * b, middle = radius[2] * b;
+    const auto towards = [&](Four c, Four half_c) {
+        const Four outer = larger(radius[0], where(c > -half, radius[1]));
+        const Four inner = larger(where(c > 0, radius[2]), where(c > half, radius[3]));
+        const Four ends = larger(radius[3] * larger(c, slant + half_c), radius[1] * (slant - half_c));
+        return larger(larger(ends, middle), larger(outer, inner) * whole);
+    };
+    const Four half_a = all(0.5f) * a;
+    return {towards(a, half_a), towards(-a, -half_a)};
+}
+
+inline Reach reach(const Girth& girth, Four amplitude, Four a, Four b, Four whole) noexcept {
+    Four radius[sectors], through[sectors];
+    for (int i = 0; i < sectors; ++i) {
+        radius[i] = girth.rho + all(amplitude[i]) * girth.lift;
+        through[i] = all(amplitude[i]) * girth.dip;
+    }
+    const Reach outside = reach(radius, a, b, whole);
+    const auto crosses = through[sectors - 1] > girth.rho;
+    if ((crosses[0] | crosses[1] | crosses[2] | crosses[3]) == 0) return outside;
+    // Wrinkles deeper than the radius move vertices through the axis to its other side.
+    const Reach inside_out = reach(through, a, b, whole);
+    return {larger(outside.up, inside_out.down), larger(outside.down, inside_out.up)};
+}
+
+/// Where a body lies along one axis of the streams' space; (m0, m1, m2) is that axis along n, b, t.
 ///
-/// In a band, the centre line is at most a sagitta beyond its ends. A cross-section reaches (R + A) |(a, b)|
-/// beyond the centre line, where (a, b) is the axis within its plane: |(a, b)|^2 = |m|^2 - tau^2 with tau
-/// along the centre line. On the far side from the bend (a < 0) the full wrinkle of the inner half counts
-/// along b alone.
-Interval extent(const Bands& bands, const CentreLine& line, const Girth& girth, float m0, float m1,
-                float m2) noexcept {
-    const float squares = m0 * m0 + m1 * m1 + m2 * m2;
-    float at[edges], a[edges], tau[edges];
-    for (std::size_t j = 0; j < edges; j += 4) {
-        const Four cosine = load_four(line.cosine + j), sine = load_four(line.sine + j);
-        store_four(at + j, all(m0) * load_four(line.x + j) + all(m2) * load_four(line.z + j));
-        store_four(a + j, all(m0) * cosine - all(m2) * sine);
-        store_four(tau + j, all(m0) * sine + all(m2) * cosine);
+/// A band is its widest cross-section, moved along its piece of the arc. Each point of the section goes along
+/// a circle then, and is farthest where that begins, where it ends, or where it runs square to the axis:
+/// nothing but the sections there counts.
+class Extent {
+public:
+    Extent(const Coefficients& k, int row) noexcept
+        : m0_(k.matrix[row]), m2_(k.matrix[8 + row]), across_(all(std::fabs(k.matrix[4 + row]))) {
+        in_plane_ = std::sqrt(m0_ * m0_ + m2_ * m2_);
+        whole_ = std::sqrt(m0_ * m0_ + m2_ * m2_ + across_[0] * across_[0]);
     }
-    const float sagitta = std::sqrt(m0 * m0 + m2 * m2) * line.length * line.step / 8;
-    Four low = all(std::numeric_limits<float>::max());
-    Four high = all(std::numeric_limits<float>::lowest());
-    for (std::size_t j = 0; j < Bands::count; j += 4) {
-        const auto ends = [j](const float* values) {
-            return std::pair(load_four(values + j), load_four(values + j + 1));
-        };
-        const auto [at0, at1] = ends(at);
-        const auto [a0, a1] = ends(a);
-        const auto [tau0, tau1] = ends(tau);
-        const Four steepest = smaller(absolute(tau0), absolute(tau1));
-        const Four least = tau0 * tau1 > 0 ? steepest : all(0);
-        const Four reach = root(larger(all(0), all(squares) - least * least));
-        const Four inner = load_four(girth.inner + j);
-        const Four away = larger(load_four(girth.outer + j) * reach, inner * all(std::fabs(m1)));
-        const Four up = larger(a0, a1) > 0 ? inner * reach : away;
-        const Four down = smaller(a0, a1) < 0 ? inner * reach : away;
-        const Four rho = load_four(&bands.rho[j]);  // below 0: no vertex in the band
-        low = rho < 0 ? low : smaller(low, smaller(at0, at1) - all(sagitta) - down);
-        high = rho < 0 ? high : larger(high, larger(at0, at1) + all(sagitta) + up);
-    }
-    return {std::min(std::min(low[0], low[1]), std::min(low[2], low[3])),
-            std::max(std::max(high[0], high[1]), std::max(high[2], high[3]))};
-}
 
-/// The same where a band is bent by more than a quarter turn: the whole circle of the centre line counts.
-Interval extent_of_turns(const Girth& girth, const Coefficients& k, float m0, float m1, float m2) noexcept {
-    const float largest = *std::max_element(girth.inner, girth.inner + Bands::count);
-    const float radius = k.one_minus_kappa / k.curvature;
-    const float reach =
-        std::sqrt(m0 * m0 + m2 * m2) * radius + largest * std::sqrt(m0 * m0 + m1 * m1 + m2 * m2);
-    return {m0 * radius - reach, m0 * radius + reach};
-}
+    /// The edges from j on.
+    void take_edges(const CentreLine& line, std::size_t j, const Girth& girth, Four amplitude) noexcept {
+        const Four at = all(m0_) * line.x + all(m2_) * line.z;
+        const Four a = all(m0_) * line.cosine - all(m2_) * line.sine;
+        store_four(at_ + j, at);
+        store_four(a_ + j, a);
+        store_four(tau_ + j, all(m0_) * line.sine + all(m2_) * line.cosine);
+        take(girth, amplitude, at, a, root(a * a + across_ * across_));
+    }
+
+    /// The bands that run square to the axis somewhere, once all edges are taken. `radius` and `sagitta` of
+    /// the centre line in a band, for an axis in the bend's plane.
+    void take_bands(const Bands& bands, Four amplitude, float radius, float sagitta) noexcept {
+        for (std::size_t j = 0; j < Bands::count; ++j) {
+            if (!(tau_[j] * tau_[j + 1] < 0) || bands.rho[j + 1] < 0) continue;
+            // From the nearer edge, so that little cancels.
+            const std::size_t i = std::fabs(tau_[j]) < std::fabs(tau_[j + 1]) ? j : j + 1;
+            const float rise =
+                std::min(radius * tau_[i] * tau_[i] / (in_plane_ + std::fabs(a_[i])), sagitta * in_plane_);
+            const float side = a_[i] > 0 ? 1.0f : -1.0f;
+            const Girth girth = {all(bands.rho[j + 1]), all(bands.lift[j + 1]), all(bands.dip[j + 1])};
+            take(girth, amplitude, all(at_[i] - side * rise), all(side * in_plane_), all(whole_));
+        }
+    }
+
+    /// Bands from j on that each go all round a circle of `radius`.
+    void take_circles(const Girth& girth, Four amplitude, float radius) noexcept {
+        for (const float side : {-1.0f, 1.0f}) {
+            take(girth, amplitude, all((m0_ - side * in_plane_) * radius), all(side * in_plane_),
+                 all(whole_));
+        }
+    }
+
+    /// Length of the axis: of the transform's scale.
+    [[nodiscard]] float whole() const noexcept { return whole_; }
+    [[nodiscard]] float low() const noexcept { return std::min({low_[0], low_[1], low_[2], low_[3]}); }
+    [[nodiscard]] float high() const noexcept { return std::max({high_[0], high_[1], high_[2], high_[3]}); }
+
+private:
+    void take(const Girth& girth, Four amplitude, Four at, Four a, Four whole) noexcept {
+        const auto [up, down] = reach(girth, amplitude, a, across_, whole);
+        const auto none = girth.rho < 0;
+        high_ = none ? high_ : larger(high_, at + up);
+        low_ = none ? low_ : smaller(low_, at - down);
+    }
+
+    float m0_, m2_;
+    Four across_;
+    float in_plane_, whole_;
+    float at_[edges], a_[edges], tau_[edges];  // of the centre line; tau: the axis along it
+    Four low_ = all(std::numeric_limits<float>::max());
+    Four high_ = all(std::numeric_limits<float>::lowest());
+};
 
 }  // namespace
 
 Bounds bounds_of(const Body& body, const Coefficients& k) noexcept {
-    const CentreLine line = centre_line(body.bands(), k);
-    const Girth girth = girth_of(body.bands(), amplitudes(k));
+    const Bands& bands = body.bands();
+    const Four amplitude = amplitudes(k);
+    const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
+    const float length = k.one_minus_kappa * k.reach[0] * height;  // of a band's arc; reach[0] is L
+    const float turn = k.curvature * k.reach[0] * height;
+    const float radius = k.one_minus_kappa / k.curvature;
+    Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
+    for (std::size_t j = 0; j < edges; j += 4) {
+        if (turn > 3) {  // nearly half a turn: all of the circle
+            for (Extent& extent : extents) extent.take_circles(of_bands(bands, j), amplitude, radius);
+            continue;
+        }
+        const Four place = all(static_cast<float>(j)) + Four{0, 1, 2, 3};
+        const CentreLine line = centre_line(k, all(bands.lowest) + place * all(height));
+        const Girth girth = at_edges(bands, j);
+        for (Extent& extent : extents) extent.take_edges(line, j, girth, amplitude);
+    }
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {
-        const float m0 = k.matrix[row], m1 = k.matrix[4 + row], m2 = k.matrix[8 + row];
-        const Interval interval = line.step > 1.5f ? extent_of_turns(girth, k, m0, m1, m2)
-                                                   : extent(body.bands(), line, girth, m0, m1, m2);
-        const float whole = std::sqrt(m0 * m0 + m1 * m1 + m2 * m2);
-        const float margin = 1e-5f * whole * k.reach[0] + 1e-6f * std::fabs(k.offset[row]);
-        bounds.low[row] = k.offset[row] + interval.low - margin;
-        bounds.high[row] = k.offset[row] + interval.high + margin;
+        Extent& extent = extents[row];
+        if (!(turn > 3)) extent.take_bands(bands, amplitude, radius, length * turn / 8);
+        const float margin = 1e-5f * extent.whole() * k.reach[0] + 1e-6f * std::fabs(k.offset[row]);
+        bounds.low[row] = k.offset[row] + extent.low() - margin;
+        bounds.high[row] = k.offset[row] + extent.high() + margin;
     }
     return bounds;
 }

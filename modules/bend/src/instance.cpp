@@ -3,6 +3,7 @@
 
 #include <goffer/simd/four.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,16 +28,16 @@ constexpr ArcTerms half_terms = {  // within 9.0e-7 and 9.1e-8
 constexpr float pi = std::numbers::pi_v<float>;
 static_assert(amplitude_terms == wrinkle_degree + 1);
 
-void set_arc(Coefficients& k, float alpha, float length) noexcept {
+void set_arc(Coefficients& k, const BodyFrame& body, float alpha) noexcept {
     // Beyond a half turn delta leaves the polynomials' range: they then serve a fraction of the angle,
     // doubled back.
     k.doublings = 0;
     float part = alpha;
     for (; part > pi * 1.000001f; part *= 0.5f) ++k.doublings;
     const ArcTerms& terms = part <= pi / 2 ? quarter_terms : half_terms;
-    k.first_curvature = part / length;
-    k.curvature = alpha / length;
-    float power = length;
+    k.first_curvature = part * body.per_length;
+    k.curvature = alpha * body.per_length;
+    float power = body.length;
     for (std::size_t n = 0; n < arc_terms; ++n) {
         k.reach[n] = power * terms.sinc[n];
         k.rise[n] = power * part * terms.versine[n];
@@ -80,6 +81,12 @@ MiddleFrame middle_frame(const BodyFrame& body, float alpha, float one_minus_kap
 // Normals go with the cofactors, which are the inverse transpose times the determinant; a determinant below 0
 // would turn them inwards. Scaled, since kernels bound squared lengths from below.
 void set_normal_matrix(Coefficients& k, Four n, Four b, Four t) noexcept {
+    const Four largest = larger(larger(absolute(n), absolute(b)), absolute(t));
+    const float size = std::max({largest[0], largest[1], largest[2]});
+    if (!(size > 1e-4f && size < 1e4f)) {  // the cofactors' squares would leave float's range
+        const Four scale = all(1 / std::max(size, 1e-37f));
+        n *= scale, b *= scale, t *= scale;
+    }
     const Four cofactors[3] = {cross(b, t), cross(t, n), cross(n, b)};
     k.handedness = sum_three(n * cofactors[0]) < 0 ? -1.0f : 1.0f;
     const float squares =
@@ -118,7 +125,7 @@ bool prepare(const Body& body, const Pose& pose, const glm::mat4x3& transform, C
     const BodyFrame& frame = body.frame();
     const bool clamped = std::fabs(pose.angle) > body.max_angle();
     const float alpha = clamped ? body.max_angle() : std::fabs(pose.angle);
-    const float kappa = alpha * frame.radius / frame.length;
+    const float kappa = alpha * frame.radius * frame.per_length;
 
     // Of half the direction; a negative angle's is turned by a half turn, half of which swaps sine and
     // cosine.
@@ -129,7 +136,7 @@ bool prepare(const Body& body, const Pose& pose, const glm::mat4x3& transform, C
     const float ch = k.cos_half_direction, sh = k.sin_half_direction;
     k.one_minus_kappa = 1 - kappa;
     k.half_radius = frame.radius / 2;
-    set_arc(k, alpha, frame.length);
+    set_arc(k, frame, alpha);
     set_amplitude(k, body.table(), alpha, kappa);
     set_matrices(k, middle_frame(frame, alpha, k.one_minus_kappa, 2 * sh * ch, (ch - sh) * (ch + sh)),
                  transform);

@@ -86,7 +86,7 @@ void store_records(const typename L::Vec (&planes)[N], float* to, bool streaming
 }
 
 template <class L, int N>
-[[gnu::flatten]] void interleave(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
+GOFFER_FLATTENED void interleave(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
                                  bool streaming) {
     for (std::size_t i = 0; i < lines * line_floats; i += L::width, to += N * L::width) {
         typename L::Vec batch[N];

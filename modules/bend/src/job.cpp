@@ -37,10 +37,11 @@ JobFault check(const PackedStream& stream, std::size_t vertices) noexcept {
     return stream.count < vertices ? JobFault::packed_count : JobFault::none;
 }
 
-bool finite(const glm::mat4x3& matrix) noexcept {
+/// Squares of its numbers, and sums of such, stay within float's range.
+bool usable(const glm::mat4x3& matrix) noexcept {
     for (int c = 0; c < 4; ++c) {
         for (int row = 0; row < 3; ++row) {
-            if (!std::isfinite(matrix[c][row])) return false;
+            if (!(std::fabs(matrix[c][row]) <= 1e18f)) return false;
         }
     }
     return true;
@@ -49,7 +50,7 @@ bool finite(const glm::mat4x3& matrix) noexcept {
 JobFault check_previous(const DeformJob& job) noexcept {
     if (!std::isfinite(job.previous_pose.angle)) return JobFault::previous_pose_angle;
     if (!std::isfinite(job.previous_pose.direction)) return JobFault::previous_pose_direction;
-    if (!finite(job.previous_transform)) return JobFault::previous_transform;
+    if (!usable(job.previous_transform)) return JobFault::previous_transform;
     return check(job.previous_positions, job.body->vertex_count(),
                  {JobFault::previous_positions_count, JobFault::previous_positions_stride,
                   JobFault::previous_positions_component});
@@ -92,7 +93,7 @@ std::string_view describe(JobFault fault) noexcept {
         case JobFault::isa:
             return "isa: not built, or not supported by this processor";
         case JobFault::transform:
-            return "transform: not finite";
+            return "transform: a number in it not finite, or beyond 1e18";
         case JobFault::packed_count:
             return "packed.count: below the body's vertex_count()";
         case JobFault::packed_stride:
@@ -104,7 +105,7 @@ std::string_view describe(JobFault fault) noexcept {
         case JobFault::previous_pose_direction:
             return "previous_pose.direction: not finite";
         case JobFault::previous_transform:
-            return "previous_transform: not finite";
+            return "previous_transform: a number in it not finite, or beyond 1e18";
         case JobFault::previous_positions_count:
             return "previous_positions.count: below the body's vertex_count()";
         case JobFault::previous_positions_stride:
@@ -119,7 +120,7 @@ JobFault validate(const DeformJob& job) noexcept {
     if (job.body == nullptr) return JobFault::body;
     if (!std::isfinite(job.pose.angle)) return JobFault::pose_angle;
     if (!std::isfinite(job.pose.direction)) return JobFault::pose_direction;
-    if (!finite(job.transform)) return JobFault::transform;
+    if (!usable(job.transform)) return JobFault::transform;
     const bool packed = !job.packed.empty();
     const bool previous = !job.previous_positions.empty();
     if (streams_wanted(job) == 0 && !packed && !previous) return JobFault::no_streams;

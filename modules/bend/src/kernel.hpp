@@ -281,7 +281,7 @@ void store_records_of(const Results<L> (&results)[batches<L>], float* to, std::s
 // Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
 // what the arguments point to tell the compiler that no store changes them.
 template <class L, unsigned streams, Form form>
-[[gnu::flatten]] void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last,
+GOFFER_FLATTENED void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last,
                                  bool streaming) {
     const KernelArgs args = arguments;
     const Coefficients k = *arguments.coefficients;

@@ -6,6 +6,13 @@
 /// What crosses into the kernels' files: plain numbers and pointers, nothing with inline code that could be
 /// compiled with one instruction set's flags and linked for another's.
 
+/// On a kernel: one loop without calls. Not for sanitizers, which take minutes to compile such a thing.
+#ifdef GOFFER_SANITIZED
+#define GOFFER_FLATTENED
+#else
+#define GOFFER_FLATTENED [[gnu::flatten]]
+#endif
+
 namespace goffer::bend {
 
 constexpr std::size_t amplitude_terms = 8;  ///< wrinkle_degree + 1

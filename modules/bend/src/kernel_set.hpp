@@ -21,6 +21,7 @@ constexpr KernelSet kernel_set() {
     set.records[1] = &bend_range<L, 1, Form::records>;
     set.records[3] = &bend_range<L, 3, Form::records>;
     set.records[packed_streams] = &bend_range<L, 3, Form::packed_records>;
+    set.interleave[1] = &interleave<Single, 1>;
     set.interleave[3] = &interleave<Single, 3>;
     set.interleave[6] = &interleave<Single, 6>;
     set.interleave[7] = &interleave<Single, 7>;

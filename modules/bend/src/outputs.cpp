@@ -85,13 +85,20 @@ std::size_t Outputs::head(std::size_t first) const noexcept {
     return line_floats;
 }
 
-bool Outputs::equally_aligned() const noexcept {
-    std::size_t offset = line_bytes;  // none seen yet
+bool Outputs::side_by_side() const noexcept {
+    std::uintptr_t starts[9];
+    std::size_t count = 0;
     for (const Output* out : {&positions, &normals, &tangents}) {
         for (std::size_t c = 0; c < std::min<std::size_t>(out->floats, 3); ++c) {
-            const std::size_t at = reinterpret_cast<std::uintptr_t>(out->component[c]) % line_bytes;
-            if (offset != line_bytes && at != offset) return false;
-            offset = at;
+            starts[count++] = reinterpret_cast<std::uintptr_t>(out->component[c]);
+        }
+    }
+    constexpr std::uintptr_t way = 1024, near = 2 * line_bytes;
+    for (std::size_t i = 1; i < count; ++i) {
+        if (starts[i] % line_bytes != starts[0] % line_bytes) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+            const std::uintptr_t apart = (starts[i] - starts[j]) % way;
+            if (apart < near || apart > way - near) return false;
         }
     }
     return true;
@@ -133,9 +140,15 @@ RecordWriter::RecordWriter(const Outputs& outputs, const KernelSet& set) noexcep
     for (std::size_t i = 0; i < count; ++i) {
         const Output& out = *all[order[i]];
         first_plane_[order[i]] = plane;
+        if (!out.record()) {
+            for (std::size_t c = 0; c < out.floats; ++c) {
+                records_[record_count_++] = {{{out.component[c]}, out.stride, 1}, plane + c, 1};
+            }
+            plane += out.floats;
+            continue;
+        }
         Record* last = record_count_ != 0 ? &records_[record_count_ - 1] : nullptr;
-        const bool joins = last != nullptr && last->out.record() && out.record() &&
-                           out.stride == last->out.stride &&
+        const bool joins = last != nullptr && last->floats > 1 && out.stride == last->out.stride &&
                            out.component[0] == last->out.component[0] + last->floats;
         if (joins) {
             last->floats += out.floats;
@@ -147,8 +160,7 @@ RecordWriter::RecordWriter(const Outputs& outputs, const KernelSet& set) noexcep
 }
 
 bool RecordWriter::dense(const Record& record) const noexcept {
-    return record.out.record() && record.floats * sizeof(float) == record.out.stride &&
-           set_.interleave[record.floats] != nullptr;
+    return record.floats * sizeof(float) == record.out.stride && set_.interleave[record.floats] != nullptr;
 }
 
 std::size_t RecordWriter::first_block(std::size_t first, bool streaming) const noexcept {
@@ -164,13 +176,6 @@ void RecordWriter::write(std::size_t first, std::size_t count, bool streaming) c
 void RecordWriter::write(const Record& record, std::size_t first, std::size_t count,
                          bool streaming) const noexcept {
     const Output& out = record.out;
-    if (!out.record()) {  // planes, or components in some order of the caller's
-        for (std::size_t c = 0; c < out.floats; ++c) {
-            const float* from = plane(record.plane + c);
-            for (std::size_t i = 0; i < count; ++i) *at(out.component[c], out.stride, first + i) = from[i];
-        }
-        return;
-    }
     const auto rows = [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 0; c < record.floats; c += 4) {
             const float* from = plane(record.plane + c) + begin;

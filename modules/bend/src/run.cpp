@@ -42,9 +42,8 @@ void run_planar(const PreparedPass& pass, const Outputs& out, std::size_t first,
         args.normal_out[c] = out.normals.component[c];
         args.tangent_out[c] = out.tangents.component[c];
     }
-    const bool past = streaming && out.equally_aligned();
-    args.head = past ? out.head(first) : 0;
-    out.planes(args, first, last, past);
+    args.head = streaming ? out.head(first) : 0;
+    out.planes(args, first, last, streaming);
     if (out.tangents.floats != 0) write_signs(pass, first, last - first, out.tangents.component[3] + first);
 }
 
@@ -85,7 +84,7 @@ void run_pass(const PreparedPass& pass, std::size_t first, std::size_t last, boo
     if (first >= last) return;
     const KernelSet& set = kernels(pass.job->isa);
     const Outputs outputs = outputs_of(*pass.job, pass.pass, set);
-    if (outputs.planar()) {
+    if (outputs.planar() && (!streaming || outputs.side_by_side())) {
         run_planar(pass, outputs, first, last, streaming);
     } else if (outputs.dense()) {
         run_dense(pass, outputs, first, last, streaming);

@@ -6,14 +6,14 @@
 
 namespace goffer::bend {
 
-WrinkleRow WrinkleTable::at(double angle) const noexcept {
+WrinkleRow WrinkleTable::at(float angle) const noexcept {
     WrinkleRow row{};
     if (rows.empty()) return row;
-    const double last = static_cast<double>(rows.size() - 1);
-    const double part = std::clamp(angle / static_cast<double>(max_angle), 0.0, 1.0);
-    const double place = std::sqrt(part) * last;
-    const std::size_t low = std::min(static_cast<std::size_t>(place), rows.size() - 2);
-    const float weight = static_cast<float>(place - static_cast<double>(low));
+    const float last = static_cast<float>(rows.size() - 1);
+    const float place = std::sqrt(std::clamp(angle / max_angle, 0.0f, 1.0f)) * last;
+    const auto low =
+        static_cast<std::size_t>(std::min(static_cast<int>(place), static_cast<int>(rows.size()) - 2));
+    const float weight = place - static_cast<float>(static_cast<int>(low));
     for (std::size_t n = 0; n < row.size(); ++n) {
         row[n] = rows[low][n] + weight * (rows[low + 1][n] - rows[low][n]);
     }

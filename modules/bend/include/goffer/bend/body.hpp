@@ -73,18 +73,20 @@ struct BodyFrame {
     float axes[3][4] = {};  ///< e1, e2, e3, each followed by a 0
     float origin[4] = {};   ///< centre of the base end, followed by a 0
     float length = 1;
+    float per_length = 1;  ///< 1 / length
     float radius = 1;
 };
 
-/// What bounds() needs to know of the vertices in a band of z: one of Bands::count between the lowest and the
-/// highest vertex.
+/// What bounds() needs to know of the vertices in a band of z: one of `count` between the lowest and the
+/// highest vertex. Band j is at place j + 1; the places around them are empty.
 struct Bands {
-    static constexpr std::size_t count = 8;
-    float lowest = 0;                 ///< v = z / L - 1/2 where the first band begins
-    float highest = 0;                ///< and where the last one ends
-    std::array<float, count> rho{};   ///< largest distance from the axis, model units; below 0: no vertex
-    std::array<float, count> lift{};  ///< largest g w, at least 0
-    std::array<float, count> dip{};   ///< largest -g w, at least 0
+    static constexpr std::size_t count = 11;
+    static constexpr std::size_t places = 16;
+    float lowest = 0;                  ///< v = z / L - 1/2 where the first band begins
+    float highest = 0;                 ///< and where the last one ends
+    std::array<float, places> rho{};   ///< largest distance from the axis, model units; below 0: no vertex
+    std::array<float, places> lift{};  ///< largest g w, at least 0
+    std::array<float, places> dip{};   ///< largest -g w, at least 0
 };
 
 /// An immutable body. Move-only; share it by reference among jobs and threads. All functions are thread-safe.
@@ -100,7 +102,7 @@ public:
         lift,     ///< g w: rho' = rho + amplitude * lift
         height,   ///< z / L - 1/2
         wrinkle,  ///< g w / rho
-        slope,
+        slope,    ///< d(g w) / dz
         normal_rho,
         normal_beta,
         normal_z,

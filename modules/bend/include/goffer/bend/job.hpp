@@ -36,7 +36,7 @@ struct DeformJob {
     const Body* body = nullptr;  ///< must outlive the run
     Pose pose = {};              ///< both numbers finite
     /// From model space to the space of all outputs: an instance's model matrix, if vertices are wanted in
-    /// world space. Any finite matrix; scale, shear and mirroring included. Costs nothing per vertex.
+    /// world space. Any numbers up to 1e18; scale, shear and mirroring included. Costs nothing per vertex.
     glm::mat4x3 transform{1};
 
     Stream3 positions = {};    ///< empty: not wanted

@@ -31,7 +31,7 @@ struct WrinkleTable {
 
     /// The row at `angle`, linear between the two nearest, clamped to the table; zeros where there are no
     /// rows. Does not allocate. Thread-safe.
-    [[nodiscard]] WrinkleRow at(double angle) const noexcept;
+    [[nodiscard]] WrinkleRow at(float angle) const noexcept;
 };
 
 }  // namespace goffer::bend

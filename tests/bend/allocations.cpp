@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "allocations.hpp"
+
+#include "support/arena.hpp"
+#include "support/bodies.hpp"
+#include "support/layout.hpp"
+#include "support/locks.hpp"
+
+#include <goffer/bend/bounds.hpp>
+#include <goffer/bend/crowd.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+/// Property P6: frames allocate nothing and take no lock. (That they open and write no file, symbols.cpp
+/// shows: there is nothing in the library that could.)
+
+namespace goffer::test {
+namespace {
+
+/// Instances with streams of every kind, and what a frame does with them.
+class Frames {
+public:
+    Frames() {
+        Random random(91);
+        for (const std::size_t count : {150u, 5000u}) bodies_.push_back(loose_body(random, count));
+        for (std::size_t i = 0; i < 24; ++i) {
+            constexpr std::string_view pictures[] = {"x y z",      "xyzuvw",      "x y z u v w a b c d",
+                                                     "xyzuvwabcd", "xyz.uvw.123", "p q r 123",
+                                                     "zyx abcd"};
+            const bend::Body& body = bodies_[i / 5 % 2];
+            outputs_.emplace_back(pictures[i % std::size(pictures)], body.vertex_count());
+            bend::DeformJob& job = jobs_.emplace_back();
+            job.body = &body;
+            job.transform = random_transform(random, 3);
+            job.bounds = &boxes_[i];
+            outputs_[i].attach(job);
+        }
+        visible_.assign(jobs_.size(), 1);
+        visible_[3] = 0;
+    }
+
+    /// On the calling thread.
+    void single(int frame) {
+        const bend::CrowdJob crowd = pose(frame);
+        faults_ += bend::validate(crowd).none() ? 0 : 1;
+        bend::bounds(jobs_, boxes_);
+        bend::run(crowd);
+        for (std::size_t piece = 0; piece < 5; ++piece) bend::run_piece(crowd, piece, 5);
+        for (const bend::DeformJob& job : jobs_) {
+            faults_ += bend::validate(job) == bend::JobFault::none ? 0 : 1;
+            bend::run(job);
+            bend::run_range(job, 7, 100);
+        }
+    }
+
+    /// In the arena of the caller.
+    void parallel(int frame) {
+        const bend::CrowdJob crowd = pose(frame);
+        bend::run_parallel(crowd);
+        for (const bend::DeformJob& job : jobs_) bend::run_parallel(job, 500);
+    }
+
+    [[nodiscard]] int faults() const { return faults_; }
+
+private:
+    bend::CrowdJob pose(int frame) {
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            jobs_[i].previous_pose = jobs_[i].pose;
+            jobs_[i].pose = {0.05f * static_cast<float>(frame), 0.1f * static_cast<float>(i)};
+        }
+        constexpr bend::Stores stores[] = {bend::Stores::automatic, bend::Stores::cached,
+                                           bend::Stores::streaming};
+        return {.instances = jobs_, .visible = visible_, .stores = stores[frame % 3]};
+    }
+
+    std::vector<bend::Body> bodies_;
+    std::vector<Layout> outputs_;
+    std::vector<bend::Bounds> boxes_{24};
+    std::vector<bend::DeformJob> jobs_;
+    std::vector<std::uint8_t> visible_;
+    int faults_ = 0;
+};
+
+/// A hundred; but where nothing is counted, enough to see that they run.
+int frame_count() {
+    return cli::allocations() ? 100 : 3;
+}
+
+}  // namespace
+
+TEST_CASE("P6: the counters count") {
+    if (cli::allocations()) {
+        const std::uint64_t before = *cli::allocations();
+        const std::unique_ptr<void, decltype(&std::free)> block(std::malloc(24), std::free);
+        const std::unique_ptr<int> object = std::make_unique<int>(block != nullptr ? 1 : 0);
+        CHECK(*cli::allocations() >= before + static_cast<std::uint64_t>(2 * *object));
+    }
+    if (locks()) {
+        const std::uint64_t before = *locks();
+        std::mutex mutex;
+        const std::lock_guard guard(mutex);
+        CHECK(*locks() == before + 1);
+    }
+}
+
+TEST_CASE("P6: a hundred frames allocate nothing and take no lock") {
+    Frames frames;
+    frames.single(0);
+    const auto allocated = cli::allocations(), locked = locks();
+    if (!allocated || !locked) MESSAGE("not counted here");
+    for (int frame = 0; frame < frame_count(); ++frame) frames.single(frame);
+    const auto allocated_now = cli::allocations(), locked_now = locks();
+    CHECK(allocated == allocated_now);
+    CHECK(locked == locked_now);
+    CHECK(frames.faults() == 0);
+}
+
+TEST_CASE("P6: a hundred frames on the scheduler allocate nothing once it is warm") {
+    Frames frames;
+    in_arena(1, [&] {
+        for (int frame = 0; frame < 5; ++frame) frames.parallel(frame);
+        const auto allocated = cli::allocations();
+        for (int frame = 0; frame < frame_count(); ++frame) frames.parallel(frame);
+        const auto allocated_now = cli::allocations();
+        CHECK(allocated == allocated_now);
+    });
+}
+
+}  // namespace goffer::test

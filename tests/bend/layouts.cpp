@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+#include "support/layout.hpp"
+
+#include <goffer/bend/crowd.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+/// Output streams of every layout and alignment, by any stores: the bits of planes, and nothing else written.
+
+namespace goffer::test {
+namespace {
+
+constexpr std::string_view all_planes = "x y z u v w a b c d p q r 123";
+
+constexpr std::string_view pictures[] = {
+    // tight records
+    "xyz",
+    "xyzuvw",
+    "xyzuvwabcd",
+    "uvwabcd xyz",
+    "xyzabcd",
+    "abcd",
+    "uvw",
+    "123",
+    "pqr",
+    "xyz uvw abcd",
+    // members in another order
+    "uvwxyz",
+    "abcduvwxyz",
+    "uvwabcdxyz pqr",
+    // with gaps: 32, 48, 64, 20, 100 bytes, and 1000
+    "xyzuvw..",
+    "xyz.uvw.",
+    ".xyzuvwabcd.",
+    "xyzuvwabcd......",
+    "..xyz",
+    "xyzuvwabcd...............",
+    "xyz.123.pqr",
+    "123.",
+    "..123...",
+    "abcd.xyz uvw.",
+    // components in the caller's order
+    "zyx",
+    "zyxuvw",
+    "xyzwvu.dcba",
+    "xy.z rqp",
+    // planes, and planes beside records
+    "x y z",
+    "u v w",
+    "a b c d",
+    "x y z u v w a b c d",
+    "x y z uvw",
+    "xyz u v w",
+    "x y z uvwabcd",
+    "a b c d xyzuvw 123",
+    "xu yv zw",
+    "p q r x y z u v w abcd",
+    // the same memory for two passes
+    "xyzuvwabcdpqr123",
+    "123pqr",
+};
+
+struct Trial {
+    std::string_view picture;
+    std::size_t count, shift, skew;
+    Isa isa;
+};
+
+/// A body, a job for it, and what its planes hold.
+class Case {
+public:
+    Case(Random& random, std::size_t count) : body_(loose_body(random, count)), planes_(all_planes, count) {
+        job_.body = &body_;
+        job_.pose = {static_cast<float>(uniform(random, -4.8, 4.8)),
+                     static_cast<float>(uniform(random, -9, 9))};
+        job_.transform = random_transform(random, 3);
+        job_.previous_pose = {job_.pose.angle * 0.9f, job_.pose.direction + 0.1f};
+        job_.previous_transform = random_transform(random, 3);
+    }
+
+    void make_planes(Isa isa) {
+        planes_.clear();
+        planes_.attach(job_);
+        job_.isa = isa;
+        bend::run(job_);
+    }
+
+    bend::DeformJob& job(Layout& out) {
+        out.clear();
+        out.attach(job_);
+        return job_;
+    }
+
+    [[nodiscard]] const Layout& planes() const { return planes_; }
+    [[nodiscard]] std::size_t count() const { return body_.vertex_count(); }
+
+private:
+    bend::Body body_;
+    Layout planes_;
+    bend::DeformJob job_;
+};
+
+/// All layouts, at the given places behind a cache line, cached and streaming.
+void check_layouts(Case& subject, std::span<const std::size_t> shifts, std::span<const std::size_t> skews) {
+    for (const Isa isa : isas_here()) {
+        subject.make_planes(isa);
+        for (const std::string_view picture : pictures) {
+            for (const std::size_t shift : shifts) {
+                for (const std::size_t skew : skews) {
+                    INFO(picture, ", ", subject.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
+                         name(isa));
+                    Layout out(picture, subject.count(), shift, skew);
+                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
+                        const bend::CrowdJob crowd{.instances = {&subject.job(out), 1}, .stores = stores};
+                        REQUIRE(bend::validate(crowd).none());
+                        bend::run(crowd);
+                        REQUIRE(out.fault(subject.planes()) == "");
+                    }
+                }
+            }
+        }
+    }
+}
+
+constexpr std::size_t every_shift[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+}  // namespace
+
+TEST_CASE("every layout holds the bits of planes: every alignment") {
+    Random random(41);
+    for (const std::size_t count : {1u, 16u, 37u, 260u, 523u}) {
+        Case subject(random, count);
+        const std::size_t skews[] = {0, 1 + random() % 15};
+        check_layouts(subject, every_shift, skews);
+    }
+}
+
+TEST_CASE("every layout holds the bits of planes: every vertex count") {
+    Random random(42);
+    std::vector<std::size_t> counts{255, 256, 257, 258, 259, 511, 512, 513, 514, 515, 767, 1000, 1024, 1039};
+    for (std::size_t count = 1; count <= 70; ++count) counts.push_back(count);
+    for (const std::size_t count : counts) {
+        Case subject(random, count);
+        const std::size_t shifts[] = {0, random() % 16};
+        const std::size_t skews[] = {random() % 2 == 0 ? 0 : random() % 16};
+        check_layouts(subject, shifts, skews);
+    }
+}
+
+TEST_CASE("a range writes its own vertices alone, in every layout") {
+    Random random(43);
+    Case small(random, 35), large(random, 800);
+    for (const Isa isa : isas_here()) {
+        small.make_planes(isa);
+        large.make_planes(isa);
+        for (const std::string_view picture : pictures) {
+            const auto check = [&](Case& subject, std::size_t first, std::size_t last) {
+                INFO(picture, ", [", first, ", ", last, "), ", name(isa));
+                Layout out(picture, subject.count(), random() % 16, random() % 16);
+                bend::run_range(subject.job(out), first, last);
+                REQUIRE(out.fault(subject.planes(), first, last) == "");
+            };
+            for (std::size_t first = 0; first <= small.count(); ++first) {
+                for (std::size_t last = first; last <= small.count(); last += 1 + random() % 3)
+                    check(small, first, last);
+            }
+            for (int trial = 0; trial < 20; ++trial) {
+                const std::size_t first = random() % large.count();
+                check(large, first, first + random() % (large.count() - first + 1));
+            }
+        }
+    }
+}
+
+TEST_CASE("pieces that stream write their own vertices alone, in every layout") {
+    Random random(44);
+    Case subject(random, 700);
+    for (const Isa isa : isas_here()) {
+        subject.make_planes(isa);
+        for (const std::string_view picture : pictures) {
+            for (const std::size_t pieces : {2u, 5u, 60u}) {
+                INFO(picture, ", ", pieces, " pieces, ", name(isa));
+                Layout out(picture, subject.count(), random() % 16, random() % 2 == 0 ? 0 : random() % 16);
+                const bend::CrowdJob crowd{.instances = {&subject.job(out), 1},
+                                           .stores = bend::Stores::streaming};
+                for (std::size_t piece = pieces; piece-- > 0;) bend::run_piece(crowd, piece, pieces);
+                REQUIRE(out.fault(subject.planes()) == "");
+            }
+        }
+    }
+}
+
+}  // namespace goffer::test

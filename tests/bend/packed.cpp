@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+#include "support/layout.hpp"
+
+#include <goffer/bend/bounds.hpp>
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/packed.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/packing.hpp>
+#include <glm/vec2.hpp>
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+/// The packed stream, as the GPU's side reads it: decoded by the same text that shaders include. Where it is
+/// written is layouts.cpp's matter.
+
+namespace goffer::test {
+namespace {
+
+namespace shader {
+using namespace glm;
+#include <goffer/bend/packed.glsl>
+}  // namespace shader
+
+glm::uvec3 words(const bend::PackedVertex& vertex) {
+    glm::uvec3 result;
+    std::memcpy(&result, &vertex, sizeof result);
+    return result;
+}
+
+/// The largest differences between what is decoded and what the planes hold; NaN counts as the largest.
+struct Worst {
+    double position = 0;  // beyond half a step of the bounds, of the size of the output
+    double normal = 0;    // degrees
+
+    void add(double& worst, double value) { worst = !(value <= worst) ? value : worst; }
+    void add(const Worst& other) {
+        add(position, other.position);
+        add(normal, other.normal);
+    }
+};
+
+/// `size`: of the output's numbers, which is what floats round by.
+Worst compare(std::span<const bend::PackedVertex> packed, const bend::Bounds& box, const Output& planes,
+              double size) {
+    Worst worst;
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+        const glm::dvec3 decoded(shader::goffer_position(words(packed[i]), box.low, box.high));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double half_step = static_cast<double>(box.high[axis] - box.low[axis]) / 131070;
+            worst.add(worst.position,
+                      (std::fabs(decoded[axis] - planes.position(i)[axis]) - half_step) / size);
+        }
+        worst.add(worst.normal,
+                  angle_between(glm::dvec3(shader::goffer_normal(words(packed[i]))), planes.normal(i)));
+    }
+    return worst;
+}
+
+/// Length of the body and distance from the origin, in the outputs' space.
+double size_of(const bend::Body& body, const glm::mat4x3& transform) {
+    double size = 0;
+    for (int c = 0; c < 3; ++c)
+        size = std::max(size,
+                        glm::length(glm::dvec3(transform[c])) * (body.length() + glm::length(body.origin())));
+    return size + glm::length(glm::dvec3(transform[3]));
+}
+
+/// Planes and packed vertices of one run of `job`.
+Worst run(bend::DeformJob job, Output& planes, bend::Stores stores) {
+    const std::size_t count = job.body->vertex_count();
+    std::vector<bend::PackedVertex> packed(count);
+    bend::Bounds box;
+    job.tangents = {};
+    job.packed = {packed.data(), sizeof(bend::PackedVertex), count};
+    job.bounds = &box;
+    const bend::CrowdJob crowd{.instances = {&job, 1}, .stores = stores};
+    REQUIRE(bend::validate(crowd).none());
+    bend::run(crowd);
+    for (const bend::PackedVertex& vertex : packed) REQUIRE(vertex.unused == 0);
+    return compare(packed, box, planes, size_of(*job.body, job.transform));
+}
+
+}  // namespace
+
+TEST_CASE("packed vertices decode to the positions and normals of planes") {
+    Random random(51);
+    Worst worst;
+    for (int trial = 0; trial < 30; ++trial) {
+        const Subject subject =
+            random_subject(random, uniform(random, 3, 40), std::pow(10, uniform(random, -3, 3)));
+        fit::BindOptions options;
+        options.folds = static_cast<int>(random() % 13);
+        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+        Output out(subject.positions.size());
+        for (int k = 0; k < 5; ++k) {
+            const auto limit = static_cast<double>(bound.body.max_angle());
+            const bend::Pose pose{static_cast<float>(uniform(random, -limit, limit)),
+                                  static_cast<float>(uniform(random, -9, 9))};
+            for (const Isa isa : isas_here()) {
+                bend::DeformJob job = make_job(bound.body, pose, isa, out);
+                if (k > 0) job.transform = random_transform(random, subject.cylinder.length);
+                const Worst one = run(job, out, k % 2 == 0 ? bend::Stores::cached : bend::Stores::streaming);
+                INFO("trial ", trial, " angle ", pose.angle, " ", name(isa));
+                CHECK(one.position <= 1e-6);
+                CHECK(one.normal <= 0.004);
+                worst.add(one);
+            }
+        }
+    }
+    MESSAGE("position beyond half a step: ", worst.position, " of the size, normal ", worst.normal, " deg");
+}
+
+TEST_CASE("normals along axes and edges of the octahedron are packed as well") {
+    std::vector<bend::RestVertex> vertices;
+    std::vector<bend::RestVector> normals;
+    for (int code = 0; code < 27; ++code) {
+        const glm::dvec3 n(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+        if (code == 13) continue;
+        const glm::dvec3 unit = glm::normalize(n);
+        normals.push_back({unit.x, unit.y, unit.z});
+        vertices.push_back({0, 0.5, 0.1, 0, 0});
+    }
+    bend::BodyInput input;
+    input.length = 1;
+    input.radius = 0.1;
+    input.max_angle = 4;
+    input.vertices = vertices;
+    input.normals = normals;
+    const std::optional<bend::Body> body = bend::Body::make(input);
+    REQUIRE(body);
+    Output out(vertices.size());
+    for (const Isa isa : isas_here()) {
+        const Worst worst = run(make_job(*body, {}, isa, out), out, bend::Stores::cached);
+        CHECK(worst.position <= 1e-6);
+        CHECK(worst.normal <= 0.004);
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            REQUIRE(angle_between(out.normal(i), {normals[i].rho, normals[i].beta, normals[i].z}) < 1e-4);
+        }
+    }
+}
+
+TEST_CASE("bodies that are flat, or flattened, keep their places") {
+    Random random(52);
+    std::vector<bend::RestVertex> vertices(100);
+    const std::vector<bend::RestVector> normals(100, {0, 0, 1});
+    for (bend::RestVertex& v : vertices)
+        v = {uniform(random, -4, 4), 0.5 + 1e-6 * uniform(random, 0, 1), uniform(random, 0, 0.1), 0, 0};
+    bend::BodyInput input;
+    input.length = 1;
+    input.radius = 0.1;
+    input.max_angle = 4;
+    input.vertices = vertices;
+    input.normals = normals;
+    const std::optional<bend::Body> flat = bend::Body::make(input);
+    REQUIRE(flat);
+    const bend::Body round = loose_body(random, 100);
+    Output out(100);
+    for (const Isa isa : isas_here()) {
+        for (const float depth : {1.0f, 1e-3f, 1e-7f, 0.0f}) {
+            const glm::mat4x3 transform(1, 0, 0, 0, depth, 0, 0, 0, 1, 0, 0, 0);
+            bend::DeformJob job = make_job(*flat, {}, isa, out);
+            job.transform = transform;
+            CHECK(run(job, out, bend::Stores::cached).position <= 1e-6);
+            job = make_job(round, {1.5f, 0.5f}, isa, out);
+            job.transform = transform;
+            CHECK(run(job, out, bend::Stores::cached).position <= 1e-6);
+        }
+    }
+}
+
+}  // namespace goffer::test

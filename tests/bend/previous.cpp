@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+#include "support/layout.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+/// Previous positions, for motion vectors.
+
+namespace goffer::test {
+namespace {
+
+bend::Pose random_pose(Random& random) {
+    return {static_cast<float>(uniform(random, -6, 6)), static_cast<float>(uniform(random, -9, 9))};
+}
+
+}  // namespace
+
+TEST_CASE("previous positions have the bits that positions had at that pose and transform") {
+    Random random(61);
+    for (const std::size_t count : {1u, 33u, 700u}) {
+        const bend::Body body = loose_body(random, count);
+        for (const Isa isa : isas_here()) {
+            for (int trial = 0; trial < 20; ++trial) {
+                bend::DeformJob then{.body = &body, .pose = random_pose(random), .isa = isa};
+                then.transform = random_transform(random, 3);
+                Layout positions("x y z", count);
+                positions.attach(then);
+                bend::run(then);
+
+                bend::DeformJob now{.body = &body, .pose = random_pose(random), .isa = isa};
+                now.transform = random_transform(random, 3);
+                now.previous_pose = then.pose;
+                now.previous_transform = then.transform;
+                Layout both(trial % 3 == 0   ? "xyzuvw p q r"
+                            : trial % 3 == 1 ? "p q r"
+                                             : "x y z pqr 123",
+                            count);
+                both.attach(now);
+                REQUIRE(bend::validate(now) == bend::JobFault::none);
+                const bool clamped = bend::run(now).clamped;
+                CHECK(clamped == (std::fabs(now.pose.angle) > body.max_angle()));
+                for (std::size_t i = 0; i < count; ++i) {
+                    const float old[] = {both.value('p', i), both.value('q', i), both.value('r', i)};
+                    const float expected[] = {positions.value('x', i), positions.value('y', i),
+                                              positions.value('z', i)};
+                    REQUIRE(std::memcmp(old, expected, sizeof old) == 0);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace goffer::test
