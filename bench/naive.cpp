@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "naive.hpp"
+
 #include "subject.hpp"
 
 #include <goffer/paper/wrinkle.hpp>
@@ -7,6 +9,21 @@
 #include <numbers>
 
 namespace goffer::bench {
+
+NaiveBody make_naive(std::size_t vertices) {
+    const Grid grid(vertices);
+    NaiveBody body;
+    for (std::size_t column = 0; column < grid.columns; ++column)
+        body.column_beta.push_back(grid.beta(column));
+    for (std::size_t row = 0; row < grid.rows; ++row) {
+        for (std::size_t column = 0; column < grid.columns; ++column) {
+            const double beta = grid.beta(column);
+            const double z = grid.z(row);
+            body.vertices.push_back({beta, z, Grid::rho(beta, z), 1, 0, 0, static_cast<int>(column)});
+        }
+    }
+    return body;
+}
 
 void set_amplitudes(NaiveBody& body, double angle, double direction) {
     const double kappa = angle * radius / length;

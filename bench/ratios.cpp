@@ -7,12 +7,26 @@
 namespace goffer::bench {
 namespace {
 
-constexpr const char* counter = "ns_per_vertex";
+void add(const benchmark::BenchmarkReporter::Run& run, const char* counter, std::vector<double>& to) {
+    const auto found = run.counters.find(counter);
+    if (found != run.counters.end()) to.push_back(found->second.value);
+}
 
-// deform/<streams>/...: the naive case and the fill that belong to it.
-std::string streams_of(const std::string& name) {
-    const std::size_t first = name.find('/') + 1;
-    return name.substr(first, name.find('/', first) - first);
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+// The naive case that belongs to deform/<streams>/...: layouts of the same streams share one.
+std::string naive_name(const std::string& name) {
+    const std::size_t slash = name.find('/') + 1;
+    const std::string streams = name.substr(slash, name.find('/', slash) - slash);
+    return "naive/" + streams.substr(streams.find('-') + 1);
+}
+
+void print_ratio(double value) {
+    value > 0 ? std::printf(" %12.3f", value) : std::printf(" %12s", "");
 }
 
 }  // namespace
@@ -20,28 +34,28 @@ std::string streams_of(const std::string& name) {
 void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
-        const auto found = run.counters.find(counter);
-        if (run.run_type == Run::RT_Iteration && !run.error_occurred && found != run.counters.end()) {
-            times_[run.run_name.function_name].push_back(found->second.value);
-        }
+        if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+        if (run.counters.find("ns_per_vertex") == run.counters.end()) continue;
+        Case& seen = cases_[run.run_name.function_name];
+        add(run, "ns_per_vertex", seen.times);
+        add(run, "of_floor", seen.of_floor);
     }
 }
 
-double RatioReporter::median(const std::string& name) const {
-    const auto found = times_.find(name);
-    if (found == times_.end()) return 0;
-    std::vector<double> sorted = found->second;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
+double RatioReporter::naive_time(const std::string& name) const {
+    const auto found = cases_.find(naive_name(name));
+    return found == cases_.end() ? 0 : median(found->second.times);
 }
 
 void RatioReporter::Finalize() {
-    std::printf("\n%-48s %12s %12s %12s\n", "medians of this run", "ns/vertex", "naive / it", "fill / it");
-    for (const auto& [name, values] : times_) {
-        const double time = median(name);
-        const double naive = median("naive/" + streams_of(name));
-        const double fill = median("floor/fill/" + streams_of(name));
-        std::printf("%-48s %12.3f %12.2f %12.3f\n", name.c_str(), time, naive / time, fill / time);
+    std::printf("\n%-60s %12s %12s %12s\n", "medians of this run", "ns/vertex", "naive / it", "of floor");
+    for (const auto& [name, seen] : cases_) {
+        const double time = median(seen.times);
+        std::printf("%-60s", name.c_str());
+        print_ratio(time);
+        print_ratio(naive_time(name) / time);
+        print_ratio(median(seen.of_floor));
+        std::printf("\n");
     }
 }
 

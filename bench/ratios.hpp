@@ -9,17 +9,23 @@
 
 namespace goffer::bench {
 
-/// Prints what Google Benchmark prints, and at the end how each deform case stands against the naive code and
-/// against the fill of the same bytes, from the same run: the ratio of medians over the repetitions.
+/// Prints what Google Benchmark prints, and at the end how each case stands against the naive code and
+/// against its floor, from the same run: medians over the repetitions.
 class RatioReporter : public benchmark::ConsoleReporter {
 public:
+    RatioReporter() : ConsoleReporter(OO_None) {}
     void ReportRuns(const std::vector<Run>& runs) override;
     void Finalize() override;
 
 private:
-    [[nodiscard]] double median(const std::string& name) const;  // ns per vertex, or 0 where it was not run
+    struct Case {
+        std::vector<double> times;     // ns per vertex, one per repetition
+        std::vector<double> of_floor;  // as many, or none
+    };
 
-    std::map<std::string, std::vector<double>> times_;  // ns per vertex by case
+    [[nodiscard]] double naive_time(const std::string& name) const;  // 0 where there is none
+
+    std::map<std::string, Case> cases_;
 };
 
 }  // namespace goffer::bench

@@ -5,63 +5,71 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace goffer::bench {
 namespace {
 
-struct Grid {
-    int columns, rows;
-
-    explicit Grid(std::size_t vertices)
-        : columns(static_cast<int>(std::lround(std::sqrt(static_cast<double>(vertices) / 4)))),
-          rows(static_cast<int>(vertices) / columns) {}
-
-    [[nodiscard]] double beta(int column) const { return 2 * std::numbers::pi * column / columns; }
-    [[nodiscard]] double z(int row) const { return length * row / (rows - 1); }
-    [[nodiscard]] static double rho(double beta, double z) {
-        return radius * (1 + 0.05 * std::sin(3 * beta) * std::cos(2 * z));
+/// The divisor of `vertices` nearest to the number of columns that makes rows four times as many.
+std::size_t columns_for(std::size_t vertices) {
+    const auto wanted = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(vertices) / 4)));
+    for (std::size_t away = 0; away < wanted; ++away) {
+        if (vertices % (wanted + away) == 0) return wanted + away;
+        if (vertices % (wanted - away) == 0) return wanted - away;
     }
-};
+    return 1;
+}
 
 }  // namespace
 
-bend::Body make_body(std::size_t vertices) {
+Grid::Grid(std::size_t vertices) : columns(columns_for(vertices)), rows(vertices / columns) {}
+
+double Grid::beta(std::size_t column) const {
+    return 2 * std::numbers::pi * static_cast<double>(column) / static_cast<double>(columns);
+}
+
+double Grid::z(std::size_t row) const {
+    return length * static_cast<double>(row) / static_cast<double>(rows - 1);
+}
+
+double Grid::rho(double beta, double z) {
+    return radius * (1 + 0.05 * std::sin(3 * beta) * std::cos(2 * z));
+}
+
+Model::Model(std::size_t vertices) {
     const Grid grid(vertices);
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> triangles;
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int column = 0; column < grid.columns; ++column) {
+    const auto index = [&](std::size_t row, std::size_t column) {
+        return static_cast<std::uint32_t>(row * grid.columns + column % grid.columns);
+    };
+    for (std::size_t row = 0; row < grid.rows; ++row) {
+        for (std::size_t column = 0; column < grid.columns; ++column) {
             const double beta = grid.beta(column);
             const double rho = Grid::rho(beta, grid.z(row));
             positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), grid.z(row));
+            tangents.emplace_back(-std::sin(beta), std::cos(beta), 0, 1);
             if (row + 1 == grid.rows) continue;
-            const auto index = [&](int r, int c) {
-                return static_cast<std::uint32_t>(r * grid.columns + c % grid.columns);
-            };
-            const std::uint32_t a = index(row, column), b = index(row, column + 1),
-                                c = index(row + 1, column);
-            triangles.insert(triangles.end(), {a, b, c, b, index(row + 1, column + 1), c});
+            const std::uint32_t a = index(row, column);
+            const std::uint32_t b = index(row, column + 1);
+            const std::uint32_t c = index(row + 1, column);
+            const std::uint32_t d = index(row + 1, column + 1);
+            triangles.insert(triangles.end(), {a, b, c, b, d, c});
         }
     }
+}
+
+bend::Body bind_model(const Model& model) {
     fit::Cylinder cylinder;
     cylinder.length = length;
     cylinder.radius = radius;
     fit::BindOptions options;
     options.folds = folds;
-    return std::move(fit::bind({positions, triangles}, cylinder, options).body);
+    const fit::Geometry geometry{
+        .positions = model.positions, .triangles = model.triangles, .tangents = model.tangents};
+    return std::move(fit::bind(geometry, cylinder, options).body);
 }
 
-NaiveBody make_naive(std::size_t vertices) {
-    const Grid grid(vertices);
-    NaiveBody body;
-    for (int column = 0; column < grid.columns; ++column) body.column_beta.push_back(grid.beta(column));
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int column = 0; column < grid.columns; ++column) {
-            const double beta = grid.beta(column);
-            body.vertices.push_back({beta, grid.z(row), Grid::rho(beta, grid.z(row)), 1, 0, 0, column});
-        }
-    }
-    return body;
+bend::Body make_body(std::size_t vertices) {
+    return bind_model(Model(vertices));
 }
 
 }  // namespace goffer::bench

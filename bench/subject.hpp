@@ -3,11 +3,14 @@
 
 #include <goffer/bend/body.hpp>
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-/// What is measured: one soft body, as goffer holds it and as a programmer would hold it who types the paper
-/// in.
+/// What is measured: a bumpy cylinder of any number of vertices.
 
 namespace goffer::bench {
 
@@ -16,38 +19,30 @@ inline constexpr double length = 10;
 inline constexpr double radius = 1;
 inline constexpr int folds = 5;
 
-/// A bumpy cylinder of about `vertices` vertices, rows four times as many as columns.
+/// The vertices' places: columns about the axis, about four times as many rows along it.
+struct Grid {
+    std::size_t columns, rows;
+
+    /// Of exactly `vertices` vertices: the columns divide them.
+    explicit Grid(std::size_t vertices);
+
+    [[nodiscard]] double beta(std::size_t column) const;
+    [[nodiscard]] double z(std::size_t row) const;
+    [[nodiscard]] static double rho(double beta, double z);
+};
+
+/// The body as a mesh, with tangents about the axis. Bind makes the normals.
+struct Model {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec4> tangents;
+    std::vector<std::uint32_t> triangles;
+
+    explicit Model(std::size_t vertices);
+};
+
+[[nodiscard]] bend::Body bind_model(const Model& model);
+
+/// bind_model of Model(vertices).
 [[nodiscard]] bend::Body make_body(std::size_t vertices);
-
-/// A vertex in the paper's terms, as an array of structs in double holds it.
-struct NaiveVertex {
-    double beta, z, rho;
-    double normal_rho, normal_beta, normal_z;
-    int column;
-};
-
-struct NaivePoint {
-    double x, y, z;
-};
-
-/// The same body, its amplitudes tabled per column.
-struct NaiveBody {
-    std::vector<NaiveVertex> vertices;
-    std::vector<double> column_beta;
-    std::vector<double> amplitude;        // per column, for the pose at hand
-    std::vector<double> amplitude_slope;  // d amplitude / d beta
-};
-
-[[nodiscard]] NaiveBody make_naive(std::size_t vertices);
-
-/// Equations 7, 9, 10 for every column. (Not timed: the table is made before the frame.)
-void set_amplitudes(NaiveBody& body, double angle, double direction);
-
-/// Equations 2 to 6 for every vertex, as they stand in the paper.
-void deform_naive(const NaiveBody& body, double angle, double direction, std::vector<NaivePoint>& positions);
-
-/// The same with normals by the analytic Jacobian.
-void deform_naive(const NaiveBody& body, double angle, double direction, std::vector<NaivePoint>& positions,
-                  std::vector<NaivePoint>& normals);
 
 }  // namespace goffer::bench

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "layout.hpp"
+
+#include <algorithm>
+
+namespace goffer::bench {
+namespace {
+
+constexpr Layout all[] = {
+    {.name = "positions"},
+    {.name = "positions+normals", .floats = 6, .normals = true},
+    {.name = "positions+normals+tangents", .floats = 10, .normals = true, .tangents = true},
+    {.name = "interleaved-positions", .record = 3},
+    {.name = "interleaved-positions+normals", .floats = 6, .record = 6, .normals = true},
+    {.name = "record32-positions+normals", .floats = 6, .record = 8, .normals = true},
+    {.name = "paged-positions+normals", .floats = 6, .normals = true, .paged = true},
+    {.name = "packed", .record = 3, .packed = true},
+    {.name = "previous", .floats = 6, .previous = true},
+};
+
+/// Hands out the streams of an instance, one after the other: planes, or places in a record.
+class Cursor {
+public:
+    Cursor(const Layout& layout, const CrowdMemory& memory, std::size_t first, std::size_t count)
+        : step_(layout.record == 0 ? memory.capacity : 1),
+          stride_(layout.record == 0 ? sizeof(float) : layout.record * sizeof(float)),
+          count_(count),
+          next_(memory.values + first * std::max<std::size_t>(layout.record, 1)) {}
+
+    template <std::size_t N>
+    [[nodiscard]] Stream<N> take() {
+        Stream<N> stream;
+        for (float*& component : stream.component) {
+            component = next_;
+            next_ += step_;
+        }
+        stream.stride = stride_;
+        stream.count = count_;
+        return stream;
+    }
+
+private:
+    std::size_t step_;    // floats from one component to the next
+    std::size_t stride_;  // bytes from one vertex to the next
+    std::size_t count_;
+    float* next_;
+};
+
+}  // namespace
+
+std::span<const Layout> layouts() {
+    return all;
+}
+
+const Layout& layout(std::string_view name) {
+    return *std::ranges::find(all, name, &Layout::name);
+}
+
+std::size_t capacity_for(const Layout& layout, std::size_t vertices) {
+    if (layout.record != 0) return vertices;
+    constexpr std::size_t page = 4096 / sizeof(float);
+    const std::size_t past =
+        layout.paged ? 0 : page * 3 / 32;  // ten planes so far apart are all over the page
+    return vertices + (past + page - vertices % page) % page;
+}
+
+void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
+    const std::size_t count = job.body->vertex_count();
+    if (layout.packed) {
+        auto* const vertices = reinterpret_cast<bend::PackedVertex*>(memory.values);
+        job.packed = {.first = vertices + first, .count = count};
+        return;
+    }
+    Cursor cursor(layout, memory, first, count);
+    job.positions = cursor.take<3>();
+    if (layout.normals) job.normals = cursor.take<3>();
+    if (layout.tangents) job.tangents = cursor.take<4>();
+    if (layout.previous) job.previous_positions = cursor.take<3>();
+}
+
+}  // namespace goffer::bench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "stage.hpp"
+
+#include "subject.hpp"
+
+#include <thread>
+
+namespace goffer::bench {
+
+const bend::Body& Stage::body(std::size_t vertices) {
+    const auto found = bodies_.find(vertices);
+    if (found != bodies_.end()) return found->second;
+    return bodies_.emplace(vertices, make_body(vertices)).first->second;
+}
+
+std::span<float> Stage::memory(std::size_t floats) {
+    if (memory_.columns() == 0 || memory_.count() < floats) {
+        memory_ = Columns();  // first back, then anew: never both
+        memory_ = Columns(1, floats);
+    }
+    return memory_[0].first(floats);
+}
+
+std::vector<int> Stage::thread_counts() {
+    const int all = static_cast<int>(std::thread::hardware_concurrency());
+    if (all < 2) return {1};
+    if (all == 2) return {1, 2};
+    return {1, 2, all};
+}
+
+}  // namespace goffer::bench
