@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 using namespace goffer::test;
 
@@ -69,4 +70,24 @@ TEST_CASE("pictures: several primitives, materials and nodes") {
 
 TEST_CASE("pictures: glTF") {
     check_picture("WaterBottle.gltf");
+}
+
+TEST_CASE("pictures: a crowd, in whatever form it was written") {
+    const Folder folder;
+    base(folder, "base.ply", {"--columns", "24", "--rows", "81"});
+    const auto picture = [&](const std::string& streams) {
+        (void)report(folder, {"crowd", "base.ply", "--instances", "6", "--frames", "30", "--streams", streams,
+                              "--png", "out.png"});
+        return grey_of(folder / "out.png");
+    };
+    const std::vector<png_byte> planar = picture("planar");
+    const std::vector<png_byte> packed = picture("packed");
+    const double share = covered(folder / "out.png");
+    CAPTURE(share);
+    CHECK(share > 0.05);
+    CHECK(share < 0.9);
+    std::size_t other = 0;  // packed positions are off by some 1e-5, and so some pixels on edges
+    for (std::size_t i = 0; i < planar.size(); ++i) other += std::abs(planar[i] - packed[i]) > 4 ? 1 : 0;
+    CHECK(static_cast<double>(other) < 1e-3 * static_cast<double>(planar.size()));
+    CHECK(planar != packed);
 }

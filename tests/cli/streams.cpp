@@ -19,8 +19,12 @@ TEST_CASE("streams: nothing on standard error where all is well") {
 
 TEST_CASE("streams: help and version") {
     const Folder folder;
-    for (const Words& words :
-         {Words{"--help"}, {"-h"}, {"base", "--help"}, {"inspect", "-h"}, {"bend", "--help"}}) {
+    for (const Words& words : {Words{"--help"},
+                               {"-h"},
+                               {"base", "--help"},
+                               {"inspect", "-h"},
+                               {"bend", "--help"},
+                               {"crowd", "-h"}}) {
         CHECK(well(folder, words).find("Usage: goffer") != std::string::npos);
     }
     const std::string help = well(folder, {"bend", "--help"});

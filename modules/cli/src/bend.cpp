@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "model.hpp"
 #include "picture.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -8,7 +9,6 @@
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
 
-#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -25,10 +25,7 @@ struct BendOptions {
     std::filesystem::path output;
     double angle = 90;
     double direction = 0;
-    std::optional<int> folds;
-    std::string amplitude = "paper";
-    std::string profile = "damped";
-    std::string axis = "auto";
+    BindWords bind;
     std::filesystem::path fit;
     std::string isa = "auto";
     int threads = 0;
@@ -39,25 +36,19 @@ struct BendOptions {
 
 /// Everything that can be refused by looking at the words alone.
 struct Request {
-    std::optional<glm::dvec3> axis;
+    BindRequest bind;
     bend::Pose pose;
-    fit::BindOptions bind;
     Isa isa;
     int threads;
 
     explicit Request(const BendOptions& options)
-        : axis(parse_axis(options.axis)),
+        : bind(options.bind),
           pose{static_cast<float>(radians(options.angle)), static_cast<float>(radians(options.direction))},
           isa(parse_isa_option(options.isa)),
-          threads(tbb::info::default_concurrency()) {
-        // oneTBB has no more than the machine's anyway, and would say so on standard error.
-        if (options.threads > 0) threads = std::min(threads, options.threads);
-        bind.folds = options.folds;
-        bind.amplitude = parse_amplitude(options.amplitude);
-        bind.profile = parse_profile(options.profile);
+          threads(usable_threads(options.threads)) {
         if (options.ghost && options.png.empty())
             throw UsageError("--ghost: belongs to a picture; add --png FILE");
-        if (!options.fit.empty() && axis)
+        if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         check_places({{"MODEL", options.model}, {"--fit", options.fit}},
                      {{"-o", options.output}, {"--png", options.png}, {"--json", options.json}});
@@ -120,28 +111,6 @@ double base_area_change(const fit::Cylinder& cylinder, const fit::BindOptions& o
     return paper::lateral_area(options.profile, folds, cylinder.length, cylinder.radius, angle, factor) - 1;
 }
 
-void warn_of_folds(Report& report, const BendOptions& options, const fit::Bound& bound,
-                   const fit::Cylinder& cylinder, double angle) {
-    const int wanted = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
-    const auto capacity = static_cast<std::size_t>(bound.folds_capacity);
-    if (bound.folds > bound.folds_capacity) {
-        report.warn("the mesh has vertices for " + counted(capacity, "fold") + ", not " +
-                    std::to_string(bound.folds) + ": wrinkles are coarse, and the area is not kept");
-    } else if (!options.folds && bound.folds == 0 && wanted > 0 && options.amplitude != "none") {
-        report.warn("bent without wrinkles: the mesh has vertices for " + counted(capacity, "fold") +
-                    ", and " + std::to_string(wanted) +
-                    " would suit its length; use a finer mesh, or --folds K to insist");
-    }
-    if (bound.folds == 0) return;
-    const double squeeze = std::min(2 * angle * cylinder.radius / cylinder.length, 0.999);
-    if (paper::amplitude(parse_profile(options.profile), bound.folds, cylinder.length, squeeze) >
-        cylinder.radius) {
-        report.warn(
-            "the wrinkle is deeper than the radius, so that the squeezed side reaches past the axis; use "
-            "more folds");
-    }
-}
-
 /// A fit of another model can hold this one in a corner of itself.
 void warn_of_foreign_fit(Report& report, const bend::Body& body) {
     const auto heights = body.column(bend::Body::height).first(body.vertex_count());
@@ -152,22 +121,22 @@ void warn_of_foreign_fit(Report& report, const bend::Body& body) {
                 " % of the length of --fit; is it the fit of this model?");
 }
 
-void report_bend(Report& report, const BendOptions& options, const Request& request,
-                 const fit::Cylinder& cylinder, const fit::Bound& bound, const Deformed& bent,
-                 double area_before) {
+void report_bend(Report& report, const BendOptions& options, const Request& request, const BoundModel& model,
+                 const Deformed& bent, double area_before) {
+    const fit::Bound& bound = model.bound;
     const double limit = static_cast<double>(bound.body.max_angle());
     const double asked = std::fabs(static_cast<double>(request.pose.angle));
     const double used = bent.clamped ? limit : asked;
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
-    const double base_change = base_area_change(cylinder, request.bind, bound.folds, used);
+    const double base_change = base_area_change(model.cylinder, request.bind.options, bound.folds, used);
     nlohmann::ordered_json& json = report.json;
     json["max_angle"] = degrees(limit);
     json["folds_capacity"] = bound.folds_capacity;
     json["pose"] = {{"angle", bent.clamped ? std::copysign(degrees(limit), options.angle) : options.angle},
                     {"direction", options.direction}};
     json["folds"] = bound.folds;
-    json["amplitude"] = options.amplitude;
-    json["profile"] = options.profile;
+    json["amplitude"] = options.bind.amplitude;
+    json["profile"] = options.bind.profile;
     json["clamped"] = bent.clamped;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
@@ -190,41 +159,29 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
         report.warn("the angle of " + number(options.angle) + " degrees is beyond the largest, " +
                     number(degrees(limit)) + ", where the body would fold through itself; clamped to it");
     }
-    warn_of_folds(report, options, bound, cylinder, used);
+    warn_of_folds(report, options.bind, model, used);
 }
 
 void run_bend(const BendOptions& options) {
     const Request request(options);
     Report report(options.json);
-    mesh::Mesh mesh;
-    mesh::Records rest;
-    {
-        const Progress progress("reading " + options.model.string());
-        mesh = mesh::load(options.model);
-        rest = mesh::records(mesh);
-    }
-    const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
-    const bool given = !options.fit.empty();
-    const fit::Cylinder cylinder = in_file(options.model, [&] {
-        fit::check(geometry);
-        return given ? read_fit(options.fit) : fit::fit_cylinder(geometry, request.axis);
-    });
-    const fit::Bound bound = in_file(given ? options.fit : options.model,
-                                     [&] { return fit::bind(geometry, cylinder, request.bind); });
-    const Deformed bent = deform(bound.body, rest, request);
+    const BoundModel model = bind_model(options.model, request.bind, options.fit);
+    const bend::Body& body = model.bound.body;
+    const Deformed bent = deform(body, model.rest, request);
 
-    const double area_before = fit::surface_area(rest.positions, rest.triangles);
-    report_model(report, options.model, mesh, area_before);
-    report_fit(report, cylinder);
-    report_bend(report, options, request, cylinder, bound, bent, area_before);
-    if (given) warn_of_foreign_fit(report, bound.body);
+    const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
+    report_model(report, options.model, model.mesh, area_before);
+    report_fit(report, model.cylinder);
+    report_bend(report, options, request, model, bent, area_before);
+    if (!options.fit.empty()) warn_of_foreign_fit(report, body);
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
-        write_picture({bound.body, mesh, rest, bent.records.positions, bent.records.normals, request.pose},
-                      options.ghost, options.png);
+        write_picture(
+            {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, request.pose},
+            options.ghost, options.png);
         report.line("picture", options.png.string());
     }
-    mesh::save(mesh::with_records(mesh, bent.records), options.output);
+    mesh::save(mesh::with_records(model.mesh, bent.records), options.output);
     report.line("written", options.output.string());
     report.finish();
 }
@@ -244,20 +201,7 @@ void add_bend(CLI::App& app, Action& action) {
     command->add_option("--direction", options->direction, "Towards where, degrees about the axis")
         ->check(angle)
         ->capture_default_str();
-    command
-        ->add_option("--folds", options->folds,
-                     "Folds per half length (default: what suits the body and its mesh)")
-        ->check(CLI::Range(0, fit::BindOptions::max_folds));
-    command
-        ->add_option("--amplitude", options->amplitude,
-                     "Wrinkle: paper (keeps lengths), area (keeps the area), none")
-        ->check(CLI::IsMember({"paper", "area", "none"}))
-        ->capture_default_str();
-    command->add_option("--profile", options->profile, "Wrinkle's shape: damped, smooth")
-        ->check(CLI::IsMember({"damped", "smooth"}))
-        ->capture_default_str();
-    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
-        ->capture_default_str();
+    add_bind_words(*command, options->bind);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")

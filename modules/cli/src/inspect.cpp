@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "progress.hpp"
+#include "model.hpp"
 #include "report.hpp"
 
-#include <goffer/fit/bind.hpp>
-#include <goffer/fit/cylinder.hpp>
-#include <goffer/mesh/mesh.hpp>
+#include <goffer/fit/geometry.hpp>
 
 #include <memory>
-#include <utility>
 
 namespace goffer::cli {
 namespace {
@@ -20,21 +17,15 @@ struct InspectOptions {
 };
 
 void run_inspect(const InspectOptions& options) {
-    const std::optional<glm::dvec3> axis = parse_axis(options.axis);
+    const BindRequest request({.axis = options.axis});
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
-    auto progress = std::make_unique<Progress>("inspecting " + options.model.string());
-    const mesh::Mesh mesh = mesh::load(options.model);
-    const mesh::Records records = mesh::records(mesh);
-    const fit::Geometry geometry{records.positions, records.triangles, records.normals, records.tangents};
-    const auto [cylinder, bound] = in_file(options.model, [&] {
-        const fit::Cylinder fitted = fit::fit_cylinder(geometry, axis);
-        return std::pair(fitted, fit::bind(geometry, fitted));
-    });
-    progress.reset();
+    const BoundModel model = bind_model(options.model, request);
+    const fit::Bound& bound = model.bound;
 
-    report_model(report, options.model, mesh, fit::surface_area(records.positions, records.triangles));
-    report_fit(report, cylinder);
+    report_model(report, options.model, model.mesh,
+                 fit::surface_area(model.rest.positions, model.rest.triangles));
+    report_fit(report, model.cylinder);
     const double max_angle = degrees(static_cast<double>(bound.body.max_angle()));
     report.json["max_angle"] = max_angle;
     report.json["folds_capacity"] = bound.folds_capacity;

@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     add_base(app, action);
     add_inspect(app, action);
     add_bend(app, action);
+    add_crowd(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

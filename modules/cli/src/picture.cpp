@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "picture.hpp"
 
-#include <goffer/view/picture.hpp>
-
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -26,41 +24,40 @@ view::Camera camera_for(const bend::Body& body, const bend::Pose& pose) {
 }
 
 /// A material's colour, made readable: wrinkles drown in white and in black. A neutral grey, which is what a
-/// material says whose texture is not at hand, is no colour; such parts are of the renderer's own clay.
-glm::vec4 readable(const glm::vec4& color) {
+/// material says whose texture is not at hand, is no colour; such parts are `plain`.
+glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     const auto [low, high] = std::minmax({color.r, color.g, color.b});
-    if (high > 0.5f && high - low < 0.02f) return view::Model{}.color;
+    if (high > 0.5f && high - low < 0.02f) return plain;
     const glm::vec3 dimmed = glm::vec3(color) * std::min(1.0f, 0.75f / std::max(high, 1e-3f));
     return {glm::max(dimmed, glm::vec3(0.06f)), 1.0f};
 }
 
-/// One model per part, since each part has its material's colour. Faces are cut up into fans in their order.
-std::vector<view::Model> models_of(const PictureSubject& subject) {
+}  // namespace
+
+std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
+                                     const glm::vec4& plain) {
     std::vector<view::Model> models;
-    const std::span<const std::uint32_t> triangles = subject.rest.triangles;
     std::size_t first = 0;
-    for (const mesh::Part& part : subject.mesh.parts) {
+    for (const mesh::Part& part : mesh.parts) {
         std::size_t count = 0;
         for (std::uint32_t face = 0; face < part.face_count; ++face)
-            count += subject.mesh.faces[part.first_face + face] - 2;
-        view::Model model;
-        model.positions = subject.bent_positions;
-        model.normals = subject.bent_normals;
-        model.triangles = triangles.subspan(3 * first, 3 * count);
-        if (part.material >= 0) {
-            model.color =
-                readable(subject.mesh.materials[static_cast<std::size_t>(part.material)].base_color);
-        }
+            count += mesh.faces[part.first_face + face] - 2;
+        view::Model model = vertices;
+        model.triangles = vertices.triangles.subspan(3 * first, 3 * count);
+        model.color = plain;
+        if (part.material >= 0)
+            model.color = readable(mesh.materials[static_cast<std::size_t>(part.material)].base_color, plain);
         first += count;
         if (count > 0) models.push_back(model);
     }
     return models;
 }
 
-}  // namespace
-
 void write_picture(const PictureSubject& subject, bool ghost, const std::filesystem::path& file) {
-    std::vector<view::Model> models = models_of(subject);
+    const view::Model bent{.positions = subject.bent_positions,
+                           .triangles = subject.rest.triangles,
+                           .normals = subject.bent_normals};
+    std::vector<view::Model> models = part_models(subject.mesh, bent, bent.color);
     if (ghost) {
         view::Model rest;
         rest.positions = subject.rest.positions;

@@ -4,11 +4,14 @@
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/pose.hpp>
 #include <goffer/mesh/mesh.hpp>
+#include <goffer/view/picture.hpp>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 namespace goffer::cli {
 
@@ -21,6 +24,12 @@ struct PictureSubject {
     std::span<const glm::vec3> bent_normals;
     bend::Pose pose;
 };
+
+/// One model per part of `mesh`, since each part has its material's colour; parts without one are `plain`.
+/// `vertices` has the positions and normals; its triangles are those of all faces, each cut up into a fan, in
+/// their order. The models refer to the same memory.
+[[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
+                                                   const glm::vec4& plain);
 
 /// Renders the bent model, seen across the plane that it bends in and from above its squeezed side, so that
 /// it lies from left to right and its wrinkles are in view; with `ghost` the rest shape too, translucent.

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "crowd_measure.hpp"
+#include "crowd_picture.hpp"
+#include "crowd_scene.hpp"
+#include "model.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+struct CrowdOptions {
+    std::vector<std::filesystem::path> models;
+    std::size_t instances = 1000;
+    std::size_t frames = 100;
+    double angle = 90;
+    BindWords bind;
+    std::string streams = "planar";
+    bool normals = false;
+    std::string stores = "automatic";
+    std::string isa = "auto";
+    int threads = 0;
+    std::filesystem::path png;
+    std::filesystem::path json;
+};
+
+Layout parse_layout(const std::string& text) {
+    if (text == "packed") return Layout::packed;
+    return text == "interleaved" ? Layout::interleaved : Layout::planar;
+}
+
+bend::Stores parse_stores(const std::string& text) {
+    if (text == "cached") return bend::Stores::cached;
+    return text == "streaming" ? bend::Stores::streaming : bend::Stores::automatic;
+}
+
+/// Everything that can be refused by looking at the words alone.
+struct CrowdRequest {
+    BindRequest bind;
+    CrowdPlan plan;
+    int threads;
+
+    explicit CrowdRequest(const CrowdOptions& options)
+        : bind(options.bind),
+          plan{.instances = options.instances,
+               .angle = radians(options.angle),
+               .layout = parse_layout(options.streams),
+               .normals = options.normals || options.streams == "packed",
+               .isa = parse_isa_option(options.isa),
+               .stores = parse_stores(options.stores)},
+          threads(usable_threads(options.threads)) {
+        if (options.instances < options.models.size()) {
+            throw UsageError("--instances: " + std::to_string(options.instances) + " are fewer than the " +
+                             std::to_string(options.models.size()) + " models; give each one or more");
+        }
+        std::vector<NamedFile> inputs;
+        for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
+        check_places(inputs, {{"--png", options.png}, {"--json", options.json}});
+        if (!options.png.empty()) check_picture_output(options.png);
+    }
+};
+
+std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindRequest& request) {
+    std::vector<BoundModel> models;
+    for (const std::filesystem::path& file : options.models) models.push_back(bind_model(file, request));
+    return models;
+}
+
+void report_models(Report& report, const CrowdOptions& options, std::span<const BoundModel> models) {
+    for (const BoundModel& model : models) {
+        const bend::Body& body = model.bound.body;
+        const double limit = degrees(static_cast<double>(body.max_angle()));
+        const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
+        report.json["models"].push_back({{"file", model.file.string()},
+                                         {"vertices", body.vertex_count()},
+                                         {"folds", model.bound.folds},
+                                         {"max_angle", limit}});
+        report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
+                                 " vertices, " +
+                                 counted(static_cast<std::size_t>(model.bound.folds), "fold"));
+        for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
+        if (std::fabs(options.angle) > limit) {
+            report.warn(where + "the angle of " + number(options.angle) + " degrees is beyond the largest, " +
+                        number(limit) +
+                        ", where the body would fold through itself; it is bent so far at most");
+        }
+        warn_of_folds(report, options.bind, model, radians(std::min(std::fabs(options.angle), limit)), where);
+    }
+}
+
+/// Two decimals, and no sign.
+std::string percentage(double fraction) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", 100 * fraction);
+    return text;
+}
+
+void report_crowd(Report& report, const CrowdOptions& options, const CrowdRequest& request,
+                  const Crowd& crowd, const Timing& timing) {
+    const auto bytes = static_cast<double>(crowd.memory().bytes());
+    const double rate = bytes / timing.frame_median * 1e-6;
+    const double floor = bytes / timing.fill_median * 1e-6;
+    const double per_vertex = timing.frame_median * 1e6 / static_cast<double>(crowd.vertices());
+    const std::string isa(name(resolve(request.plan.isa)));
+    char hash[17];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(crowd.memory().hash()));
+
+    nlohmann::ordered_json& json = report.json;
+    json["instances"] = options.instances;
+    json["vertices_per_frame"] = crowd.vertices();
+    json["bytes_per_frame"] = crowd.memory().bytes();
+    json["frames"] = options.frames;
+    json["threads"] = request.threads;
+    json["isa"] = isa;
+    json["streams"] = options.streams;
+    json["normals"] = request.plan.normals;
+    json["stores"] = options.stores;
+    json["angle"] = options.angle;
+    json["ms_median"] = timing.frame_median;
+    json["ms_p99"] = timing.frame_p99;
+    json["ns_per_vertex"] = per_vertex;
+    json["gb_per_s"] = rate;
+    json["floor_gb_per_s"] = floor;
+    json["of_floor"] = rate / floor;
+    json["allocations_per_frame"] = nullptr;
+    if (timing.allocations) json["allocations_per_frame"] = *timing.allocations;
+    json["clamped"] = timing.clamped;
+    json["hash"] = hash;
+
+    report.line("crowd", counted(options.instances, "instance") + ", " + std::to_string(crowd.vertices()) +
+                             " vertices a frame");
+    report.line("output", options.streams + ", positions" + (request.plan.normals ? " and normals" : "") +
+                              ", " + number(bytes * 1e-6) + " MB a frame");
+    report.line("kernels", isa + ", threads: " + std::to_string(request.threads));
+    report.line("frames", number(1000 / timing.frame_median) + " per second");
+    report.line("frame",
+                number(timing.frame_median) + " ms (median), " + number(timing.frame_p99) + " ms (p99)");
+    report.line("vertex", number(per_vertex) + " ns");
+    report.line("written", number(rate) + " GB/s, " + percentage(rate / floor) +
+                               " of the floor: a fill of as much, " + number(floor) + " GB/s");
+    if (timing.allocations) report.line("allocations", number(*timing.allocations) + " per frame");
+}
+
+void run_crowd(const CrowdOptions& options) {
+    const CrowdRequest request(options);
+    Report report(options.json);
+    const std::vector<BoundModel> models = bind_models(options, request.bind);
+    auto progress = std::make_unique<Progress>("deforming " + counted(options.frames, "frame"));
+    Crowd crowd(models, request.plan);
+    const Timing timing = measure(crowd, options.frames, request.threads);
+    progress.reset();
+    report_crowd(report, options, request, crowd, timing);
+    report_models(report, options, models);
+    if (!options.png.empty()) {
+        const Progress rendering("rendering " + options.png.string());
+        const std::size_t shown = write_crowd_picture(crowd, models, options.png);
+        report.line("picture", options.png.string() + (shown == options.instances
+                                                           ? std::string()
+                                                           : ", " + std::to_string(shown) + " of " +
+                                                                 std::to_string(options.instances) +
+                                                                 " instances, those in front"));
+    }
+    report.finish();
+}
+
+}  // namespace
+
+void add_crowd(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<CrowdOptions>();
+    CLI::App* command = app.add_subcommand(
+        "crowd",
+        "Bend a crowd of models, frame after frame, and say how fast that is, next to a fill of memory");
+    command->add_option("models", options->models, "Models, as many of each: .glb, .gltf, .obj, .ply or .stl")
+        ->required();
+    command->add_option("--instances", options->instances, "Instances of all models together")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "Frames to measure")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command
+        ->add_option("--angle", options->angle,
+                     "Instances swing between straight and this, degrees; negative: the other way")
+        ->check(number_within(-36000, 36000, "an angle in degrees"))
+        ->capture_default_str();
+    add_bind_words(*command, options->bind);
+    command
+        ->add_option(
+            "--streams", options->streams,
+            "Output: planar (x[] y[] z[]), interleaved (records of floats), packed (12 bytes a vertex)")
+        ->check(CLI::IsMember({"planar", "interleaved", "packed"}))
+        ->capture_default_str();
+    command->add_flag("--normals", options->normals, "Normals too; packed has them anyway");
+    command
+        ->add_option("--stores", options->stores, "Past the cache or into it: automatic, cached, streaming")
+        ->check(CLI::IsMember({"automatic", "cached", "streaming"}))
+        ->capture_default_str();
+    command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+        ->capture_default_str();
+    command
+        ->add_option("--threads", options->threads, "Threads, at most the machine's (default: all of them)")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--png", options->png, "Write a picture of the last frame, 1280 x 960");
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_crowd(*options); }; });
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "crowd_picture.hpp"
+
+#include "picture.hpp"
+
+#include <goffer/bend/bounds.hpp>
+#include <goffer/view/picture.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/packing.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+/// What a GPU does with packed vertices; the same text.
+namespace shader {
+using namespace glm;
+#include <goffer/bend/packed.glsl>
+}  // namespace shader
+
+constexpr std::size_t most_instances = 400;
+constexpr std::size_t most_triangles = 4'000'000;
+
+/// Parts without a colour of their own, by model: clay, moss, straw, slate, plum.
+constexpr std::array<glm::vec3, 5> plain_colors = {glm::vec3{0.72f, 0.33f, 0.20f},
+                                                   {0.30f, 0.48f, 0.24f},
+                                                   {0.74f, 0.53f, 0.17f},
+                                                   {0.24f, 0.40f, 0.56f},
+                                                   {0.50f, 0.24f, 0.42f}};
+
+/// Not quite the same for any two neighbours.
+glm::vec4 tinted(const glm::vec4& color, std::size_t index) {
+    const float turn = 2.4f * static_cast<float>(index % 1000);
+    const glm::vec3 tint(1 + 0.12f * std::sin(turn), 1 + 0.12f * std::sin(1.31f * turn + 1),
+                         1 + 0.12f * std::sin(0.77f * turn + 2));
+    return {glm::vec3(color) * tint, 1};
+}
+
+/// Vertices read back from wherever a job has put them.
+struct Vertices {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+};
+
+std::vector<glm::vec3> read(const Stream3& stream) {
+    std::vector<glm::vec3> values(stream.count);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            std::memcpy(&values[i][c],
+                        reinterpret_cast<const std::byte*>(stream.component[c]) + i * stream.stride,
+                        sizeof(float));
+        }
+    }
+    return values;
+}
+
+Vertices read_packed(const bend::DeformJob& job) {
+    const auto [low, high] = bend::bounds(job);
+    Vertices vertices;
+    for (std::size_t i = 0; i < job.packed.count; ++i) {
+        glm::uvec3 words;
+        std::memcpy(&words, reinterpret_cast<const std::byte*>(job.packed.first) + i * job.packed.stride,
+                    sizeof words);
+        vertices.positions.push_back(shader::goffer_position(words, low, high));
+        vertices.normals.push_back(shader::goffer_normal(words));
+    }
+    return vertices;
+}
+
+/// Of a crowd that has not asked for normals.
+std::vector<glm::vec3> make_normals(bend::DeformJob job) {
+    std::vector<glm::vec3> normals(job.body->vertex_count());
+    job.positions = {};
+    job.normals = interleaved<3>(&normals.front().x, normals.size());
+    bend::run(job);
+    return normals;
+}
+
+Vertices vertices_of(const bend::DeformJob& job) {
+    if (!job.packed.empty()) return read_packed(job);
+    return {read(job.positions), job.normals.empty() ? make_normals(job) : read(job.normals)};
+}
+
+/// The instances to be shown, as indices into the crowd's job.
+std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> models) {
+    const std::size_t count = crowd.job().instances.size();
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i < count; ++i) triangles += models[crowd.model(i)].rest.triangles.size() / 3;
+    const std::size_t fit = most_triangles / (triangles / count + 1);
+    const std::size_t most = std::clamp<std::size_t>(fit, 1, most_instances);
+    const auto width = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(most))));
+    const std::size_t left = (crowd.columns() - std::min(width, crowd.columns())) / 2;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [column, row] = crowd.spot(i);
+        const bool in_front =
+            left <= column && column < left + width && row < std::max<std::size_t>(most / width, 1);
+        if (count <= most || in_front) chosen.push_back(i);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
+                                const std::filesystem::path& file) {
+    const std::vector<std::size_t> chosen = choose(crowd, models);
+    std::vector<Vertices> vertices;
+    std::vector<view::Model> parts;
+    vertices.reserve(chosen.size());
+    for (const std::size_t i : chosen) {
+        const BoundModel& model = models[crowd.model(i)];
+        const Vertices& own = vertices.emplace_back(vertices_of(crowd.job().instances[i]));
+        const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);
+        const view::Model all{
+            .positions = own.positions, .triangles = model.rest.triangles, .normals = own.normals};
+        for (view::Model& part : part_models(model.mesh, all, plain)) {
+            part.color = tinted(part.color, i);
+            parts.push_back(part);
+        }
+    }
+    view::Camera camera;
+    camera.towards = {0.12f, 1.0f, -0.85f};
+    view::save_png(view::render(parts, camera), file);
+    return chosen.size();
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "crowd_scene.hpp"
+#include "model.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace goffer::cli {
+
+/// Renders what the crowd's memory holds, seen from above its front edge, and writes a PNG. Of a large crowd,
+/// the middle of the front: at most 400 instances and about 4 million triangles. `models`: those of the
+/// crowd. Returns how many instances there are in the picture.
+std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
+                                const std::filesystem::path& file);
+
+}  // namespace goffer::cli

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "crowd_scene.hpp"
+
+#include "memory.hpp"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numbers>
+
+namespace goffer::cli {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double frames_per_swing = 120;
+constexpr double frames_per_turn = 600;
+
+/// Evenly spread over 0..1 for any run of `index`, and without a pattern on a grid.
+double scattered(std::size_t index, double ratio) {
+    double whole = 0;
+    return std::modf(static_cast<double>(index) * ratio, &whole);
+}
+
+/// A square grid, on which neighbours in a column are of different models too.
+std::size_t columns_for(std::size_t instances, std::size_t models) {
+    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(instances))));
+    return models > 1 && columns % models == 0 ? columns + 1 : columns;
+}
+
+/// So that neighbours, which bend much the same way, hardly touch. In lengths of a body.
+double spacing_for(std::span<const BoundModel> models) {
+    double thickest = 0;
+    for (const BoundModel& model : models)
+        thickest = std::max(thickest, model.cylinder.radius / model.cylinder.length);
+    return 0.25 + 2.7 * thickest;
+}
+
+std::size_t instances_of(std::size_t model, std::size_t models, std::size_t instances) {
+    return (instances + models - 1 - model) / models;
+}
+
+std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instances) {
+    std::size_t vertices = 0;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        vertices += instances_of(i, models.size(), instances) * models[i].bound.body.vertex_count();
+    }
+    return vertices;
+}
+
+[[noreturn]] void refuse(std::size_t instances, std::uint64_t bytes, const std::string& reason) {
+    throw InputError("--instances: a crowd of " + std::to_string(instances) + " takes " +
+                     number(static_cast<double>(bytes) / 1e9) + " GB of memory" + reason +
+                     "; use fewer or coarser models");
+}
+
+/// Looks first: a system that hands out more than it has ends the program later, without a word.
+CrowdMemory memory_for(const CrowdPlan& plan, std::size_t vertices) {
+    const std::uint64_t bytes = vertices * CrowdMemory::vertex_bytes(plan.layout, plan.normals) +
+                                plan.instances * sizeof(bend::DeformJob);
+    if (const auto free = free_memory(); free && bytes > *free) {
+        refuse(plan.instances, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
+    }
+    try {
+        return {plan.layout, plan.normals, vertices};
+    } catch (const std::bad_alloc&) {
+        refuse(plan.instances, bytes, ", which cannot be had");
+    }
+}
+
+/// From model space to a place in the world: base end on the ground, axis up, a length of 1, turned by `yaw`
+/// (in turns).
+glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw) {
+    const double c = std::cos(turn * yaw), s = std::sin(turn * yaw);
+    const glm::dmat3 turned(c, s, 0, -s, c, 0, 0, 0, 1);
+    const glm::dmat3 linear = turned * glm::transpose(body.axes()) * (1 / body.length());
+    const glm::dvec3 place = glm::dvec3(x, y, 0) - linear * body.origin();
+    return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
+}
+
+}  // namespace
+
+Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
+    : columns_(columns_for(plan.instances, models.size())),
+      spacing_(spacing_for(models)),
+      vertices_(vertices_for(models, plan.instances)),
+      memory_(memory_for(plan, vertices_)) {
+    members_.reserve(plan.instances);
+    jobs_.reserve(plan.instances);
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < models.size(); ++m) {
+        for (std::size_t place = m; place < plan.instances; place += models.size()) {
+            add(models[m], plan, {.model = m, .place = place});
+            memory_.point(jobs_.back(), first);
+            first += jobs_.back().body->vertex_count();
+        }
+    }
+    job_ = {.instances = jobs_, .stores = plan.stores};
+    set_poses(0);
+    if (const bend::CrowdFault fault = bend::validate(job_); !fault.none())
+        throw InputError("cannot deform: " + std::string(bend::describe(fault)));
+}
+
+void Crowd::add(const BoundModel& model, const CrowdPlan& plan, const Member& member) {
+    const bend::Body& body = model.bound.body;
+    const auto limit = static_cast<double>(body.max_angle());
+    const auto [column, row] = spot_of(member.place);
+    const double x = spacing_ * static_cast<double>(column);
+    const double y = spacing_ * static_cast<double>(row);
+    const double yaw = scattered(member.place, 0.754877666);  // with the next: the plastic number's
+    const double own = scattered(member.place, 0.569840291);
+    members_.push_back({.model = member.model,
+                        .place = member.place,
+                        .angle = std::clamp(plan.angle, -limit, limit),
+                        .phase = 0.11 * x + 0.17 * y + 0.12 * own,
+                        .direction = 0.05 * x - 0.04 * y + 0.10 * own - yaw});
+    bend::DeformJob job{.body = &body, .isa = plan.isa};
+    job.transform = transform_to(body, x, y, yaw);
+    jobs_.push_back(job);
+}
+
+void Crowd::set_poses(std::size_t frame) noexcept {
+    const auto time = static_cast<double>(frame);
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+        const Member& member = members_[i];
+        const double swing = 0.5 - 0.5 * std::cos(turn * (time / frames_per_swing + member.phase));
+        jobs_[i].pose = {static_cast<float>(member.angle * swing),
+                         static_cast<float>(turn * (time / frames_per_turn + member.direction))};
+    }
+}
+
+Spot Crowd::spot(std::size_t index) const noexcept {
+    return spot_of(members_[index].place);
+}
+
+Spot Crowd::spot_of(std::size_t place) const noexcept {
+    return {place % columns_, place / columns_};
+}
+
+}  // namespace goffer::cli

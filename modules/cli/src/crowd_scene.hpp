@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "crowd_memory.hpp"
+#include "model.hpp"
+
+#include <goffer/bend/crowd.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace goffer::cli {
+
+/// What a crowd is made of, besides its models.
+struct CrowdPlan {
+    std::size_t instances = 0;
+    double angle = 0;  ///< the largest, radians; a body that cannot be bent so far goes as far as it can
+    Layout layout = Layout::planar;
+    bool normals = false;
+    Isa isa = Isa::automatic;
+    bend::Stores stores = bend::Stores::automatic;
+};
+
+/// Where an instance stands: row 0 is in front.
+struct Spot {
+    std::size_t column = 0;
+    std::size_t row = 0;
+};
+
+/// A crowd that moves like grass in the wind: instances of all models, about as many of each, on a grid.
+/// Every one stands with its base end on the ground (z = 0) and its axis up, is scaled to a length of 1, and
+/// is turned its own way.
+class Crowd {
+public:
+    /// `models` must outlive the crowd. Throws InputError where the crowd is more than memory holds.
+    Crowd(std::span<const BoundModel> models, const CrowdPlan& plan);
+    Crowd(const Crowd&) = delete;
+    Crowd& operator=(const Crowd&) = delete;
+
+    /// Sets the poses of `frame`, which depend on nothing else. Does not allocate.
+    void set_poses(std::size_t frame) noexcept;
+
+    /// All instances, sorted by body.
+    [[nodiscard]] const bend::CrowdJob& job() const noexcept { return job_; }
+    [[nodiscard]] CrowdMemory& memory() noexcept { return memory_; }
+    [[nodiscard]] const CrowdMemory& memory() const noexcept { return memory_; }
+    [[nodiscard]] std::size_t vertices() const noexcept { return vertices_; }
+
+    /// Of instance `index` of the job: which of the models it is, and where it stands.
+    [[nodiscard]] std::size_t model(std::size_t index) const noexcept { return members_[index].model; }
+    [[nodiscard]] Spot spot(std::size_t index) const noexcept;
+    /// Instances that stand side by side.
+    [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
+
+private:
+    struct Member {
+        std::size_t model = 0;
+        std::size_t place = 0;  // on the grid, row after row
+        double angle = 0;       // the largest
+        double phase = 0;       // of the swing, in turns
+        double direction = 0;   // at frame 0, about the body's axis, in turns
+    };
+
+    void add(const BoundModel& model, const CrowdPlan& plan, const Member& member);
+    [[nodiscard]] Spot spot_of(std::size_t place) const noexcept;
+
+    std::size_t columns_;
+    double spacing_;
+    std::size_t vertices_;
+    CrowdMemory memory_;
+    std::vector<Member> members_;
+    std::vector<bend::DeformJob> jobs_;
+    bend::CrowdJob job_;
+};
+
+}  // namespace goffer::cli

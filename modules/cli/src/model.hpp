@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "arguments.hpp"
+#include "report.hpp"
+
+#include <goffer/fit/bind.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/// From a file to a body: what every command does with its models first.
+
+namespace goffer::cli {
+
+/// Words on how models are fitted and bound.
+struct BindWords {
+    std::optional<int> folds = {};
+    std::string amplitude = "paper";
+    std::string profile = "damped";
+    std::string axis = "auto";
+};
+
+/// Adds --folds, --amplitude, --profile and --axis. `words` must outlive `command`.
+void add_bind_words(CLI::App& command, BindWords& words);
+
+/// Such words, understood. Throws UsageError.
+struct BindRequest {
+    std::optional<glm::dvec3> axis;
+    fit::BindOptions options;
+
+    explicit BindRequest(const BindWords& words);
+};
+
+/// A model read, fitted and bound. Vertex i of the body is record i.
+struct BoundModel {
+    std::filesystem::path file;
+    mesh::Mesh mesh;
+    mesh::Records rest;
+    fit::Cylinder cylinder;
+    fit::Bound bound;
+};
+
+/// Reads, fits and binds `file`; says so on a terminal where that takes long. `fit`: a report that the
+/// cylinder is taken from, or empty. Throws an error that names the file at fault.
+[[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
+                                    const std::filesystem::path& fit = {});
+
+/// Warns of folds that the mesh cannot carry and of those that reach past the axis at `angle` (radians, >=
+/// 0). `where` begins each warning: empty, or which of several models is meant.
+void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model, double angle,
+                   const std::string& where = {});
+
+}  // namespace goffer::cli

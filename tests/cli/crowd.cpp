@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "support/models.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+/// A base cylinder that carries five folds, of few vertices.
+constexpr std::size_t vertices = 24 * 81;
+
+std::string small_base(const Folder& folder, const std::string& name = "base.ply") {
+    return base(folder, name, {"--columns", "24", "--rows", "81"});
+}
+
+json crowd(const Folder& folder, const Words& more) {
+    return report(folder, Words{"crowd", "base.ply", "--instances", "20", "--frames", "9"} + more);
+}
+
+std::string hash(const Folder& folder, const Words& more) {
+    return crowd(folder, more)["hash"];
+}
+
+double ratio(const json& all, const char* above, const char* below) {
+    return all[above].get<double>() / all[below].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("crowd: every field, with its type") {
+    const Folder folder;
+    small_base(folder);
+    const json all = crowd(folder, {"--threads", "1", "--isa", "scalar"});
+    CHECK(all["instances"] == 20);
+    CHECK(all["vertices_per_frame"] == 20 * vertices);
+    CHECK(all["bytes_per_frame"] == 20 * vertices * 12);
+    CHECK(all["frames"] == 9);
+    CHECK(all["threads"] == 1);
+    CHECK(all["isa"] == "scalar");
+    CHECK(all["streams"] == "planar");
+    CHECK(all["normals"] == false);
+    CHECK(all["stores"] == "automatic");
+    CHECK(all["angle"] == 90.0);
+    CHECK(all["ms_median"].get<double>() > 0);
+    CHECK(all["ms_p99"] >= all["ms_median"]);
+    CHECK(all["clamped"] == 0);
+    CHECK(all["warnings"] == json::array());
+    REQUIRE(all["models"].size() == 1);
+    CHECK(all["models"][0]["file"] == "base.ply");
+    CHECK(all["models"][0]["vertices"] == vertices);
+    CHECK(all["models"][0]["folds"] == 5);
+    CHECK(all["models"][0]["max_angle"].get<double>() > 180);
+    const std::string bits = all["hash"];
+    CHECK(bits.size() == 16);
+    CHECK(bits.find_first_not_of("0123456789abcdef") == bits.npos);
+}
+
+TEST_CASE("crowd: rates are what times and bytes say") {
+    const Folder folder;
+    small_base(folder);
+    for (const auto& [more, bytes] : {std::pair<Words, int>{{}, 12},
+                                      {{"--normals"}, 24},
+                                      {{"--streams", "interleaved"}, 12},
+                                      {{"--streams", "interleaved", "--normals"}, 24},
+                                      {{"--streams", "packed"}, 12},
+                                      {{"--streams", "packed", "--normals"}, 12}}) {
+        CAPTURE(more);
+        const json all = crowd(folder, more);
+        CHECK(all["normals"] ==
+              (std::ranges::find(more, "--normals") != more.end() || all["streams"] == "packed"));
+        CHECK(ratio(all, "bytes_per_frame", "vertices_per_frame") == bytes);
+        CHECK(all["ns_per_vertex"].get<double>() ==
+              doctest::Approx(1e6 * ratio(all, "ms_median", "vertices_per_frame")));
+        CHECK(all["gb_per_s"].get<double>() ==
+              doctest::Approx(1e-6 * ratio(all, "bytes_per_frame", "ms_median")));
+        CHECK(all["floor_gb_per_s"].get<double>() > 0);
+        CHECK(all["of_floor"].get<double>() == doctest::Approx(ratio(all, "gb_per_s", "floor_gb_per_s")));
+    }
+}
+
+TEST_CASE("crowd: the bytes depend on neither threads nor stores") {
+    const Folder folder;
+    small_base(folder);
+    for (const std::string streams : {"planar", "interleaved", "packed"}) {
+        CAPTURE(streams);
+        const Words words{"--streams", streams, "--normals"};
+        const std::string one = hash(folder, words + Words{"--threads", "1", "--stores", "cached"});
+        CHECK(hash(folder, words + Words{"--threads", "2", "--stores", "cached"}) == one);
+        CHECK(hash(folder, words + Words{"--threads", "2", "--stores", "streaming"}) == one);
+        CHECK(hash(folder, words + Words{"--threads", "1", "--stores", "streaming"}) == one);
+        CHECK(hash(folder, words) == one);
+    }
+}
+
+TEST_CASE("crowd: the bytes depend on everything else") {
+    const Folder folder;
+    small_base(folder);
+    const Words others[] = {{},
+                            {"--normals"},
+                            {"--streams", "interleaved"},
+                            {"--streams", "packed"},
+                            {"--angle", "91"},
+                            {"--angle", "-90"},
+                            {"--folds", "4"},
+                            {"--profile", "smooth"},
+                            {"--axis", "-z"}};
+    std::vector<std::string> hashes;
+    for (const Words& words : others) hashes.push_back(hash(folder, words));
+    hashes.push_back(report(folder, {"crowd", "base.ply", "--instances", "20", "--frames", "10"})["hash"]);
+    hashes.push_back(report(folder, {"crowd", "base.ply", "--instances", "21", "--frames", "9"})["hash"]);
+    std::ranges::sort(hashes);
+    CHECK(std::ranges::adjacent_find(hashes) == hashes.end());
+}
+
+TEST_CASE("crowd: no frame allocates") {
+    const Folder folder;
+    small_base(folder);
+    for (const Words& words : {Words{}, {"--normals", "--stores", "streaming"}, {"--streams", "packed"}}) {
+        const json count = crowd(folder, words + Words{"--threads", "1"})["allocations_per_frame"];
+#ifdef GOFFER_TEST_SANITIZED
+        if (count.is_null()) continue;  // the sanitizer's functions are there instead of ours
+#endif
+        CHECK(count == 0.0);
+    }
+}
+
+TEST_CASE("crowd: instances are spread evenly over the models") {
+    const Folder folder;
+    small_base(folder);
+    base(folder, "other.ply", {"--columns", "16", "--rows", "161", "--length", "40", "--radius", "3"});
+    const json all = report(folder, {"crowd", "base.ply", "other.ply", "--instances", "7", "--frames", "2"});
+    CHECK(all["vertices_per_frame"] == 4 * vertices + 3 * 16 * 161);
+    REQUIRE(all["models"].size() == 2);
+    CHECK(all["models"][1]["file"] == "other.ply");
+    const json all_of_one =
+        report(folder, {"crowd", "base.ply", "base.ply", "--instances", "2", "--frames", "1"});
+    CHECK(all_of_one["vertices_per_frame"] == 2 * vertices);
+}
+
+TEST_CASE("crowd: beyond the largest angle it swings as far as it can, and says so") {
+    const Folder folder;
+    small_base(folder);
+    const json all = crowd(folder, {"--angle", "2000"});
+    CHECK(all["clamped"] == 0);
+    REQUIRE(all["warnings"].size() == 1);
+    CHECK(all["warnings"][0].get<std::string>().find("beyond the largest") != std::string::npos);
+    CHECK(hash(folder, {"--angle", "3000"}) == all["hash"]);
+}
+
+TEST_CASE("crowd: a warning says which of several models is meant") {
+    const Folder folder;
+    small_base(folder);
+    base(folder, "coarse.ply", {"--columns", "12", "--rows", "5"});
+    const json all = report(folder, {"crowd", "base.ply", "coarse.ply", "--instances", "2", "--frames", "1"});
+    REQUIRE(all["warnings"].size() == 1);
+    CHECK(all["warnings"][0].get<std::string>().starts_with("coarse.ply: bent without wrinkles"));
+}
+
+TEST_CASE("crowd: one instance, one frame") {
+    const Folder folder;
+    small_base(folder);
+    const json all = report(folder, {"crowd", "base.ply", "--instances", "1", "--frames", "1"});
+    CHECK(all["ms_p99"] == all["ms_median"]);
+    CHECK(all["floor_gb_per_s"].get<double>() > 0);
+}
+
+TEST_CASE("crowd: what a person reads") {
+    const Folder folder;
+    small_base(folder);
+    const std::string said = well(folder, {"crowd", "base.ply", "--instances", "3", "--frames", "3"});
+    for (const std::string piece : {"3 instances", "5832 vertices a frame", "per second", "ms (median)",
+                                    "ms (p99)", " ns\n", "GB/s", "of the floor", "5 folds"}) {
+        CAPTURE(piece);
+        CHECK(said.find(piece) != said.npos);
+    }
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("crowd: the picture is what the streams hold") {
+    const Folder folder;
+    small_base(folder);
+    const auto picture = [&](const Words& more) {
+        const Words words{"crowd", "base.ply", "--instances", "2", "--frames", "30", "--png", "out.png"};
+        (void)report(folder, words + more);
+        return bytes_of(folder / "out.png");
+    };
+    const std::string planar = picture({});
+    CHECK(planar.size() > 10000);
+    const bool same = picture({"--streams", "interleaved", "--normals"}) == planar;
+    CHECK(same);
+    const bool other = picture({"--angle", "20"}) != planar;
+    CHECK(other);
+}
+
+TEST_CASE("crowd: bad words") {
+    const Folder folder;
+    small_base(folder);
+    for (const std::string name : {"out.png", "out.json"}) folder.write(name, "kept");
+    const auto refuse = [&](const Words& words, const Words& pieces) {
+        refused(folder, 2, Words{"crowd", "base.ply"} + words, pieces);
+    };
+    refused(folder, 2, {"crowd"}, {"models is required"});
+    refused(folder, 2, {"crowd", "--instances", "4"}, {"models is required"});
+    for (const std::string option : {"--instances", "--frames"}) {
+        for (const std::string word : {"0", "-1", "1000001", "1.5", "many", ""})
+            refuse({option, word}, {option});
+    }
+    for (const std::string word : {"0", "-1", "1025", "x"}) refuse({"--threads", word}, {"--threads"});
+    for (const std::string word : {"nan", "1e9", "", "90deg"})
+        refuse({"--angle", word}, {"--angle", "36000"});
+    refuse({"--streams", "soa"}, {"--streams", "soa", "planar", "interleaved", "packed"});
+    refuse({"--stores", "nt"}, {"--stores", "nt", "automatic", "cached", "streaming"});
+    refuse({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});
+    refuse({"--axis", "0,0,0"}, {"--axis", "three finite numbers"});
+    refuse({"--folds", "65"}, {"--folds"});
+    refuse({"--fit", "fit.json"}, {"--fit"});
+    refuse({"-o", "out.ply"}, {"-o"});
+    refuse({"base.ply", "base.ply", "--instances", "2"}, {"--instances", "2", "3 models"});
+    refuse({"--png", "out.jpg"}, {"--png", "out.jpg", ".png"});
+    refuse({"--png", "out.png", "--json", "out.png"}, {"--json", "out.png", "--png"});
+    refuse({"--json", "base.ply"}, {"--json", "base.ply", "MODEL"});
+}
+
+TEST_CASE("crowd: bad files, and more than memory holds") {
+    const Folder folder;
+    small_base(folder);
+    folder.write("out.png", "kept");
+    folder.write("broken.ply", "ply\n");
+    const auto refuse = [&](const Words& words, const Words& pieces) {
+        refused(folder, 1, Words{"crowd", "base.ply"} + words, pieces);
+    };
+    refuse({"none.ply", "--png", "out.png"}, {"none.ply"});
+    refuse({"broken.ply", "--png", "out.png"}, {"broken.ply"});
+    refuse({"--png", "none/out.png"}, {"none"});
+    refuse({"--json", "none/out.json"}, {"none"});
+    base(folder, "fine.ply", {"--columns", "100", "--rows", "2001"});
+    refuse({"fine.ply", "--instances", "1000000", "--normals", "--png", "out.png"},
+           {"--instances", "1000000", "GB", "use fewer"});
+}
