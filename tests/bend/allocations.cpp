@@ -12,8 +12,8 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
-#include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
 /// Property P6: frames allocate nothing and take no lock. (That they open and write no file, symbols.cpp
@@ -95,10 +95,13 @@ int frame_count() {
 
 TEST_CASE("P6: the counters count") {
     if (cli::allocations()) {
+        // Through pointers that the compiler cannot see through, so that no pair of calls is left out.
+        void* (*volatile allocate)(std::size_t) = std::malloc;
+        void* (*volatile make)(std::size_t) = ::operator new;
         const std::uint64_t before = *cli::allocations();
-        const std::unique_ptr<void, decltype(&std::free)> block(std::malloc(24), std::free);
-        const std::unique_ptr<int> object = std::make_unique<int>(block != nullptr ? 1 : 0);
-        CHECK(*cli::allocations() >= before + static_cast<std::uint64_t>(2 * *object));
+        std::free(allocate(24));
+        ::operator delete(make(24));
+        CHECK(*cli::allocations() == before + 2);
     }
     if (locks()) {
         const std::uint64_t before = *locks();

@@ -64,17 +64,19 @@ TEST_CASE("crowd: every field, with its type") {
 TEST_CASE("crowd: rates are what times and bytes say") {
     const Folder folder;
     small_base(folder);
-    for (const auto& [more, bytes] : {std::pair<Words, int>{{}, 12},
-                                      {{"--normals"}, 24},
-                                      {{"--streams", "interleaved"}, 12},
-                                      {{"--streams", "interleaved", "--normals"}, 24},
-                                      {{"--streams", "packed"}, 12},
-                                      {{"--streams", "packed", "--normals"}, 12}}) {
+    const std::pair<Words, int> cases[] = {{{}, 12},
+                                           {{"--normals"}, 24},
+                                           {{"--streams", "interleaved"}, 12},
+                                           {{"--streams", "interleaved", "--normals"}, 24},
+                                           {{"--streams", "packed"}, 12},
+                                           {{"--streams", "packed", "--normals"}, 12}};
+    for (const auto& each : cases) {
+        const Words& more = each.first;
         CAPTURE(more);
         const json all = crowd(folder, more);
         CHECK(all["normals"] ==
               (std::ranges::find(more, "--normals") != more.end() || all["streams"] == "packed"));
-        CHECK(ratio(all, "bytes_per_frame", "vertices_per_frame") == bytes);
+        CHECK(ratio(all, "bytes_per_frame", "vertices_per_frame") == each.second);
         CHECK(all["ns_per_vertex"].get<double>() ==
               doctest::Approx(1e6 * ratio(all, "ms_median", "vertices_per_frame")));
         CHECK(all["gb_per_s"].get<double>() ==

@@ -29,14 +29,18 @@ public:
     static constexpr float guard = -12345.0f;
 
     /// Memory for `count` vertices. Arrays begin `shift` floats behind a cache line, each of them `skew`
-    /// further than the one before.
+    /// further than the one before; without skew at places that differ modulo a page as those of separate
+    /// allocations might, so that planes can be streamed to.
     Layout(std::string_view picture, std::size_t count, std::size_t shift = 0, std::size_t skew = 0)
         : count_(count) {
-        constexpr std::size_t line = 16, margin = 16;
+        constexpr std::size_t line = 16, way = 256, margin = 16;
+        const bool one = picture.find(' ') == std::string_view::npos;
+        const std::size_t grid = skew != 0 || one ? line : way;
+        const std::size_t step = skew != 0 || one ? skew : 2 * line;
         std::size_t size = 0;
         for (std::size_t area = 0; !picture.empty(); ++area) {
             const std::string_view word = picture.substr(0, picture.find(' '));
-            const std::size_t first = (size + margin) / line * line + line + shift + area * skew;
+            const std::size_t first = (size + margin + grid - 1) / grid * grid + shift + area * step;
             for (std::size_t i = 0; i < word.size(); ++i) {
                 if (word[i] != '.') places_[letters.find(word[i])] = {first + i, word.size()};
             }
