@@ -19,12 +19,12 @@ namespace {
 using paper::Amplitude;
 using paper::Profile;
 
-/// Amplitude of the column at h^2 = t, as a kernel computes it.
+/// Amplitude of the column at T = 1 + cos(beta - theta), as a kernel computes it.
 double table_amplitude(const bend::WrinkleTable& table, double angle, double kappa, double t) {
-    const bend::WrinkleRow row = table.at(angle);
+    const bend::WrinkleRow row = table.at(static_cast<float>(angle));
     double sum = 0;
     for (std::size_t n = row.size(); n-- > 0;) sum = sum * t + static_cast<double>(row[n]);
-    return std::sqrt(2 * kappa * t) * sum;
+    return std::sqrt(kappa * t) * sum;
 }
 
 template <class Call>
@@ -50,8 +50,8 @@ TEST_CASE("the table's amplitudes are eq 7's, at every angle between the rows") 
             for (int i = 1; i < 40; ++i) {
                 const double angle = limit * i * i / 1600.0;
                 const double kappa = angle * radius / length;
-                for (const double t : {0.01, 0.3, 0.7, 1.0}) {
-                    const double expected = paper::amplitude(profile, folds, length, 2 * kappa * t);
+                for (const double t : {0.02, 0.6, 1.4, 2.0}) {
+                    const double expected = paper::amplitude(profile, folds, length, kappa * t);
                     worst = std::max(worst,
                                      std::fabs(table_amplitude(table, angle, kappa, t) - expected) / length);
                 }
