@@ -92,7 +92,7 @@ void set_normal_matrix(Coefficients& k, Four n, Four b, Four t) noexcept {
     const float squares =
         sum_three(cofactors[0] * cofactors[0] + cofactors[1] * cofactors[1] + cofactors[2] * cofactors[2]);
     const float scale = squares > 0 ? k.handedness / std::sqrt(squares) : 0.0f;
-    for (int c = 0; c < 3; ++c) store_four(k.normal_matrix + 4 * c, all(scale) * cofactors[c]);
+    for (std::size_t c = 0; c < 3; ++c) store_four(k.normal_matrix + 4 * c, all(scale) * cofactors[c]);
 }
 
 void set_matrices(Coefficients& k, const MiddleFrame& frame, const glm::mat4x3& transform) noexcept {

@@ -64,8 +64,8 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool stream
         planes[c * group], planes[c * group + group - 1])...};
     const typename L::Vec batches[N / group] = {
         records<L, N, group, c>(spread, std::make_integer_sequence<int, N / group - 1>())...};
-    for (int j = 0; j < N / group; ++j) {
-        float* at = to + j * static_cast<int>(L::width);
+    for (std::size_t j = 0; j < N / group; ++j) {
+        float* at = to + j * L::width;
         streaming ? L::stream(at, batches[j]) : L::store(at, batches[j]);
     }
 }
@@ -81,7 +81,7 @@ void store_records(const typename L::Vec (&planes)[N], float* to, bool streaming
     } else {
         constexpr auto groups = std::make_integer_sequence<int, N / 2>();
         spread_and_store<L, N, 2, 0>(planes, to, streaming, groups);
-        spread_and_store<L, N, 2, W / 2>(planes, to + N / 2 * W, streaming, groups);
+        spread_and_store<L, N, 2, W / 2>(planes, to + N / 2 * L::width, streaming, groups);
     }
 }
 

@@ -74,7 +74,7 @@ private:
     [[nodiscard]] bool dense(const Record& record) const noexcept;
     void write(const Record& record, std::size_t first, std::size_t count, bool streaming) const noexcept;
 
-    alignas(64) float planes_[10 * plane_stride];
+    alignas(64) float planes_[10 * plane_stride + 4];  // the last rows are read in fours
     Record records_[10];
     std::size_t record_count_ = 0;
     std::size_t first_plane_[3] = {};

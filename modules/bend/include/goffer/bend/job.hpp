@@ -101,7 +101,8 @@ struct DeformResult {
 DeformResult run(const DeformJob& job) noexcept;
 
 /// Deforms the vertices [first, last), first <= last <= body->vertex_count(), on the calling thread: what any
-/// scheduler can call. Otherwise as run(); the union of ranges gives the same bits as run().
+/// scheduler can call. Otherwise as run(); the union of ranges gives the same bits as run(), and `bounds` are
+/// left by the range that begins at 0.
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept;
 
 /// Deforms all vertices with oneTBB in the caller's arena (in a build with GOFFER_TBB=OFF: on the calling

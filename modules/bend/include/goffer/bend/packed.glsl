@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // goffer's packed vertex, decoded. `words` is the vertex as three 32-bit words (R32G32B32_UINT), little-endian.
-// `low` and `high` are the instance's bounds.
+// `low` and `high` are the instance's bounds. For GLSL 4.20 and ES 3.00 and later; a fragment shader in ES needs
+// "precision highp int;" before.
 
 vec3 goffer_position(uvec3 words, vec3 low, vec3 high) {
     return low + vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x) * (high - low);
