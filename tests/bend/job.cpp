@@ -60,8 +60,6 @@ TEST_CASE("P5: any split, any thread count, the same bits") {
     }
 }
 
-// The thread sanitizer runs this case alone: of loops by oneTBB, which is not built for it, it reports races
-// that are none.
 TEST_CASE("P5: threads of the caller share a body and a job, the same bits") {
     Random random(6);
     const fit::Bound bound = bound_body(random, 1000);

@@ -67,11 +67,12 @@ bool is_harmless(const std::string& name) {
     return std::ranges::find(functions, name) != std::end(functions);
 }
 
-/// What compilers ask for on their own account, sanitizers, and assertions of builds that have them.
+/// What compilers ask for on their own account (on Arm also atomic arithmetic, chosen by processor),
+/// sanitizers, and assertions of builds that have them.
 bool is_compilers(const std::string& name) {
     constexpr std::string_view beginnings[] = {
         "_GLOBAL_OFFSET_TABLE_", "__asan_",     "__ubsan_",      "__tsan_", "__sanitizer_",
-        "__stack_chk_",          "__cpu_model", "__assert_fail", "__gcov_"};
+        "__stack_chk_",          "__cpu_model", "__assert_fail", "__gcov_", "__aarch64_"};
     return std::ranges::any_of(beginnings, [&](std::string_view start) { return name.starts_with(start); });
 }
 
