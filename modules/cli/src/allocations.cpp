@@ -6,14 +6,6 @@
 #include <cstddef>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GOFFER_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define GOFFER_SANITIZED
-#endif
-#endif
-
 #if defined(__GLIBC__) && !defined(GOFFER_SANITIZED)
 
 namespace {
