@@ -55,6 +55,27 @@ glm::dvec3 Bend::position(const Cylindrical& rest, double wrinkle) const {
                                            theta);
 }
 
+// In the bend plane, with k the curvature of the centre line, the arc's centre lies at x = 1 / k. The
+// distance from there, and the angle about it, are computed times k, and the distance d from the centre line
+// as the displacement d - x, so that nothing cancels and all of it vanishes with alpha to the last bit.
+Cylindrical Bend::inverse(const glm::dvec3& point) const {
+    const double c = std::cos(theta), s = std::sin(theta);
+    const double x = c * point.x + s * point.y;
+    const double curvature = alpha / ((1 - kappa()) * length);
+    const double inwards = 1 - curvature * x, along = curvature * point.z;
+    const double squared = x * x + point.z * point.z;
+    const double far = 1 + std::hypot(inwards, along);
+    const double d = (2 * x - curvature * squared) / far;
+    const double shift = curvature * (x * d - squared) / far;
+    Cylindrical rest = to_cylindrical(point + glm::dvec3{c * shift, s * shift, 0});
+    constexpr double none = 1e-100;  // so small that z is the point's own, to the last bit
+    if (alpha < none) return rest;
+    double phi = std::atan2(along, inwards);
+    if (phi < alpha / 2 - std::numbers::pi) phi += 2 * std::numbers::pi;
+    rest.z = phi / alpha * length;
+    return rest;
+}
+
 glm::dvec3 turned(const glm::dvec3& vector, double theta) {
     const double c = std::cos(theta), s = std::sin(theta);
     return {c * vector.x - s * vector.y, s * vector.x + c * vector.y, vector.z};

@@ -18,6 +18,9 @@ struct Bend {
 
     /// Where a vertex goes whose column is lifted by `wrinkle` (f), in the body frame.
     [[nodiscard]] glm::dvec3 position(const Cylindrical& rest, double wrinkle) const;
+
+    /// The vertex that is at `point` without a wrinkle. alpha < 2 pi.
+    [[nodiscard]] Cylindrical inverse(const glm::dvec3& point) const;
 };
 
 /// A vector from (e_theta, e_theta_perp, e3) to the body frame.

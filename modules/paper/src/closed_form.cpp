@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace goffer::paper {
 namespace {
@@ -140,6 +143,16 @@ double shape_slope_z(Profile profile, int folds, double length, double z) {
 Cylindrical to_cylindrical(const glm::dvec3& point) {
     const double rho = std::hypot(point.x, point.y);
     return {rho > 0 ? std::atan2(point.y, point.x) : 0, point.z, rho};
+}
+
+Cylindrical to_cylindrical(const glm::dvec3& point, double length, double radius, const Pose& rest) {
+    const Bend bend = bend_of({.length = length, .radius = radius}, rest);
+    constexpr double full_turn = 2 * std::numbers::pi;
+    if (!(bend.alpha < full_turn)) {
+        throw std::invalid_argument("angle is " + std::to_string(rest.angle) +
+                                    " rad: a body bent at rest must stay below a full turn, 2 pi");
+    }
+    return bend.inverse(point);
 }
 
 glm::dvec3 from_cylindrical(const Cylindrical& point) {

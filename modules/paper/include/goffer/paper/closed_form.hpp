@@ -102,4 +102,16 @@ inline constexpr double crease_width = 1e-3;
 [[nodiscard]] Cylindrical to_cylindrical(const glm::dvec3& point);
 [[nodiscard]] glm::dvec3 from_cylindrical(const Cylindrical& point);
 
+/// Cylinder coordinates of a point of a body of `length` L and `radius` r that is bent at rest: the inverse
+/// of the bend (eq 2-5) in `rest`, without a wrinkle. The point is in the body frame of the bent body: origin
+/// at the centre of the base end, e3 the centre line's tangent there.
+///
+/// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The
+/// whole circle is shared out so that the gap between tip and base is cut in its middle. beta is 0 on the
+/// axis, else within -pi..pi. Nothing cancels at small angles: at 0 it is exactly to_cylindrical(point).
+/// Throws std::invalid_argument where length or radius is not positive, or where |angle| is not below length
+/// / (2 radius) and below 2 pi, beyond which one place is that of two heights.
+[[nodiscard]] Cylindrical to_cylindrical(const glm::dvec3& point, double length, double radius,
+                                         const Pose& rest);
+
 }  // namespace goffer::paper
