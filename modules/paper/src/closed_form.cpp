@@ -27,6 +27,43 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0 ? v / length : v;
 }
 
+void require_rest(const Body& body) {
+    bend_of(body, {body.rest_angle, body.rest_direction});
+    if (!(body.rest_angle >= 0))
+        throw std::invalid_argument("rest_angle is negative: turn rest_direction by pi");
+    if (!(body.onset >= 0)) throw std::invalid_argument("onset is negative: it must be 0 or more");
+    const bool relative = body.rest_angle != 0 || body.onset != 0;
+    if (relative && body.amplitude == Amplitude::area) {
+        throw std::invalid_argument("amplitude area: not for a body bent at rest, nor with an onset");
+    }
+}
+
+/// The bent frame (n, b, t) at a vertex, in (e_theta, e_theta_perp, e3).
+glm::dmat3 bent_frame(double c, double s, double phi) {
+    const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+    return {c * cos_phi,  s, -c * sin_phi,  // n
+            -s * cos_phi, c, s * sin_phi,   // b
+            sin_phi,      0, cos_phi};      // t
+}
+
+/// What the bare bend does to a vector at a vertex: turns it into `frame` and stretches it along the body.
+struct BareBend {
+    glm::dmat3 frame;  // in the body frame
+    double stretch;
+
+    BareBend(const Cylindrical& at, double length, double radius, const Pose& pose) {
+        const Bend bend = bend_of({.length = length, .radius = radius}, pose);
+        const double c = std::cos(at.beta - bend.theta), s = std::sin(at.beta - bend.theta);
+        frame = bent_frame(c, s, bend.alpha * at.z / length);
+        for (int i = 0; i < 3; ++i) frame[i] = turned(frame[i], bend.theta);
+        stretch = (1 - bend.kappa()) - bend.alpha / length * at.rho * c;
+    }
+};
+
+CylindricalVector components(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
 // w(rho) / rho, finite on the axis.
 double weight_per_rho(double rho, double radius) {
     return rho < radius / 2 ? 2 / radius : 1 / rho;
@@ -48,6 +85,7 @@ struct ClosedForm::Local {
 
 ClosedForm::ClosedForm(const Body& body, const Pose& pose) : body_(body) {
     const Bend bend = bend_of(body, pose);
+    require_rest(body);
     alpha_ = bend.alpha;
     theta_ = bend.theta;
     kappa_ = bend.kappa();
@@ -58,6 +96,7 @@ ClosedForm::ClosedForm(const Body& body, const Pose& pose) : body_(body) {
 
 Column ClosedForm::column(double beta) const {
     if (!wave_) return {};
+    if (body_.rest_angle != 0 || body_.onset != 0) return relative_column(beta);
     const Column relative = wave_->column(squeeze(kappa_, beta, theta_));
     const double scale = factor_ * body_.length / 2;
     // sqrt(q) = sqrt(2 kappa) |h|, with the sign of h blended where the amplitude has its corner.
@@ -65,6 +104,25 @@ Column ClosedForm::column(double beta) const {
     const double side = std::clamp(std::cos(half) / crease_width, -1.0, 1.0);
     const double root_slope = -std::sqrt(2 * kappa_) * side * std::sin(half) / 2;
     return {scale * relative.amplitude, scale * relative.slope * root_slope};
+}
+
+// The column's own length is L S_0, with S_0 its scale at rest; it is squeezed to S / S_0 of that.
+Column ClosedForm::relative_column(double beta) const {
+    const double rest_kappa = body_.rest_angle * body_.radius / body_.length;
+    const double rest_scale = 1 - squeeze(rest_kappa, beta, body_.rest_direction);
+    const double rest_slope = rest_kappa * std::sin(beta - body_.rest_direction);
+    const double difference = squeeze(kappa_, beta, theta_) - (1 - rest_scale);
+    if (difference <= 0) return {};
+    const double q = difference / rest_scale;
+    const double per_root = 1 / std::sqrt(q + body_.onset);
+    const double root = q * per_root;  // of q^2 / (q + q0)
+    const double difference_slope = rest_slope - kappa_ * std::sin(beta - theta_);
+    const double q_slope = (difference_slope - q * rest_slope) / rest_scale;
+    const double root_slope = q_slope * per_root * (1 - q * per_root * per_root / 2);
+    const Column relative = wave_->column(root * root);
+    const double scale = factor_ * body_.length / 2;
+    return {scale * rest_scale * relative.amplitude,
+            scale * (rest_scale * relative.slope * root_slope + rest_slope * relative.amplitude)};
 }
 
 double ClosedForm::column_amplitude(double beta) const {
@@ -85,11 +143,8 @@ glm::dvec3 ClosedForm::position(const Cylindrical& rest) const {
 ClosedForm::Local ClosedForm::local(const Cylindrical& rest) const {
     const double c = std::cos(rest.beta - theta_), s = std::sin(rest.beta - theta_);
     const double phi = alpha_ * rest.z / body_.length;
-    const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
     Local at{};
-    at.frame = glm::dmat3{c * cos_phi,  s, -c * sin_phi,  // n
-                          -s * cos_phi, c, s * sin_phi,   // b
-                          sin_phi,      0, cos_phi};      // t
+    at.frame = bent_frame(c, s, phi);
     at.outward = at.around = 1;
     if (wave_) {
         const Column here = column(rest.beta);
@@ -126,6 +181,19 @@ glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector&
 
 glm::dvec3 ClosedForm::centre(double z) const {
     return Bend{body_.length, body_.radius, alpha_, theta_}.position({0, z, 0}, 0);
+}
+
+CylindricalVector straightened_normal(const glm::dvec3& vector, const Cylindrical& at, double length,
+                                      double radius, const Pose& rest) {
+    const BareBend bend(at, length, radius, rest);
+    return components(unit(glm::transpose(bend.frame) * vector * glm::dvec3(1, 1, bend.stretch)));
+}
+
+CylindricalVector straightened_tangent(const glm::dvec3& vector, const Cylindrical& at, double length,
+                                       double radius, const Pose& rest) {
+    const BareBend bend(at, length, radius, rest);
+    // Not divided by the stretch, which may be near 0: the direction is what counts.
+    return components(unit(glm::transpose(bend.frame) * vector * glm::dvec3(bend.stretch, bend.stretch, 1)));
 }
 
 double depth_weight(double rho, double radius) {

@@ -40,6 +40,9 @@ struct Body {
     int folds = 0;        ///< k; 0: no wrinkle
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
+    double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that it is bent along at rest (DESIGN 2.5)
+    double rest_direction = 0;  ///< theta_0
+    double onset = 0;           ///< q0: the amplitude is that of q^2 / (q + q0) (DESIGN 2.2)
 };
 
 /// One instance's state. angle alpha < 0 means (|alpha|, theta + pi).
@@ -51,13 +54,17 @@ struct Pose {
 /// The map for one pose of one body. Construction solves what depends on the pose alone (m(alpha)).
 class ClosedForm {
 public:
-    /// Throws std::invalid_argument where length or radius is not positive or |angle| >= length / (2 radius).
+    /// Throws std::invalid_argument where length or radius is not positive or |angle| >= length / (2 radius),
+    /// rest_angle likewise; where onset is negative; and for Amplitude::area of a body that is bent at rest
+    /// or has an onset, for which no factor is known.
     ClosedForm(const Body& body, const Pose& pose);
 
-    /// Deformed position in the body frame (eq 2-6). No division by alpha: at 0 exactly the rest position.
+    /// Deformed position in the body frame (eq 2-6). No division by alpha: at 0 exactly the rest position. Of
+    /// a body that is bent at rest, `rest` is where the vertex would be if straightened (to_cylindrical).
     [[nodiscard]] glm::dvec3 position(const Cylindrical& rest) const;
 
-    /// Deformed unit normal in the body frame: inverse transpose of the Jacobian times the rest normal, the
+    /// Deformed unit normal in the body frame, from the normal at rest (of a body that is bent at rest:
+    /// straightened, see straightened_normal): inverse transpose of the Jacobian times the rest normal, the
     /// depth weight's derivative included. Within `crease_width` of a crease of the wrinkle the one-sided
     /// derivatives are blended linearly, so that a vertex on a crease carries the mean of both sides.
     [[nodiscard]] glm::dvec3 normal(const Cylindrical& rest, const CylindricalVector& rest_normal) const;
@@ -75,7 +82,8 @@ public:
 private:
     struct Local;  // what position, normal and tangent share at one vertex
     [[nodiscard]] Local local(const Cylindrical& rest) const;
-    [[nodiscard]] Column column(double beta) const;  // A and dA/dbeta, model units
+    [[nodiscard]] Column column(double beta) const;           // A and dA/dbeta, model units
+    [[nodiscard]] Column relative_column(double beta) const;  // of a body with a rest arc, or an onset
     [[nodiscard]] double wrinkle(const Cylindrical& rest) const;
 
     Body body_;
@@ -85,6 +93,15 @@ private:
     double factor_ = 0;                 // m(alpha), or 0 without a wrinkle
     std::shared_ptr<const Wave> wave_;  // null without a wrinkle
 };
+
+/// A rest normal's components, straightened: by the transpose of the Jacobian of the bend `rest` of a body of
+/// `length` and `radius`; to unit length. `vector`: in the bent body's frame. `at`: the vertex, straightened.
+/// straightened_tangent: by the Jacobian's inverse. Both undo what normal() and tangent() do without a
+/// wrinkle. Errors as to_cylindrical.
+[[nodiscard]] CylindricalVector straightened_normal(const glm::dvec3& vector, const Cylindrical& at,
+                                                    double length, double radius, const Pose& rest);
+[[nodiscard]] CylindricalVector straightened_tangent(const glm::dvec3& vector, const Cylindrical& at,
+                                                     double length, double radius, const Pose& rest);
 
 /// Half-width of the blend at the creases. Across the outer line (where the amplitude has a corner) the sign
 /// of h = cos((beta - theta) / 2) is replaced by clamp(h / crease_width, -1, 1); at mid-height the sign of x
