@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/accuracy.hpp"
+
 #include "support/bodies.hpp"
 
 #include <doctest/doctest.h>
@@ -7,51 +9,6 @@
 
 namespace goffer::test {
 namespace {
-
-/// The reference's values, which every instruction set is held against.
-struct Expected {
-    std::vector<glm::dvec3> positions, normals, tangents;
-
-    Expected(const Reference& reference, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) {
-            positions.push_back(reference.position(i));
-            normals.push_back(reference.normal(i));
-            tangents.push_back(reference.tangent(i));
-        }
-    }
-};
-
-/// The largest differences; NaN counts as the largest of all.
-struct Worst {
-    double position = 0;  // of L
-    double normal = 0;    // degrees
-    double tangent = 0;   // degrees
-    double unit = 0;      // | |n| - 1 |
-    double skew = 0;      // normal . tangent, which are orthogonal at rest
-
-    Worst() = default;
-    Worst(const Expected& expected, const Output& out, double length) {
-        for (std::size_t i = 0; i < expected.positions.size(); ++i) {
-            take(position, glm::length(out.position(i) - expected.positions[i]) / length);
-            take(normal, angle_between(out.normal(i), expected.normals[i]));
-            take(tangent, angle_between(out.tangent(i), expected.tangents[i]));
-            take(unit, std::fabs(glm::length(out.normal(i)) - 1));
-            take(unit, std::fabs(glm::length(out.tangent(i)) - 1));
-            take(skew, std::fabs(glm::dot(out.normal(i), out.tangent(i))));
-        }
-    }
-
-    void add(const Worst& other) {
-        take(position, other.position);
-        take(normal, other.normal);
-        take(tangent, other.tangent);
-        take(unit, other.unit);
-        take(skew, other.skew);
-    }
-
-private:
-    static void take(double& worst, double value) { worst = !(value <= worst) ? value : worst; }
-};
 
 /// `area` only with folds of at most two radii: the area of folds that reach past the axis means nothing. And
 /// not with fewer than three folds of the smooth profile, whose factor has a corner near rest that the table
@@ -90,9 +47,10 @@ TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
         for (int k = 0; k < 5; ++k) {
             const bend::Pose pose = random_pose(random, static_cast<double>(bound.body.max_angle()));
             INFO("trial ", trial, " angle ", pose.angle, " of ", bound.body.max_angle(), " direction ",
-                 pose.direction, " folds ", bound.folds, " L/r ",
+                 pose.direction, " folds ", bound.folds(), " L/r ",
                  subject.cylinder.length / subject.cylinder.radius);
-            const Expected expected(Reference(subject, options, bound.folds, pose), subject.positions.size());
+            const Expected expected(Reference(subject, options, bound.folds(), pose),
+                                    subject.positions.size());
             for (std::size_t i = 0; i < worst.size(); ++i) {
                 const Isa isa = built_isas()[i];
                 if (!runs_here(isa)) continue;

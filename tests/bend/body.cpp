@@ -15,14 +15,22 @@ struct Parts {
     std::vector<bend::RestVector> normals{{1, 0, 0}, {0, 0, 1}};
     std::vector<bend::RestVector> tangents{{0, 1, 0}, {0, 1, 0}};
     std::vector<float> signs{1, -1};
+    std::vector<bend::RegionInput> regions{region()};
+
+    [[nodiscard]] static bend::RegionInput region() {
+        bend::RegionInput region;
+        region.length = 1;
+        region.max_angle = 2;
+        region.vertex_count = 2;
+        region.table.max_angle = 2;
+        region.table.rows.resize(2);
+        return region;
+    }
 
     [[nodiscard]] bend::BodyInput input() const {
         bend::BodyInput input;
-        input.length = 1;
         input.radius = 0.1;
-        input.max_angle = 2;
-        input.table.max_angle = 2;
-        input.table.rows.resize(2);
+        input.regions = regions;
         input.vertices = vertices;
         input.normals = normals;
         input.tangents = tangents;
@@ -51,12 +59,28 @@ TEST_CASE("a body is made of good input, and of nothing less") {
     CHECK(fault([&](BodyInput& i, Parts&) { i.origin.x = nan; }) == BodyFault::origin);
     CHECK(fault([](BodyInput& i, Parts&) { i.axes[0] *= -1.0; }) == BodyFault::axes);
     CHECK(fault([](BodyInput& i, Parts&) { i.axes[2] = i.axes[1]; }) == BodyFault::axes);
-    CHECK(fault([](BodyInput& i, Parts&) { i.length = 0; }) == BodyFault::length);
     CHECK(fault([&](BodyInput& i, Parts&) { i.radius = nan; }) == BodyFault::radius);
-    CHECK(fault([](BodyInput& i, Parts&) { i.max_angle = 5.1; }) == BodyFault::max_angle);
-    CHECK(fault([](BodyInput& i, Parts&) { i.table.rows.resize(1); }) == BodyFault::table);
-    CHECK(fault([&](BodyInput& i, Parts&) { i.table.rows[1][3] = static_cast<float>(nan); }) ==
-          BodyFault::table);
+    CHECK(fault([](BodyInput& i, Parts&) { i.regions = {}; }) == BodyFault::regions);
+    CHECK(fault([](BodyInput& i, Parts& p) {
+              p.regions.resize(bend::max_regions + 1, p.regions[0]);
+              i.regions = p.regions;
+          }) == BodyFault::regions);
+    const auto region_fault = [&](auto change) {
+        return fault([&](BodyInput&, Parts& p) { change(p.regions[0]); });
+    };
+    using bend::RegionInput;
+    CHECK(region_fault([](RegionInput& r) { r.length = 0; }) == BodyFault::region_length);
+    CHECK(region_fault([](RegionInput& r) { r.max_angle = 5.1; }) == BodyFault::region_max_angle);
+    CHECK(region_fault([](RegionInput& r) { r.rest_angle = -0.1; }) == BodyFault::region_rest);
+    CHECK(region_fault([](RegionInput& r) { r.rest_angle = 2.1; }) == BodyFault::region_rest);
+    CHECK(region_fault([&](RegionInput& r) { r.rest_direction = nan; }) == BodyFault::region_rest);
+    CHECK(region_fault([](RegionInput& r) { r.onset = -1; }) == BodyFault::region_onset);
+    CHECK(region_fault([](RegionInput& r) { r.table.rows.resize(1); }) == BodyFault::region_table);
+    CHECK(region_fault([&](RegionInput& r) { r.table.rows[1][3] = static_cast<float>(nan); }) ==
+          BodyFault::region_table);
+    CHECK(region_fault([](RegionInput& r) { r.factors.rows.resize(1); }) == BodyFault::region_factors);
+    CHECK(region_fault([](RegionInput& r) { r.vertex_count = 1; }) == BodyFault::region_vertices);
+    CHECK(region_fault([](RegionInput& r) { r.vertex_count = 3; }) == BodyFault::region_vertices);
     CHECK(fault([](BodyInput& i, Parts&) { i.vertices = {}; }) == BodyFault::vertices);
     CHECK(fault([](BodyInput&, Parts& p) { p.vertices[1].rho = -1; }) == BodyFault::vertices);
     CHECK(fault([](BodyInput&, Parts& p) { p.vertices[1].z = 1.1; }) == BodyFault::vertices);

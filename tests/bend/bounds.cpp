@@ -139,7 +139,7 @@ TEST_CASE("P10: bounds hold every vertex") {
             random_subject(random, slenderness, std::pow(10, uniform(random, -3, 3)), 12, 49, 150);
         const fit::BindOptions options = random_options(random, subject.cylinder);
         const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        INFO("trial ", trial, " folds ", bound.folds);
+        INFO("trial ", trial, " folds ", bound.folds());
         check_held(random, bound.body, 50);
     }
 }
@@ -178,7 +178,7 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
                 }
                 bend::run(job);
                 const bend::Bounds box = bend::bounds(job), least = tight(out);
-                INFO(round.name, ", L/r ", slenderness, ", folds ", bound.folds, ", angle ", pose.angle);
+                INFO(round.name, ", L/r ", slenderness, ", folds ", bound.folds(), ", angle ", pose.angle);
                 REQUIRE(holds(box, least));
                 for (int axis = 0; axis < 3; ++axis) {
                     const double ratio = static_cast<double>(box.high[axis] - box.low[axis]) /
@@ -187,7 +187,7 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
                     if (ratio <= worst[deep]) continue;
                     worst[deep] = ratio;
                     where[deep] = round.name + ", L/r " + std::to_string(slenderness) + ", folds " +
-                                  std::to_string(bound.folds) + ", angle " + std::to_string(pose.angle);
+                                  std::to_string(bound.folds()) + ", angle " + std::to_string(pose.angle);
                 }
             }
         }

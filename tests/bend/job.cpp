@@ -110,10 +110,10 @@ TEST_CASE("exact edges: every vertex count, misaligned outputs of exactly that l
         std::vector<bend::RestVertex> vertices(count);
         std::vector<bend::RestVector> normals(count, {1, 0, 0});
         for (bend::RestVertex& v : vertices) v = {uniform(random, -3, 3), uniform(random, 0, 1), 0.1, 0, 0};
+        const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
         bend::BodyInput input;
-        input.length = 1;
         input.radius = 0.1;
-        input.max_angle = 4;
+        input.regions = {&region, 1};
         input.vertices = vertices;
         input.normals = normals;
         const std::optional<bend::Body> body = bend::Body::make(input);
@@ -239,7 +239,7 @@ TEST_CASE("P7: validate names the field at fault of packed vertices and of previ
 }
 
 TEST_CASE("every fault has a line of its own, which begins with the field") {
-    constexpr auto last = static_cast<int>(bend::JobFault::previous_positions_component);
+    constexpr auto last = static_cast<int>(bend::JobFault::previous_poses_count);
     std::vector<std::string_view> lines;
     for (int i = 0; i <= last; ++i) {
         const std::string_view line = bend::describe(static_cast<bend::JobFault>(i));

@@ -126,10 +126,10 @@ TEST_CASE("normals along axes and edges of the octahedron are packed as well") {
         normals.push_back({unit.x, unit.y, unit.z});
         vertices.push_back({0, 0.5, 0.1, 0, 0});
     }
+    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
     bend::BodyInput input;
-    input.length = 1;
     input.radius = 0.1;
-    input.max_angle = 4;
+    input.regions = {&region, 1};
     input.vertices = vertices;
     input.normals = normals;
     const std::optional<bend::Body> body = bend::Body::make(input);
@@ -151,10 +151,10 @@ TEST_CASE("bodies that are flat, or flattened, keep their places") {
     const std::vector<bend::RestVector> normals(100, {0, 0, 1});
     for (bend::RestVertex& v : vertices)
         v = {uniform(random, -4, 4), 0.5 + 1e-6 * uniform(random, 0, 1), uniform(random, 0, 0.1), 0, 0};
+    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
     bend::BodyInput input;
-    input.length = 1;
     input.radius = 0.1;
-    input.max_angle = 4;
+    input.regions = {&region, 1};
     input.vertices = vertices;
     input.normals = normals;
     const std::optional<bend::Body> flat = bend::Body::make(input);

@@ -134,10 +134,10 @@ TEST_CASE("outward stays outward") {
         vertices.push_back({i * 0.1, 0.015 * i, 0.1, 0, 0});
         normals.push_back({1, 0, 0});
     }
+    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
     bend::BodyInput input;
-    input.length = 1;
     input.radius = 0.1;
-    input.max_angle = 4;
+    input.regions = {&region, 1};
     input.vertices = vertices;
     input.normals = normals;
     const std::optional<bend::Body> body = bend::Body::make(input);

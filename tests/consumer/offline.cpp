@@ -16,7 +16,7 @@ int main() {
     const goffer::fit::Cylinder cylinder = goffer::fit::fit_cylinder(geometry);
     const goffer::fit::Bound bound = goffer::fit::bind(geometry, cylinder);
 
-    std::printf("length %g, radius %g, %d folds\n", cylinder.length, cylinder.radius, bound.folds);
+    std::printf("length %g, radius %g, %d folds\n", cylinder.length, cylinder.radius, bound.folds());
     const bool fits = std::abs(cylinder.length - 10) < 0.01 && std::abs(cylinder.radius - 1) < 0.01;
     return fits && bound.body.vertex_count() == positions.size() ? 0 : 1;
 }

@@ -16,10 +16,10 @@ int main() {
     const goffer::bend::RestVertex tip{.beta = std::numbers::pi, .z = length, .rho = radius};
     const goffer::bend::RestVector outwards{.rho = 1};
 
+    const goffer::bend::RegionInput whole{.length = length, .max_angle = 3, .vertex_count = 1};
     goffer::bend::BodyInput input;
-    input.length = length;
     input.radius = radius;
-    input.max_angle = 3;
+    input.regions = {&whole, 1};
     input.vertices = {&tip, 1};
     input.normals = {&outwards, 1};
     const auto body = goffer::bend::Body::make(input);

@@ -123,7 +123,7 @@ TEST_CASE("within the largest angle nothing folds through itself") {
     for (int trial = 0; trial < 10; ++trial) {
         const Subject subject = random_subject(random, uniform(random, 4, 20), 1);
         const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-        const paper::Body body{1, subject.cylinder.radius, bound.folds, Profile::damped, Amplitude::paper};
+        const paper::Body body{1, subject.cylinder.radius, bound.folds(), Profile::damped, Amplitude::paper};
         const paper::ClosedForm map(body, {static_cast<double>(bound.body.max_angle()), 0});
         // The arc's parameter grows along every column: each step goes forward along the bent centre line.
         const auto rhos = bound.body.column(bend::Body::rho);

@@ -112,11 +112,10 @@ inline bend::Body loose_body(Random& random, std::size_t count, double widest = 
         tangents[i] = {frame[1].x, frame[1].y, frame[1].z};
         signs[i] = random() % 2 == 0 ? 1.0f : -1.0f;
     }
+    const bend::RegionInput region{.length = 1, .max_angle = 4.9, .table = table, .vertex_count = count};
     bend::BodyInput input;
-    input.length = 1;
     input.radius = 0.1;
-    input.max_angle = 4.9;
-    input.table = table;
+    input.regions = {&region, 1};
     input.vertices = vertices;
     input.normals = normals;
     input.tangents = tangents;

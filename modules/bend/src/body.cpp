@@ -27,12 +27,27 @@ bool rotation(const glm::dmat3& axes) {
     return glm::determinant(axes) > 0;
 }
 
-bool usable(const WrinkleTable& table) {
+/// Of a WrinkleTable or a FactorTable.
+template <class Table>
+bool usable(const Table& table) {
     if (table.empty()) return true;
     if (table.rows.size() < 2 || !positive(static_cast<double>(table.max_angle))) return false;
-    return std::all_of(table.rows.begin(), table.rows.end(), [](const WrinkleRow& row) {
-        return std::all_of(row.begin(), row.end(), [](float value) { return std::isfinite(value); });
+    return std::ranges::all_of(table.rows, [](const auto& row) {
+        return std::ranges::all_of(row, [](float value) { return std::isfinite(value); });
     });
+}
+
+BodyFault check(const RegionInput& region, double radius) {
+    if (!positive(region.length)) return BodyFault::region_length;
+    const double limit = region.length / (2 * radius) * (1 + 1e-6);
+    if (!positive(region.max_angle) || region.max_angle > limit) return BodyFault::region_max_angle;
+    if (!(region.rest_angle >= 0 && region.rest_angle <= region.max_angle) ||
+        !std::isfinite(region.rest_direction)) {
+        return BodyFault::region_rest;
+    }
+    if (!(region.onset >= 0 && region.onset <= 1)) return BodyFault::region_onset;
+    if (!usable(region.table)) return BodyFault::region_table;
+    return usable(region.factors) ? BodyFault::none : BodyFault::region_factors;
 }
 
 bool usable(const RestVertex& v, double length) {
@@ -58,48 +73,84 @@ void write_vectors(Columns& columns, std::size_t first, std::span<const RestVect
     }
 }
 
-void write_vertices(Columns& columns, const BodyInput& input) {
-    for (std::size_t i = 0; i < input.vertices.size(); ++i) {
-        const RestVertex& v = input.vertices[i];
+/// Vertices of each region, with what is to be known of them: the region and the index of its first vertex.
+template <class Each>
+bool each_region(const BodyInput& input, Each each) {
+    std::size_t first = 0;
+    for (const RegionInput& region : input.regions) {
+        if (region.vertex_count > input.vertices.size() - first) return false;
+        if (!each(region, first)) return false;
+        first += region.vertex_count;
+    }
+    return first == input.vertices.size();
+}
+
+/// S of a column, eq 9 and 10.
+double rest_scale(const RegionInput& region, double radius, double beta) {
+    const double kappa = region.rest_angle * radius / region.length;
+    return 1 - kappa * (1 + std::cos(beta - region.rest_direction));
+}
+
+void write_vertices(Columns& columns, const RegionInput& region, double radius, std::size_t first,
+                    std::span<const RestVertex> vertices) {
+    for (std::size_t i = first; i < first + region.vertex_count; ++i) {
+        const RestVertex& v = vertices[i];
+        const double scale = rest_scale(region, radius, v.beta);
         columns[Body::cos_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::cos(v.beta / 2));
         columns[Body::sin_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::sin(v.beta / 2));
         columns[Body::rho][i] = static_cast<float>(v.rho);
-        columns[Body::lift][i] = static_cast<float>(v.wrinkle * v.rho);
-        columns[Body::height][i] = static_cast<float>(v.z / input.length - 0.5);
-        columns[Body::wrinkle][i] = static_cast<float>(v.wrinkle);
-        columns[Body::slope][i] = static_cast<float>(v.slope);
+        columns[Body::lift][i] = static_cast<float>(scale * v.wrinkle * v.rho);
+        columns[Body::height][i] = static_cast<float>(v.z / region.length - 0.5);
+        columns[Body::wrinkle][i] = static_cast<float>(scale * v.wrinkle);
+        columns[Body::slope][i] = static_cast<float>(scale * v.slope);
     }
 }
 
 BodyFrame frame_of(const BodyInput& input) {
     BodyFrame frame;
     for (int row = 0; row < 3; ++row) {
-        for (int c = 0; c < 3; ++c) frame.axes[c][row] = static_cast<float>(input.axes[c][row]);
-        frame.origin[row] = static_cast<float>(input.origin[row]);
+        for (int c = 0; c < 3; ++c) frame.base.axes[c][row] = static_cast<float>(input.axes[c][row]);
+        frame.base.origin[row] = static_cast<float>(input.origin[row]);
     }
-    frame.length = static_cast<float>(input.length);
-    frame.per_length = static_cast<float>(1 / input.length);
     frame.radius = static_cast<float>(input.radius);
     return frame;
 }
 
-Bands bands_of(const Columns& columns) {
+Bands bands_of(const Columns& columns, std::size_t first, std::size_t count) {
     Bands bands;
-    const std::span<const float> heights = columns[Body::height];
-    const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
-    bands.lowest = *lowest;
-    bands.highest = *highest;
     bands.rho.fill(-1);
-    const float per_height =
-        *highest > *lowest ? static_cast<float>(Bands::count) / (*highest - *lowest) : 0.0f;
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        const auto band = static_cast<std::size_t>((heights[i] - *lowest) * per_height);
+    if (count == 0) return bands;
+    const auto of = [&](Body::Column column) {
+        return std::span<const float>(columns[column]).subspan(first, count);
+    };
+    const std::span<const float> heights = of(Body::height), rho = of(Body::rho), lift = of(Body::lift);
+    const auto [lowest, highest] = std::ranges::minmax(heights);
+    bands.lowest = lowest;
+    bands.highest = highest;
+    const float per_height = highest > lowest ? static_cast<float>(Bands::count) / (highest - lowest) : 0.0f;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto band = static_cast<std::size_t>((heights[i] - lowest) * per_height);
         const std::size_t place = std::min(band, Bands::count - 1) + 1;
-        bands.rho[place] = std::max(bands.rho[place], columns[Body::rho][i]);
-        bands.lift[place] = std::max(bands.lift[place], columns[Body::lift][i]);
-        bands.dip[place] = std::max(bands.dip[place], -columns[Body::lift][i]);
+        bands.rho[place] = std::max(bands.rho[place], rho[i]);
+        bands.lift[place] = std::max(bands.lift[place], lift[i]);
+        bands.dip[place] = std::max(bands.dip[place], -lift[i]);
     }
     return bands;
+}
+
+Region region_of(const RegionInput& input, const Columns& columns, std::size_t first) {
+    Region region;
+    region.first = first;
+    region.last = first + input.vertex_count;
+    region.length = static_cast<float>(input.length);
+    region.per_length = static_cast<float>(1 / input.length);
+    region.max_angle = static_cast<float>(input.max_angle);
+    region.onset = static_cast<float>(input.onset);
+    region.rest = {static_cast<float>(input.rest_angle), static_cast<float>(input.rest_direction)};
+    region.table = input.table;
+    region.factors = input.factors;
+    region.bands = bands_of(columns, first, input.vertex_count);
+    return region;
 }
 
 }  // namespace
@@ -112,16 +163,26 @@ std::string_view describe(BodyFault fault) noexcept {
             return "origin: not finite";
         case BodyFault::axes:
             return "axes: not a right-handed orthonormal frame";
-        case BodyFault::length:
-            return "length: not a positive number";
         case BodyFault::radius:
             return "radius: not a positive number";
-        case BodyFault::max_angle:
-            return "max_angle: not above 0 and below length / (2 radius)";
-        case BodyFault::table:
-            return "table: fewer than two rows, or a number in it is not finite";
+        case BodyFault::regions:
+            return "regions: none, or more than max_regions";
+        case BodyFault::region_length:
+            return "regions.length: not a positive number";
+        case BodyFault::region_max_angle:
+            return "regions.max_angle: not above 0 and below length / (2 radius)";
+        case BodyFault::region_rest:
+            return "regions.rest_angle, rest_direction: not finite, or the angle not in 0..max_angle";
+        case BodyFault::region_onset:
+            return "regions.onset: not in 0..1";
+        case BodyFault::region_table:
+            return "regions.table: fewer than two rows, or a number in it is not finite";
+        case BodyFault::region_factors:
+            return "regions.factors: fewer than two rows, or a number in it is not finite";
+        case BodyFault::region_vertices:
+            return "regions.vertex_count: do not add up to the number of vertices";
         case BodyFault::vertices:
-            return "vertices: none, one not finite, a rho below 0 or a z outside 0..length";
+            return "vertices: none, one not finite, a rho below 0 or a z outside 0..its region's length";
         case BodyFault::normals:
             return "normals: not one per vertex, or one not of unit length";
         case BodyFault::tangents:
@@ -135,15 +196,21 @@ std::string_view describe(BodyFault fault) noexcept {
 BodyFault Body::check(const BodyInput& input) noexcept {
     if (!finite(input.origin)) return BodyFault::origin;
     if (!rotation(input.axes)) return BodyFault::axes;
-    if (!positive(input.length)) return BodyFault::length;
     if (!positive(input.radius)) return BodyFault::radius;
-    if (!positive(input.max_angle) || input.max_angle > input.length / (2 * input.radius) * (1 + 1e-6)) {
-        return BodyFault::max_angle;
+    if (input.regions.empty() || input.regions.size() > max_regions) return BodyFault::regions;
+    for (const RegionInput& region : input.regions) {
+        const BodyFault fault = bend::check(region, input.radius);
+        if (fault != BodyFault::none) return fault;
     }
-    if (!usable(input.table)) return BodyFault::table;
-    const bool vertices_usable = std::all_of(input.vertices.begin(), input.vertices.end(),
-                                             [&](const RestVertex& v) { return usable(v, input.length); });
-    if (input.vertices.empty() || !vertices_usable) return BodyFault::vertices;
+    if (input.vertices.empty()) return BodyFault::vertices;
+    if (!each_region(input, [](const RegionInput&, std::size_t) { return true; })) {
+        return BodyFault::region_vertices;
+    }
+    const bool vertices_usable = each_region(input, [&](const RegionInput& region, std::size_t first) {
+        return std::ranges::all_of(input.vertices.subspan(first, region.vertex_count),
+                                   [&](const RestVertex& v) { return usable(v, region.length); });
+    });
+    if (!vertices_usable) return BodyFault::vertices;
     const std::size_t count = input.vertices.size();
     if (input.normals.size() != count || !all_unit(input.normals)) return BodyFault::normals;
     if (!input.tangents.empty() && (input.tangents.size() != count || !all_unit(input.tangents))) {
@@ -158,17 +225,27 @@ BodyFault Body::check(const BodyInput& input) noexcept {
 std::optional<Body> Body::make(const BodyInput& input) {
     if (check(input) != BodyFault::none) return std::nullopt;
     Body body;
-    body.columns_ = Columns(!input.tangents.empty() ? column_count : column_count_without_tangents,
-                            input.vertices.size());
-    body.table_ = input.table;
+    body.has_tangents_ = !input.tangents.empty();
+    const bool compares = std::ranges::any_of(
+        input.regions, [](const RegionInput& region) { return region.rest_angle != 0 || region.onset != 0; });
+    const std::size_t columns = body.has_tangents_ ? per_rest_scale : tangent_rho;
+    body.columns_ = Columns(columns + (compares ? 1 : 0), input.vertices.size());
     body.origin_ = input.origin;
     body.axes_ = input.axes;
-    body.length_ = input.length;
     body.radius_ = input.radius;
-    body.max_angle_ = static_cast<float>(input.max_angle);
-    write_vertices(body.columns_, input);
     body.frame_ = frame_of(input);
-    body.bands_ = bands_of(body.columns_);
+    body.length_ = 0;
+    body.regions_.reserve(input.regions.size());
+    each_region(input, [&](const RegionInput& region, std::size_t first) {
+        body.length_ += region.length;
+        write_vertices(body.columns_, region, input.radius, first, input.vertices);
+        for (std::size_t i = first; compares && i < first + region.vertex_count; ++i) {
+            body.columns_[columns][i] =
+                static_cast<float>(1 / rest_scale(region, input.radius, input.vertices[i].beta));
+        }
+        body.regions_.push_back(region_of(region, body.columns_, first));
+        return true;
+    });
     write_vectors(body.columns_, normal_rho, input.normals);
     write_vectors(body.columns_, tangent_rho, input.tangents);
     if (body.has_tangents()) {
@@ -179,7 +256,12 @@ std::optional<Body> Body::make(const BodyInput& input) {
 }
 
 std::size_t Body::bytes() const noexcept {
-    return sizeof(Body) + columns_.bytes() + table_.rows.size() * sizeof(WrinkleRow);
+    std::size_t bytes = sizeof(Body) + columns_.bytes() + regions_.size() * sizeof(Region);
+    for (const Region& region : regions_) {
+        bytes += region.table.rows.size() * sizeof(region.table.rows[0]) +
+                 region.factors.rows.size() * sizeof(region.factors.rows[0]);
+    }
+    return bytes;
 }
 
 }  // namespace goffer::bend

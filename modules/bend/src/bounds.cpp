@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "centre_line.hpp"
 #include "instance.hpp"
 
 #include <goffer/bend/bounds.hpp>
-#include <goffer/simd/four.hpp>
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -12,52 +14,9 @@
 namespace goffer::bend {
 namespace {
 
-using namespace simd;
-
 static_assert(Bands::count % 4 == 3 && Bands::places >= Bands::count + 5,
               "Fours of edges, and all bands in them");
 constexpr std::size_t edges = Bands::count + 1;
-
-/// The centre line at bands' edges, in the middle frame.
-struct CentreLine {
-    Four x, z;          // along n and t
-    Four cosine, sine;  // of the arc angle
-};
-
-CentreLine centre_line(const Coefficients& k, Four v) noexcept {
-    const Four vv = v * v;
-    Four rise = all(k.rise[arc_terms - 1]);
-    Four reach = all(k.reach[arc_terms - 1]);
-    for (std::size_t n = arc_terms - 1; n-- > 0;) {
-        rise = rise * vv + all(k.rise[n]);
-        reach = reach * vv + all(k.reach[n]);
-    }
-    rise *= vv;
-    reach *= v;
-    float curvature = k.first_curvature;
-    for (int n = 0; n < k.doublings; ++n, curvature += curvature) {
-        const Four cosine = all(1) - all(curvature) * rise;
-        rise = all(curvature) * reach * reach;
-        reach *= cosine;
-    }
-    return {all(k.one_minus_kappa) * rise, all(k.one_minus_kappa) * reach, all(1) - all(k.curvature) * rise,
-            all(k.curvature) * reach};
-}
-
-/// A cross-section's columns are taken in sectors, from the outer line to the inner one: T = 1 + cos(beta -
-/// theta) from 0 to 1/2 to 1 to 3/2 to 2.
-constexpr int sectors = 4;
-
-/// The largest amplitude in each sector. It grows with T; the maximum is taken all the same, since a caller's
-/// table may hold anything.
-Four amplitudes(const Coefficients& k) noexcept {
-    constexpr Four t = {0.5f, 1.0f, 1.5f, 2.0f};
-    Four sum = all(k.amplitude[amplitude_terms - 1]);
-    for (std::size_t n = amplitude_terms - 1; n-- > 0;) sum = sum * t + all(k.amplitude[n]);
-    Four largest = absolute(sum) * root(t);
-    for (int i = 1; i < sectors; ++i) largest[i] = std::max(largest[i], largest[i - 1]);
-    return largest;
-}
 
 /// The widest vertex and the deepest wrinkles of four bands, or of what meets at four edges.
 struct Girth {
@@ -182,10 +141,8 @@ private:
     Four high_ = all(std::numeric_limits<float>::lowest());
 };
 
-}  // namespace
-
-Bounds bounds_of(const Body& body, const Coefficients& k) noexcept {
-    const Bands& bands = body.bands();
+/// The bounds of one region's vertices, of which there must be one.
+Bounds bounds_of(const Bands& bands, const Coefficients& k) noexcept {
     const Four amplitude = amplitudes(k);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
     const float length = k.one_minus_kappa * k.reach[0] * height;  // of a band's arc; reach[0] is L
@@ -213,14 +170,44 @@ Bounds bounds_of(const Body& body, const Coefficients& k) noexcept {
     return bounds;
 }
 
-Bounds bounds(const Body& body, const Pose& pose, const glm::mat4x3& transform) noexcept {
+Bounds bounds_of(const Posed& posed) noexcept {
     Coefficients k;
-    prepare(body, pose, transform, k);
-    return bounds_of(body, k);
+    Joint second;
+    prepare_region(posed, 0, posed.body->frame().base, k, second);
+    return bounds_of(posed, k, second);
+}
+
+}  // namespace
+
+Bounds bounds_of(const Posed& posed, const Coefficients& first, const Joint& second) noexcept {
+    constexpr float far = std::numeric_limits<float>::max();
+    Bounds all = {glm::vec3(far), glm::vec3(-far)};
+    const auto take = [&](const Region& region, const Coefficients& k) {
+        if (region.first == region.last) return;
+        const Bounds own = bounds_of(region.bands, k);
+        all = {glm::min(all.low, own.low), glm::max(all.high, own.high)};
+    };
+    const std::span<const Region> regions = posed.body->regions();
+    take(regions[0], first);
+    Coefficients k;
+    Joint from = second, to;
+    for (std::size_t r = 1; r < regions.size(); ++r, from = to) {
+        prepare_region(posed, r, from, k, to);
+        take(regions[r], k);
+    }
+    return all;
+}
+
+Bounds bounds(const Body& body, const Pose& pose, const glm::mat4x3& transform) noexcept {
+    return bounds_of({&body, &pose, &transform, true});
+}
+
+Bounds bounds(const Body& body, std::span<const Pose> poses, const glm::mat4x3& transform) noexcept {
+    return bounds_of({&body, poses.data(), &transform, true});
 }
 
 Bounds bounds(const DeformJob& job) noexcept {
-    return bounds(*job.body, job.pose, job.transform);
+    return bounds_of({job.body, poses_of(job), &job.transform, job.wrinkles});
 }
 
 void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept {

@@ -24,8 +24,12 @@ struct Place {
     std::size_t vertex = 0;
 };
 
+bool has_turn(const CrowdJob& job, std::size_t instance) noexcept {
+    return job.every.empty() || job.every[instance] <= 1 || (job.frame + instance) % job.every[instance] == 0;
+}
+
 bool is_active(const CrowdJob& job, std::size_t instance) noexcept {
-    return (job.visible.empty() || job.visible[instance] != 0) &&
+    return has_turn(job, instance) && (job.visible.empty() || job.visible[instance] != 0) &&
            (job.changed.empty() || job.changed[instance] != 0);
 }
 
@@ -72,10 +76,8 @@ public:
 
     /// Deforms the vertices [first, last) of all, and empties the group.
     void run(std::size_t first, std::size_t last, bool streaming) noexcept {
-        for (; first < last; first += block_vertices) {
-            const std::size_t end = std::min(first + block_vertices, last);
-            for (std::size_t i = 0; i < count_; ++i) run_pass(passes_[i], first, end, streaming);
-        }
+        by_region(passes_, count_, first, last,
+                  [&](std::size_t begin, std::size_t end) { run_blocks(begin, end, streaming); });
         count_ = 0;
     }
 
@@ -84,6 +86,13 @@ public:
     }
 
 private:
+    void run_blocks(std::size_t first, std::size_t last, bool streaming) const noexcept {
+        for (; first < last; first += block_vertices) {
+            const std::size_t end = std::min(first + block_vertices, last);
+            for (std::size_t i = 0; i < count_; ++i) run_pass(passes_[i], first, end, streaming);
+        }
+    }
+
     static constexpr std::size_t capacity = group_size + pass_count - 1;
     PreparedPass passes_[capacity];
     std::size_t count_ = 0;
@@ -144,6 +153,7 @@ Place begin_of(const CrowdJob& job, std::size_t vertices, std::size_t piece, std
 std::string_view describe(const CrowdFault& fault) noexcept {
     if (fault.visible_count) return "visible: neither empty nor one per instance";
     if (fault.changed_count) return "changed: neither empty nor one per instance";
+    if (fault.every_count) return "every: neither empty nor one per instance";
     return describe(fault.fault);
 }
 
@@ -152,6 +162,7 @@ CrowdFault validate(const CrowdJob& job) noexcept {
     const std::size_t count = job.instances.size();
     result.visible_count = !job.visible.empty() && job.visible.size() != count;
     result.changed_count = !job.changed.empty() && job.changed.size() != count;
+    result.every_count = !job.every.empty() && job.every.size() != count;
     if (!result.none()) return result;
     for (std::size_t i = 0; i < count; ++i) {
         if (!is_active(job, i)) continue;

@@ -28,16 +28,16 @@ constexpr ArcTerms half_terms = {  // within 9.0e-7 and 9.1e-8
 constexpr float pi = std::numbers::pi_v<float>;
 static_assert(amplitude_terms == wrinkle_degree + 1);
 
-void set_arc(Coefficients& k, const BodyFrame& body, float alpha) noexcept {
+void set_arc(Coefficients& k, const Region& region, float alpha) noexcept {
     // Beyond a half turn delta leaves the polynomials' range: they then serve a fraction of the angle,
     // doubled back.
     k.doublings = 0;
     float part = alpha;
     for (; part > pi * 1.000001f; part *= 0.5f) ++k.doublings;
     const ArcTerms& terms = part <= pi / 2 ? quarter_terms : half_terms;
-    k.first_curvature = part * body.per_length;
-    k.curvature = alpha * body.per_length;
-    float power = body.length;
+    k.first_curvature = part * region.per_length;
+    k.curvature = alpha * region.per_length;
+    float power = region.length;
     for (std::size_t n = 0; n < arc_terms; ++n) {
         k.reach[n] = power * terms.sinc[n];
         k.rise[n] = power * part * terms.versine[n];
@@ -45,13 +45,77 @@ void set_arc(Coefficients& k, const BodyFrame& body, float alpha) noexcept {
     }
 }
 
-void set_amplitude(Coefficients& k, const WrinkleTable& table, float alpha, float kappa) noexcept {
-    const WrinkleRow row = table.at(alpha);
-    const float root = std::sqrt(kappa);
+/// The sine and cosine of half a direction. A negative angle turns the direction by a half turn, half of
+/// which swaps sine and cosine.
+struct HalfDirection {
+    float sine, cosine;
+};
+
+HalfDirection half_direction(const Pose& pose) noexcept {
+    const float sine = std::sin(pose.direction / 2);
+    const float cosine = std::cos(pose.direction / 2);
+    return pose.angle < 0 ? HalfDirection{cosine, -sine} : HalfDirection{sine, cosine};
+}
+
+float sine(HalfDirection half) noexcept {
+    return 2 * half.sine * half.cosine;
+}
+
+float cosine(HalfDirection half) noexcept {
+    return (half.cosine - half.sine) * (half.cosine + half.sine);
+}
+
+void set_plain_amplitude(Coefficients& k, const WrinkleRow& row, float factor) noexcept {
     for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        k.amplitude[n] = root * row[n];
+        k.amplitude[n] = factor * row[n];
         k.amplitude_slope[n] = -(0.5f + static_cast<float>(n)) * k.amplitude[n];
     }
+}
+
+/// From rows in q / kappa to polynomials in q.
+void set_relative_amplitude(Coefficients& k, const WrinkleRow& row, float kappa, float factor) noexcept {
+    float scale = factor;
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        k.amplitude[n] = scale * row[n];
+        k.amplitude_slope[n] = (1 + 2 * static_cast<float>(n)) * k.amplitude[n];
+        scale /= kappa;
+    }
+}
+
+/// The scale of a column is S = 1 - kappa - curl . u, where u is its direction and curl = kappa (cos theta,
+/// sin theta). The differences vanish exactly at the rest pose.
+void set_squeeze(Coefficients& k, const Region& region, float per_kappa_angle, float kappa,
+                 HalfDirection half) noexcept {
+    const HalfDirection rest_half = half_direction(region.rest);
+    const float rest_kappa = region.rest.angle * per_kappa_angle;
+    const float c = cosine(half), s = sine(half);
+    const float rest_x = rest_kappa * cosine(rest_half), rest_y = rest_kappa * sine(rest_half);
+    const float x = kappa * c - rest_x, y = kappa * s - rest_y;
+    k.squeeze[0] = kappa - rest_kappa;
+    k.squeeze[1] = x * c + y * s;
+    k.squeeze[2] = y * c - x * s;
+    const float towards = rest_x * c + rest_y * s, across = rest_y * c - rest_x * s;
+    k.rest_slope[0] = -across;
+    k.rest_slope[1] = towards;
+    k.onset = std::max(region.onset, 1e-12f);
+}
+
+/// The angle below which a table's row would be scaled by more than float holds.
+constexpr float least_kappa = 1e-4f;
+
+void set_wrinkle(Coefficients& k, const Body& body, const Region& region, float alpha, float direction,
+                 HalfDirection half) noexcept {
+    const float per_kappa_angle = body.frame().radius * region.per_length;
+    const float kappa = alpha * per_kappa_angle;
+    const float factor = region.factors.empty() ? 1.0f : region.factors.at(alpha, direction);
+    if (!region.compares_with_rest()) {
+        k.wrinkling = Squeeze::plain;
+        return set_plain_amplitude(k, region.table.at(alpha), factor * std::sqrt(kappa));
+    }
+    k.wrinkling = Squeeze::relative;
+    set_squeeze(k, region, per_kappa_angle, kappa, half);
+    const float row_kappa = std::max(kappa, least_kappa);
+    set_relative_amplitude(k, region.table.at(row_kappa / per_kappa_angle), row_kappa, factor);
 }
 
 // The middle frame: the arc's point and axes at half height, where the arc has turned by alpha / 2.
@@ -59,23 +123,46 @@ struct MiddleFrame {
     Four n, b, t, origin;
 };
 
-MiddleFrame middle_frame(const BodyFrame& body, float alpha, float one_minus_kappa, float sin_theta,
-                         float cos_theta) noexcept {
+/// Halves of an arc: its turn, and its chord.
+struct HalfArc {
+    float sine, cosine;  // of alpha / 2
+    float out, up;       // from the base to the middle, towards the bend and along the base's axis
+    float sinc;          // sin(alpha / 4) / (alpha / 4)
+};
+
+HalfArc half_arc(float length, float alpha, float one_minus_kappa) noexcept {
     const float quarter = alpha / 4;
     const float sin_quarter = std::sin(quarter);
     const float cos_quarter = std::cos(quarter);
-    const float sine = 2 * sin_quarter * cos_quarter;
-    const float cosine = 1 - 2 * sin_quarter * sin_quarter;
-    const float sinc = quarter > 0 ? sin_quarter / quarter : 1.0f;
-    const float arc = one_minus_kappa * body.length / 2;
-    const float out = arc * sin_quarter * sinc;  // arc (1 - cos(alpha / 2)) / (alpha / 2), without cancelling
-    const float up = arc * sinc * cos_quarter;   // arc sin(alpha / 2) / (alpha / 2)
+    HalfArc half;
+    half.sine = 2 * sin_quarter * cos_quarter;
+    half.cosine = 1 - 2 * sin_quarter * sin_quarter;
+    half.sinc = quarter > 0 ? sin_quarter / quarter : 1.0f;
+    const float arc = one_minus_kappa * length / 2;
+    half.out = arc * sin_quarter * half.sinc;  // arc (1 - cos(alpha / 2)) / (alpha / 2), without cancelling
+    half.up = arc * half.sinc * cos_quarter;   // arc sin(alpha / 2) / (alpha / 2)
+    return half;
+}
 
-    const Four e1 = load_four(body.axes[0]), e2 = load_four(body.axes[1]), e3 = load_four(body.axes[2]);
+MiddleFrame middle_frame(const Joint& joint, const HalfArc& half, float sin_theta, float cos_theta) noexcept {
+    const Four e1 = load_four(joint.axes[0]), e2 = load_four(joint.axes[1]), e3 = load_four(joint.axes[2]);
     const Four towards = all(cos_theta) * e1 + all(sin_theta) * e2;
     const Four across = all(cos_theta) * e2 - all(sin_theta) * e1;
-    return {all(cosine) * towards - all(sine) * e3, across, all(sine) * towards + all(cosine) * e3,
-            load_four(body.origin) + all(out) * towards + all(up) * e3};
+    return {all(half.cosine) * towards - all(half.sine) * e3, across,
+            all(half.sine) * towards + all(half.cosine) * e3,
+            load_four(joint.origin) + all(half.out) * towards + all(half.up) * e3};
+}
+
+/// From the middle on to the end, by the same turn and chord once more.
+Joint end_of(const MiddleFrame& middle, const HalfArc& half, float sin_theta, float cos_theta) noexcept {
+    const Four n = all(half.cosine) * middle.n - all(half.sine) * middle.t;
+    const Four t = all(half.sine) * middle.n + all(half.cosine) * middle.t;
+    Joint end;
+    store_four(end.axes[0], all(cos_theta) * n - all(sin_theta) * middle.b);
+    store_four(end.axes[1], all(sin_theta) * n + all(cos_theta) * middle.b);
+    store_four(end.axes[2], t);
+    store_four(end.origin, middle.origin + all(half.out) * middle.n + all(half.up) * middle.t);
+    return end;
 }
 
 // Normals go with the cofactors, which are the inverse transpose times the determinant; a determinant below 0
@@ -109,65 +196,86 @@ void set_matrices(Coefficients& k, const MiddleFrame& frame, const glm::mat4x3& 
     set_normal_matrix(k, n, b, t);
 }
 
-// Positions in steps of `bounds`: what the packed kernel rounds.
-void quantise(Coefficients& k, const Bounds& bounds) noexcept {
+// Positions in steps of the box: what the packed kernel rounds.
+void quantise(Coefficients& k, const glm::vec3& low, const glm::vec3& high) noexcept {
     for (int row = 0; row < 3; ++row) {
-        const float extent = bounds.high[row] - bounds.low[row];
+        const float extent = high[row] - low[row];
         const float scale = extent > 0 ? 65535.0f / extent : 0.0f;
         for (int c = 0; c < 3; ++c) k.matrix[4 * c + row] *= scale;
-        k.offset[row] = (k.offset[row] - bounds.low[row]) * scale;
+        k.offset[row] = (k.offset[row] - low[row]) * scale;
     }
+}
+
+bool wants(const DeformJob& job, Pass pass) noexcept {
+    if (pass == Pass::previous) return !job.previous_positions.empty();
+    if (pass == Pass::packed) return !job.packed.empty();
+    return !job.positions.empty() || !job.normals.empty() || !job.tangents.empty();
 }
 
 }  // namespace
 
-bool prepare(const Body& body, const Pose& pose, const glm::mat4x3& transform, Coefficients& k) noexcept {
-    const BodyFrame& frame = body.frame();
-    const bool clamped = std::fabs(pose.angle) > body.max_angle();
-    const float alpha = clamped ? body.max_angle() : std::fabs(pose.angle);
-    const float kappa = alpha * frame.radius * frame.per_length;
+void prepare_region(const Posed& posed, std::size_t index, const Joint& from, Coefficients& k,
+                    Joint& to) noexcept {
+    const Region& region = posed.body->regions()[index];
+    const Pose& pose = posed.poses[index];
+    const float alpha = std::min(std::fabs(pose.angle), region.max_angle);
+    const HalfDirection half = half_direction(pose);
+    k.cos_half_direction = half.cosine;
+    k.sin_half_direction = half.sine;
+    k.one_minus_kappa = 1 - alpha * posed.body->frame().radius * region.per_length;
+    k.half_radius = posed.body->frame().radius / 2;
+    set_arc(k, region, alpha);
+    k.wrinkling = Squeeze::none;
+    if (posed.wrinkles && !region.table.empty()) {
+        const float direction = pose.direction + (pose.angle < 0 ? pi : 0.0f);
+        set_wrinkle(k, *posed.body, region, alpha, direction, half);
+    }
+    const HalfArc arc = half_arc(region.length, alpha, k.one_minus_kappa);
+    const float sin_theta = sine(half), cos_theta = cosine(half);
+    const MiddleFrame middle = middle_frame(from, arc, sin_theta, cos_theta);
+    set_matrices(k, middle, *posed.transform);
+    if (index + 1 < posed.body->region_count()) to = end_of(middle, arc, sin_theta, cos_theta);
+}
 
-    // Of half the direction; a negative angle's is turned by a half turn, half of which swaps sine and
-    // cosine.
-    const float sine = std::sin(pose.direction / 2);
-    const float cosine = std::cos(pose.direction / 2);
-    k.cos_half_direction = pose.angle < 0 ? -sine : cosine;
-    k.sin_half_direction = pose.angle < 0 ? cosine : sine;
-    const float ch = k.cos_half_direction, sh = k.sin_half_direction;
-    k.one_minus_kappa = 1 - kappa;
-    k.half_radius = frame.radius / 2;
-    set_arc(k, frame, alpha);
-    set_amplitude(k, body.table(), alpha, kappa);
-    set_matrices(k, middle_frame(frame, alpha, k.one_minus_kappa, 2 * sh * ch, (ch - sh) * (ch + sh)),
-                 transform);
-    return clamped;
+void PreparedPass::advance() noexcept {
+    const Joint from = next;
+    prepare_region(posed(), ++region, from, coefficients, next);
+    if (pass == Pass::packed) quantise(coefficients, low, high);
 }
 
 PreparedJob prepare(const DeformJob& job, PreparedPass* passes, bool leave_bounds) noexcept {
     PreparedJob prepared;
-    const bool current = !job.positions.empty() || !job.normals.empty() || !job.tangents.empty();
-    const bool packed = !job.packed.empty();
-    const bool bounded = job.bounds != nullptr && leave_bounds;
-    const auto add = [&](Pass pass) -> Coefficients& {
-        passes[prepared.passes].job = &job;
-        passes[prepared.passes].pass = pass;
-        return passes[prepared.passes++].coefficients;
-    };
-    if (!job.previous_positions.empty()) {
-        prepare(*job.body, job.previous_pose, job.previous_transform, add(Pass::previous));
-    }
+    prepared.clamped = is_clamped(*job.body, poses_of(job));
     // Made in place, where a pass begins: coefficients are large for what is done with them here.
-    Coefficients& k = passes[prepared.passes].coefficients;
-    prepared.clamped = prepare(*job.body, job.pose, job.transform, k);
-    if (current) add(Pass::current);
-    if (packed || bounded) {
-        const Bounds bounds = bounds_of(*job.body, k);
-        if (bounded) *job.bounds = bounds;
-        if (packed) {
-            Coefficients& quantised = add(Pass::packed);
-            if (&quantised != &k) quantised = k;
-            quantise(quantised, bounds);
-        }
+    const auto begin = [&](Pass pass) -> PreparedPass& {
+        PreparedPass& prepared_pass = passes[prepared.passes];
+        prepared_pass.job = &job;
+        prepared_pass.pass = pass;
+        prepared_pass.region = 0;
+        prepare_region(prepared_pass.posed(), 0, job.body->frame().base, prepared_pass.coefficients,
+                       prepared_pass.next);
+        return prepared_pass;
+    };
+    if (wants(job, Pass::previous)) {
+        begin(Pass::previous);
+        ++prepared.passes;
+    }
+    const bool packed = wants(job, Pass::packed);
+    const bool bounded = job.bounds != nullptr && leave_bounds;
+    const bool current = wants(job, Pass::current);
+    if (!current && !packed && !bounded) return prepared;
+    const PreparedPass& now = begin(Pass::current);
+    if (current) ++prepared.passes;
+    if (!packed && !bounded) return prepared;
+    const Bounds bounds = bounds_of(now.posed(), now.coefficients, now.next);
+    if (bounded) *job.bounds = bounds;
+    if (packed) {
+        PreparedPass& quantised = passes[prepared.passes++];
+        if (&quantised != &now) quantised = now;
+        quantised.pass = Pass::packed;
+        quantised.low = bounds.low;
+        quantised.high = bounds.high;
+        quantise(quantised.coefficients, bounds.low, bounds.high);
     }
     return prepared;
 }

@@ -47,9 +47,27 @@ bool usable(const glm::mat4x3& matrix) noexcept {
     return true;
 }
 
+struct PoseFaults {
+    JobFault count, angle, direction;
+};
+
+/// `poses`, or `pose` where there are none.
+JobFault check(const Body& body, const Pose& pose, std::span<const Pose> poses,
+               const PoseFaults& faults) noexcept {
+    const std::span<const Pose> used = poses.empty() ? std::span<const Pose>(&pose, 1) : poses;
+    if (used.size() != body.region_count()) return faults.count;
+    for (const Pose& one : used) {
+        if (!std::isfinite(one.angle)) return faults.angle;
+        if (!std::isfinite(one.direction)) return faults.direction;
+    }
+    return JobFault::none;
+}
+
 JobFault check_previous(const DeformJob& job) noexcept {
-    if (!std::isfinite(job.previous_pose.angle)) return JobFault::previous_pose_angle;
-    if (!std::isfinite(job.previous_pose.direction)) return JobFault::previous_pose_direction;
+    const JobFault fault = check(
+        *job.body, job.previous_pose, job.previous_poses,
+        {JobFault::previous_poses_count, JobFault::previous_pose_angle, JobFault::previous_pose_direction});
+    if (fault != JobFault::none) return fault;
     if (!usable(job.previous_transform)) return JobFault::previous_transform;
     return check(job.previous_positions, job.body->vertex_count(),
                  {JobFault::previous_positions_count, JobFault::previous_positions_stride,
@@ -112,14 +130,21 @@ std::string_view describe(JobFault fault) noexcept {
             return "previous_positions.stride: not a multiple of 4, or below 4 (12 for interleaved)";
         case JobFault::previous_positions_component:
             return "previous_positions.component: null, or not aligned to 4 bytes";
+        case JobFault::poses_count:
+            return "poses: not one per region of the body (pose alone is for a body of one region)";
+        case JobFault::previous_poses_count:
+            return "previous_poses: not one per region of the body (previous_pose alone is for a body of one "
+                   "region)";
     }
     return "unknown fault";
 }
 
 JobFault validate(const DeformJob& job) noexcept {
     if (job.body == nullptr) return JobFault::body;
-    if (!std::isfinite(job.pose.angle)) return JobFault::pose_angle;
-    if (!std::isfinite(job.pose.direction)) return JobFault::pose_direction;
+    const JobFault pose_fault =
+        check(*job.body, job.pose, job.poses,
+              {JobFault::poses_count, JobFault::pose_angle, JobFault::pose_direction});
+    if (pose_fault != JobFault::none) return pose_fault;
     if (!usable(job.transform)) return JobFault::transform;
     const bool packed = !job.packed.empty();
     const bool previous = !job.previous_positions.empty();
@@ -145,7 +170,9 @@ JobFault validate(const DeformJob& job) noexcept {
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept {
     PreparedPass passes[pass_count];
     const PreparedJob prepared = prepare(job, passes, first == 0);
-    for (std::size_t i = 0; i < prepared.passes; ++i) run_pass(passes[i], first, last, false);
+    by_region(passes, prepared.passes, first, last, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = 0; i < prepared.passes; ++i) run_pass(passes[i], begin, end, false);
+    });
     return {prepared.clamped};
 }
 
@@ -154,12 +181,9 @@ DeformResult run(const DeformJob& job) noexcept {
 }
 
 DeformResult run_parallel(const DeformJob& job, std::size_t grain) {
-    PreparedPass passes[pass_count];
-    const PreparedJob prepared = prepare(job, passes, true);
-    parallel_ranges(job.body->vertex_count(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = 0; i < prepared.passes; ++i) run_pass(passes[i], first, last, false);
-    });
-    return {prepared.clamped};
+    parallel_ranges(job.body->vertex_count(), grain,
+                    [&](std::size_t first, std::size_t last) { run_range(job, first, last); });
+    return {is_clamped(*job.body, poses_of(job))};
 }
 
 }  // namespace goffer::bend

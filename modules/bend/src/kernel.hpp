@@ -9,8 +9,8 @@
 ///
 /// Half angles are stored, and used here, times the root of two: h = sqrt(2) cos((beta - theta) / 2) and
 /// h' = sqrt(2) sin((beta - theta) / 2) come from the columns by a rotation, and give T = h^2 = 1 + c with
-/// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root. At
-/// alpha = 0 every term that bends vanishes exactly.
+/// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root, unless
+/// the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
 
 namespace goffer::bend {
 
@@ -40,13 +40,51 @@ struct Bent {
     using Vec = typename L::Vec;
     Vec h, h_prime, t;  // t = T = h^2
     Vec c, s;           // cos and sin of beta - theta
-    Vec amplitude;      // A
+    Vec amplitude;      // A; A / S_0 where the squeeze is relative
+    Vec slope;          // of the same over beta
     Vec rho_c, rho_s;   // rho' c, rho' s
     Vec rise, reach;    // L (1 - cos delta) / alpha, L sin delta / alpha
     Vec stretch;        // (1 - kappa) - alpha / L rho' c: d(arc) / dz
 };
 
-template <class L>
+/// The wrinkle of columns that are squeezed by q = kappa T.
+template <class L, bool slope>
+void set_plain_wrinkle(const Coefficients& k, Bent<L>& b) {
+    b.amplitude = L::abs(b.h) * long_polynomial<L>(k.amplitude, b.t);
+    if constexpr (slope) {
+        // A has a corner where h changes sign, on the outer line; across it the two slopes are blended
+        // (crease_width).
+        const auto sign = L::clamp(b.h * L::set(707.10678f), L::set(-1.0f), L::set(1.0f));
+        b.slope = sign * b.h_prime * long_polynomial<L>(k.amplitude_slope, b.t);
+    }
+}
+
+/// The wrinkle of columns whose squeeze is compared with that at rest.
+template <class L, bool slope>
+void set_relative_wrinkle(const KernelArgs& args, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec per_rest = L::load(args.per_rest_scale + i);
+    const Vec zero = L::set(0.0f);
+    const Vec difference =
+        L::madd(L::set(k.squeeze[2]), b.s, L::madd(L::set(k.squeeze[1]), b.c, L::set(k.squeeze[0])));
+    const Vec q = L::larger(difference, zero) * per_rest;
+    const Vec per_root = L::rsqrt(q + L::set(k.onset));
+    const Vec root = q * per_root;
+    const Vec x = root * root;
+    b.amplitude = root * long_polynomial<L>(k.amplitude, x);
+    if constexpr (slope) {
+        const Vec rest_slope =
+            per_rest * L::madd(L::set(k.rest_slope[1]), b.s, L::set(k.rest_slope[0]) * b.c);
+        const Vec turned = L::nmadd(L::set(k.squeeze[1]), b.s, L::set(k.squeeze[2]) * b.c);
+        const Vec q_slope = L::nmadd(q, rest_slope, turned * per_rest);
+        const Vec root_slope = per_root * L::nmadd(L::set(0.5f) * root, per_root, L::set(1.0f)) *
+                               L::where_less(zero, difference, q_slope, zero);
+        b.slope = L::madd(b.amplitude, rest_slope, root_slope * long_polynomial<L>(k.amplitude_slope, x));
+    }
+}
+
+/// `slope`: normals or tangents are wanted.
+template <class L, Squeeze squeeze, bool slope>
 Bent<L> bend_batch(const KernelArgs& args, const Coefficients& k, std::size_t i) {
     using Vec = typename L::Vec;
     Bent<L> b;
@@ -61,8 +99,10 @@ Bent<L> bend_batch(const KernelArgs& args, const Coefficients& k, std::size_t i)
     b.c = b.t - L::set(1.0f);
     b.s = b.h * b.h_prime;
 
-    b.amplitude = L::abs(b.h) * long_polynomial<L>(k.amplitude, b.t);
-    const Vec rho = L::madd(b.amplitude, L::load(args.lift + i), L::load(args.rho + i));
+    Vec rho = L::load(args.rho + i);
+    if constexpr (squeeze == Squeeze::plain) set_plain_wrinkle<L, slope>(k, b);
+    if constexpr (squeeze == Squeeze::relative) set_relative_wrinkle<L, slope>(args, k, b, i);
+    if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(args.lift + i), rho);
     b.rho_c = rho * b.c;
     b.rho_s = rho * b.s;
 
@@ -127,6 +167,7 @@ Vector<L> normalised(const Vector<L>& v) {
 }
 
 /// The Jacobian's entries in the bent frame (DESIGN's 2.3): rows (a, b, d), (0, growth, 0), (0, 0, stretch).
+/// Without a wrinkle only stretch is set: a and growth are 1, b and d 0.
 template <class L>
 struct Jacobian {
     typename L::Vec growth;  // rho' / rho
@@ -136,40 +177,44 @@ struct Jacobian {
 template <class L>
 Jacobian<L> jacobian(const KernelArgs& args, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
-    // A has a corner where h changes sign, on the outer line; across it the two slopes are blended
-    // (crease_width).
-    const Vec sign = L::clamp(bent.h * L::set(707.10678f), L::set(-1.0f), L::set(1.0f));
-    const Vec slope = sign * bent.h_prime * long_polynomial<L>(k.amplitude_slope, bent.t);
     const Vec wrinkle = L::load(args.wrinkle + i);
     const Vec growth = L::madd(bent.amplitude, wrinkle, L::set(1.0f));
     // Below half the radius the depth weight grows like rho, so the wrinkle stretches rho as it stretches the
     // circle.
     return {growth, L::where_less(L::load(args.rho + i), L::set(k.half_radius), growth, L::set(1.0f)),
-            slope * wrinkle, bent.amplitude * L::load(args.slope + i)};
+            bent.slope * wrinkle, bent.amplitude * L::load(args.slope + i)};
 }
 
-template <class L>
+template <class L, Squeeze squeeze>
 Vector<L> bend_normals(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
                        std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(args.normal[0] + i);
     const Vec beta = L::load(args.normal[1] + i);
     const Vec z = L::load(args.normal[2] + i);
-    const Vec n = j.growth * b.stretch * rho;
-    const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
-    const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
-    return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
+    if constexpr (squeeze == Squeeze::none) {
+        return place_direction<L>(k, k.normal_matrix, b, b.stretch * rho, b.stretch * beta, z);
+    } else {
+        const Vec n = j.growth * b.stretch * rho;
+        const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
+        const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
+        return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
+    }
 }
 
-template <class L>
+template <class L, Squeeze squeeze>
 Vector<L> bend_tangents(const KernelArgs& args, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
                         std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(args.tangent[0] + i);
     const Vec beta = L::load(args.tangent[1] + i);
     const Vec z = L::load(args.tangent[2] + i);
-    const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
-    return place_direction<L>(k, k.matrix, b, n, j.growth * beta, b.stretch * z);
+    if constexpr (squeeze == Squeeze::none) {
+        return place_direction<L>(k, k.matrix, b, rho, beta, b.stretch * z);
+    } else {
+        const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
+        return place_direction<L>(k, k.matrix, b, n, j.growth * beta, b.stretch * z);
+    }
 }
 
 /// PackedVertex's three words. `position` is in steps of the bounds, 0..65535; `normal` of any length.
@@ -197,18 +242,20 @@ struct Results {
     Vector<L> position, normal, tangent;
 };
 
-template <class L, unsigned streams, bool packed>
+template <class L, Squeeze squeeze, unsigned streams, bool packed>
 Results<L> deform_batch(const KernelArgs& args, const Coefficients& k, std::size_t i) {
     Results<L> results;
-    const Bent<L> b = bend_batch<L>(args, k, i);
+    constexpr bool directions = (streams & 6) != 0;
+    const Bent<L> b = bend_batch<L, squeeze, directions>(args, k, i);
     if constexpr ((streams & 1) != 0) {
         results.position =
             place<L>(k.matrix, k.offset, L::madd(b.rise, b.stretch, b.rho_c), b.rho_s, b.reach * b.stretch);
     }
-    if constexpr ((streams & 6) != 0) {
-        const Jacobian<L> j = jacobian<L>(args, k, b, i);
-        if constexpr ((streams & 2) != 0) results.normal = bend_normals<L>(args, k, b, j, i);
-        if constexpr ((streams & 4) != 0) results.tangent = bend_tangents<L>(args, k, b, j, i);
+    if constexpr (directions) {
+        Jacobian<L> j;
+        if constexpr (squeeze != Squeeze::none) j = jacobian<L>(args, k, b, i);
+        if constexpr ((streams & 2) != 0) results.normal = bend_normals<L, squeeze>(args, k, b, j, i);
+        if constexpr ((streams & 4) != 0) results.tangent = bend_tangents<L, squeeze>(args, k, b, j, i);
     }
     if constexpr (packed) {
         results.position = pack<L>(results.position, results.normal);
@@ -280,7 +327,7 @@ void store_records_of(const Results<L> (&results)[batches<L>], float* to, std::s
 
 // Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
 // what the arguments point to tell the compiler that no store changes them.
-template <class L, unsigned streams, Form form>
+template <class L, Squeeze squeeze, unsigned streams, Form form>
 GOFFER_FLATTENED void bend_range(const KernelArgs& arguments, std::size_t first, std::size_t last,
                                  bool streaming) {
     const KernelArgs args = arguments;
@@ -292,7 +339,7 @@ GOFFER_FLATTENED void bend_range(const KernelArgs& arguments, std::size_t first,
         const std::size_t count = (next < last ? next : last) - i;
         Results<L> results[batches<L>];
         for (std::size_t b = 0; b < batches<L>; ++b)
-            results[b] = deform_batch<L, streams, packed>(args, k, i + b * L::width);
+            results[b] = deform_batch<L, squeeze, streams, packed>(args, k, i + b * L::width);
         if constexpr (form == Form::records || form == Form::packed_records) {
             store_records_of<L, record>(results, args.record_out + i * record, count, streaming);
         } else {

@@ -15,16 +15,29 @@
 
 namespace goffer::bend {
 
+/// Where wrinkles come from: each has kernels of its own.
+enum class Squeeze : unsigned char {
+    none,      ///< no wrinkles
+    plain,     ///< q = kappa T
+    relative,  ///< against the rest arc, and with an onset: see WrinkleTable
+};
+constexpr std::size_t squeeze_count = 3;
+
 constexpr std::size_t amplitude_terms = 8;  ///< wrinkle_degree + 1
 constexpr std::size_t arc_terms = 4;
 
-/// One instance's numbers. The map (DESIGN's 2.1 to 2.3, eq 2-6) is evaluated in the frame of the arc's
-/// middle, where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in the streams' space by
-/// `matrix` and `offset`.
+/// One region's numbers in one instance. The map (DESIGN's 2.1 to 2.3, eq 2-6) is evaluated in the frame of
+/// the arc's middle, where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in the streams'
+/// space by `matrix` and `offset`.
 struct Coefficients {
     float cos_half_direction, sin_half_direction;  ///< of theta / 2
-    float amplitude[amplitude_terms];              ///< A = |h| sum amplitude[n] T^n
-    float amplitude_slope[amplitude_terms];        ///< dA/dbeta = sign(h) h' sum amplitude_slope[n] T^n
+    /// A = |h| sum amplitude[n] T^n, dA/dbeta = sign(h) h' sum amplitude_slope[n] T^n; relative, with
+    /// x = q^2 / (q + onset): A / S_0 = sqrt(x) sum amplitude[n] x^n, its slope over sqrt(x) likewise.
+    float amplitude[amplitude_terms];
+    float amplitude_slope[amplitude_terms];
+    float squeeze[3];        ///< relative: q S_0 = squeeze[0] + squeeze[1] c + squeeze[2] s, where above 0
+    float rest_slope[2];     ///< relative: dS_0/dbeta = rest_slope[0] c + rest_slope[1] s
+    float onset;             ///< relative: > 0
     float rise[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum rise[n] v^(2n), v = z / L - 1/2
     float reach[arc_terms];  ///< L sin delta / alpha = v sum reach[n] v^(2n)
     int doublings;           ///< rise and reach are for alpha / 2^doublings
@@ -36,12 +49,14 @@ struct Coefficients {
     float offset[4];    ///< the arc's middle in the streams' space
     float normal_matrix[12];  ///< as `matrix`: its cofactors, to scale and facing outwards
     float handedness;         ///< -1 where `matrix` mirrors, else 1
+    Squeeze wrinkling;        ///< whose kernels are to be used
 };
 
 /// Rest columns and output streams of one kernel call. Streams are planar; index i of a stream is vertex i.
 struct KernelArgs {
     const Coefficients* coefficients;
     const float *cos_half_beta, *sin_half_beta, *rho, *lift, *height, *wrinkle, *slope;
+    const float* per_rest_scale;  ///< for relative squeezes only
     const float* normal[3];
     const float* tangent[3];
     float* position_out[3];
@@ -66,12 +81,13 @@ using Interleave = void (*)(const float* planes, std::size_t plane_stride, std::
 /// The streams that a kernel is for: bit 0: positions, 1: normals, 2: tangents. Or the packed stream alone.
 constexpr std::size_t packed_streams = 8;
 
-/// One instruction set's kernels.
+/// One instruction set's kernels, by streams. Null where there is none: other streams then go through a
+/// block.
 struct KernelSet {
-    /// By streams: to planes. Of the packed stream: PackedVertex's three words to position_out, as if they
-    /// were floats.
-    Kernel planes[9];
-    /// By streams: to records without gaps, positions first. Null where there is none.
+    /// To planes, by Squeeze too. Of the packed stream: PackedVertex's three words to position_out, as if
+    /// they were floats.
+    Kernel planes[squeeze_count][9];
+    /// To records without gaps, positions first; of plain squeezes.
     Kernel records[9];
     Interleave interleave[11];  ///< by floats a record; null where there is none
 };

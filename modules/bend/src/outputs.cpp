@@ -66,9 +66,9 @@ bool Output::record() const noexcept {
 }
 
 bool Outputs::planar() const noexcept {
-    return std::ranges::all_of(
-        std::initializer_list<const Output*>{&positions, &normals, &tangents},
-        [](const Output* out) { return out->floats == 0 || out->stride == sizeof(float); });
+    return exact && std::ranges::all_of(
+                        std::initializer_list<const Output*>{&positions, &normals, &tangents},
+                        [](const Output* out) { return out->floats == 0 || out->stride == sizeof(float); });
 }
 
 bool Outputs::dense() const noexcept {
@@ -104,7 +104,9 @@ bool Outputs::side_by_side() const noexcept {
     return true;
 }
 
-Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept {
+Outputs outputs_of(const PreparedPass& prepared, const KernelSet& set) noexcept {
+    const DeformJob& job = *prepared.job;
+    const Pass pass = prepared.pass;
     Outputs outputs;
     std::size_t streams = 1;
     if (pass == Pass::packed) {
@@ -118,8 +120,11 @@ Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexce
         outputs.tangents = output(job.tangents);
         streams = streams_wanted(job);
     }
-    outputs.planes = set.planes[streams];
-    outputs.records = set.records[streams];
+    const Squeeze squeeze = prepared.coefficients.wrinkling;
+    const Kernel(&planes)[9] = set.planes[static_cast<std::size_t>(squeeze)];
+    outputs.exact = planes[streams] != nullptr;
+    outputs.planes = planes[outputs.exact ? streams : streams == 2 ? 3 : 7];
+    outputs.records = squeeze == Squeeze::plain ? set.records[streams] : nullptr;
     return outputs;
 }
 
@@ -156,6 +161,11 @@ RecordWriter::RecordWriter(const Outputs& outputs, const KernelSet& set) noexcep
             records_[record_count_++] = {out, plane, out.floats};
         }
         plane += out.floats;
+    }
+    for (std::size_t stream = 0; stream < 3; ++stream) {
+        if (all[stream]->floats != 0) continue;
+        first_plane_[stream] = plane;  // where kernels leave what is not wanted
+        plane += 3;
     }
 }
 

@@ -23,9 +23,11 @@ struct Output {
 /// What one pass writes, and the kernels that make it. Which outputs are wanted is in their `floats`.
 struct Outputs {
     Output positions, normals, tangents;
-    Kernel planes = nullptr;
+    Kernel planes = nullptr;   ///< may make more streams than are wanted, if not `exact`
     Kernel records = nullptr;  ///< null where there is none
+    bool exact = true;         ///< `planes` makes what is wanted and nothing else
 
+    /// Whether all of it is planes, as `planes` writes them.
     [[nodiscard]] bool planar() const noexcept;
     /// Whether all of it is records without gaps, as `records` writes them.
     [[nodiscard]] bool dense() const noexcept;
@@ -38,7 +40,7 @@ struct Outputs {
     [[nodiscard]] std::size_t head(std::size_t first) const noexcept;
 };
 
-[[nodiscard]] Outputs outputs_of(const DeformJob& job, Pass pass, const KernelSet& set) noexcept;
+[[nodiscard]] Outputs outputs_of(const PreparedPass& pass, const KernelSet& set) noexcept;
 
 /// The planes of a block of vertices, written out as records and planes of the caller's.
 class RecordWriter {

@@ -21,6 +21,7 @@ KernelArgs rest_columns(const Body& body, const Coefficients& coefficients, std:
     args.height = column(Body::height);
     args.wrinkle = column(Body::wrinkle);
     args.slope = column(Body::slope);
+    if (coefficients.wrinkling == Squeeze::relative) args.per_rest_scale = column(Body::per_rest_scale);
     for (std::size_t c = 0; c < 3; ++c) {
         args.normal[c] = column(Body::normal_rho + c);
         args.tangent[c] = body.has_tangents() ? column(Body::tangent_rho + c) : nullptr;
@@ -83,7 +84,7 @@ void run_blocks(const PreparedPass& pass, const Outputs& out, const KernelSet& s
 void run_pass(const PreparedPass& pass, std::size_t first, std::size_t last, bool streaming) noexcept {
     if (first >= last) return;
     const KernelSet& set = kernels(pass.job->isa);
-    const Outputs outputs = outputs_of(*pass.job, pass.pass, set);
+    const Outputs outputs = outputs_of(pass, set);
     if (outputs.planar() && (!streaming || outputs.side_by_side())) {
         run_planar(pass, outputs, first, last, streaming);
     } else if (outputs.dense()) {
@@ -91,6 +92,17 @@ void run_pass(const PreparedPass& pass, std::size_t first, std::size_t last, boo
     } else {
         run_blocks(pass, outputs, set, first, last, streaming);
     }
+}
+
+void run_block(const Body& body, const Coefficients& k, const KernelSet& set, std::size_t first,
+               std::size_t count, float* planes, std::size_t stride) noexcept {
+    KernelArgs args = rest_columns(body, k, first);
+    for (std::size_t c = 0; c < 3; ++c) {
+        args.position_out[c] = planes + c * stride;
+        args.normal_out[c] = planes + (3 + c) * stride;
+        args.tangent_out[c] = planes + (6 + c) * stride;
+    }
+    set.planes[static_cast<std::size_t>(k.wrinkling)][7](args, 0, count, false);
 }
 
 }  // namespace goffer::bend

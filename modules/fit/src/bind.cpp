@@ -1,147 +1,104 @@
 // SPDX-License-Identifier: MIT
+#include "factors.hpp"
+#include "rest.hpp"
 #include "text.hpp"
 
 #include <goffer/fit/bind.hpp>
-#include <goffer/paper/closed_form.hpp>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace goffer::fit {
 namespace {
 
-/// The body frame in model space, and one vertex's own frame in it.
-struct Frame {
-    glm::dvec3 origin;
-    glm::dmat3 axes;  // columns e1, e2, e3
-
-    explicit Frame(const Cylinder& cylinder) : origin(cylinder.origin), axes(1) {
-        axes[2] = glm::normalize(cylinder.axis);
-        axes[0] = glm::normalize(cylinder.zero - glm::dot(cylinder.zero, axes[2]) * axes[2]);
-        axes[1] = glm::cross(axes[2], axes[0]);
-    }
-
-    [[nodiscard]] paper::Cylindrical vertex(const glm::vec3& position) const {
-        return paper::to_cylindrical(glm::transpose(axes) * (glm::dvec3(position) - origin));
-    }
-
-    /// Components of a unit vector along (e_rho, e_beta, e_z) at beta.
-    [[nodiscard]] bend::RestVector direction(const glm::dvec3& vector, double beta) const {
-        const glm::dvec3 local = glm::transpose(axes) * vector;
-        const double c = std::cos(beta);
-        const double s = std::sin(beta);
-        return {c * local.x + s * local.y, c * local.y - s * local.x, local.z};
-    }
-};
-
-bool usable_direction(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return std::isfinite(length) && length > 1e-12;
+std::string of_region(std::size_t region) {
+    return "region " + std::to_string(region + 1) + ": ";
 }
 
-/// The vertices that no triangle uses: nobody's surface.
-class Unused {
-public:
-    explicit Unused(const Geometry& geometry) : geometry_(geometry) {}
-
-    [[nodiscard]] bool operator[](std::size_t vertex) {
-        if (used_.empty()) {
-            used_.resize(geometry_.positions.size());
-            for (const std::uint32_t i : geometry_.triangles) used_[i] = true;
+void check(std::span<const RegionOptions> regions) {
+    if (regions.size() > bend::max_regions) {
+        throw Error("regions: " + std::to_string(regions.size()) + " of them, and a body has at most " +
+                    std::to_string(bend::max_regions));
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        const double share = regions[i].share;
+        if (!(share > 0) || !std::isfinite(share)) {
+            throw Error(of_region(i) + "share: " + text(share) + " of the length is not a positive number");
         }
-        return !used_[vertex];
+        sum += share;
     }
-
-private:
-    const Geometry& geometry_;
-    std::vector<bool> used_;  // made when first asked for
-};
-
-[[noreturn]] void refuse_outside(std::size_t vertex, double z, double length) {
-    throw Error("vertex " + std::to_string(vertex) + " lies at z = " + text(z) +
-                ", outside the base cylinder's 0.." + text(length) +
-                "; fit the cylinder to this mesh, or lengthen it");
-}
-
-bend::RestVertex rest_vertex(const paper::Cylindrical& at, const Cylinder& cylinder, paper::Profile profile,
-                             int folds) {
-    bend::RestVertex rest{at.beta, at.z, at.rho, 0, 0};
-    if (folds == 0) return rest;
-    const double u = std::min(std::fabs(2 * at.z / cylinder.length - 1), 1.0);
-    const double weight = paper::depth_weight(at.rho, cylinder.radius);
-    const double weight_by_rho = at.rho > 1e-9 * cylinder.radius ? weight / at.rho : 2 / cylinder.radius;
-    rest.wrinkle = weight_by_rho * paper::shape(profile, folds, u);
-    rest.slope = weight * paper::shape_slope_z(profile, folds, cylinder.length, at.z);
-    return rest;
-}
-
-std::vector<bend::RestVertex> rest_vertices(const Geometry& geometry, const Cylinder& cylinder,
-                                            const Frame& frame, paper::Profile profile, int folds) {
-    std::vector<bend::RestVertex> rest;
-    rest.reserve(geometry.positions.size());
-    Unused unused(geometry);
-    const double slack = 1e-3 * cylinder.length;
-    for (const glm::vec3& position : geometry.positions) {
-        paper::Cylindrical at = frame.vertex(position);
-        if (at.z < -slack || at.z > cylinder.length + slack) {
-            if (!unused[rest.size()]) refuse_outside(rest.size(), at.z, cylinder.length);
-            at.z = std::clamp(at.z, 0.0, cylinder.length);
-        }
-        rest.push_back(rest_vertex(at, cylinder, profile, folds));
+    if (std::fabs(sum - 1) > 1e-6) {
+        throw Error("regions: their shares add up to " + text(sum) + " of the length; make it 1");
     }
-    return rest;
 }
 
-std::vector<bend::RestVector> rest_normals(const Geometry& geometry, const Frame& frame,
-                                           std::span<const bend::RestVertex> rest) {
-    std::vector<glm::vec3> made;
-    const auto made_normal = [&](std::size_t i) {
-        if (made.empty()) made = make_normals(geometry.positions, geometry.triangles);
-        return glm::dvec3(made[i]);
-    };
-    std::vector<bend::RestVector> normals(rest.size());
+void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
+    if (!options.regions.empty()) check(options.regions);
+    if (!(onset >= 0 && onset <= 1)) throw Error("onset: " + text(onset) + " is outside 0..1");
+    if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0)) {
+        throw Error(std::string("amplitude: area is not for a body ") +
+                    (onset != 0 ? "with an onset" : "bent at rest") + "; use mesh");
+    }
+}
+
+/// The regions' places on the axis, and what each can carry.
+std::vector<BoundRegion> plan(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options,
+                              std::span<RestRegion> rest) {
+    std::vector<BoundRegion> regions;
+    double start = 0;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-        glm::dvec3 normal = geometry.normals.empty() ? made_normal(i) : glm::dvec3(geometry.normals[i]);
-        if (!usable_direction(normal)) normal = made_normal(i);
-        normals[i] = frame.direction(glm::normalize(normal), rest[i].beta);
+        const RegionOptions own = options.regions.empty() ? RegionOptions{} : options.regions[i];
+        Cylinder stretch = cylinder;
+        stretch.length = own.share * cylinder.length;
+        BoundRegion region;
+        region.length = stretch.length;
+        region.folds_capacity = folds_capacity(geometry, stretch);
+        const std::optional<int> folds = own.folds ? own.folds : options.folds;
+        const bool none = options.amplitude == paper::Amplitude::none;
+        region.folds = none ? 0 : folds.value_or(sensible_folds(stretch, region.folds_capacity));
+        rest[i] = {start, region.length, region.folds};
+        start += region.length;
+        regions.push_back(region);
     }
-    return normals;
+    return regions;
 }
 
-bend::RestVector any_orthogonal(const bend::RestVector& n) {
-    const glm::dvec3 normal(n.rho, n.beta, n.z);
-    const glm::dvec3 other = std::fabs(n.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 tangent = glm::normalize(glm::cross(other, normal));
-    return {tangent.x, tangent.y, tangent.z};
+double largest_rho(std::span<const bend::RestVertex> vertices) {
+    double largest = 0;
+    for (const bend::RestVertex& vertex : vertices) largest = std::max(largest, vertex.rho);
+    return largest;
 }
 
-std::vector<bend::RestVector> rest_tangents(const Geometry& geometry, const Frame& frame,
-                                            std::span<const bend::RestVertex> rest,
-                                            std::span<const bend::RestVector> normals) {
-    std::vector<bend::RestVector> tangents(geometry.tangents.size());
-    for (std::size_t i = 0; i < tangents.size(); ++i) {
-        const glm::dvec3 tangent(geometry.tangents[i]);
-        tangents[i] = usable_direction(tangent) ? frame.direction(glm::normalize(tangent), rest[i].beta)
-                                                : any_orthogonal(normals[i]);
+bend::RegionInput region_input(const Cylinder& cylinder, const BindOptions& options, double onset,
+                               const RestRegion& rest, std::span<const bend::RestVertex> vertices) {
+    bend::RegionInput region;
+    region.length = rest.length;
+    region.vertex_count = vertices.size();
+    region.onset = rest.folds == 0 ? 0 : onset;
+    region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
+    region.rest_direction = cylinder.rest_direction;
+    region.max_angle = largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
+                                     cylinder.radius, largest_rho(vertices));
+    if (region.rest_angle > region.max_angle) {
+        throw Error(
+            "rest_angle: " + text(cylinder.rest_angle) +
+            " is beyond what a body this thick can be bent by; bind it as straight, or with fewer folds");
     }
-    return tangents;
+    region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length,
+                                      cylinder.radius, region.max_angle, options.table_rows);
+    return region;
 }
 
-std::vector<float> tangent_signs(const Geometry& geometry) {
-    std::vector<float> signs(geometry.tangents.size());
-    std::transform(geometry.tangents.begin(), geometry.tangents.end(), signs.begin(),
-                   [](const glm::vec4& tangent) { return tangent.w < 0 ? -1.0f : 1.0f; });
-    return signs;
-}
-
-double largest_rho(std::span<const bend::RestVertex> rest) {
-    const auto by_rho = [](const bend::RestVertex& a, const bend::RestVertex& b) { return a.rho < b.rho; };
-    return std::max_element(rest.begin(), rest.end(), by_rho)->rho;
+bend::Body make(const bend::BodyInput& input) {
+    std::optional<bend::Body> body = bend::Body::make(input);
+    if (!body) throw Error("cannot bind: " + std::string(bend::describe(bend::Body::check(input))));
+    return std::move(*body);
 }
 
 }  // namespace
@@ -150,37 +107,38 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
     check(cylinder);
-    if (cylinder.rest_angle != 0)
-        throw Error("rest_angle: bodies bent at rest can't be bound; give 0 or fit again");
-    const int capacity = folds_capacity(geometry, cylinder);
-    const bool none = options.amplitude == paper::Amplitude::none;
-    const int folds = none ? 0 : options.folds.value_or(sensible_folds(cylinder, capacity));
+    const double gentle = cylinder.rest_angle != 0 ? BindOptions::gentle_onset : 0;
+    const double onset = options.onset.value_or(gentle);
+    check(options, cylinder, onset);
 
-    const Frame frame(cylinder);
-    const std::vector<bend::RestVertex> vertices =
-        rest_vertices(geometry, cylinder, frame, options.profile, folds);
-    const std::vector<bend::RestVector> normals = rest_normals(geometry, frame, vertices);
-    const std::vector<bend::RestVector> tangents = rest_tangents(geometry, frame, vertices, normals);
-    const std::vector<float> signs = tangent_signs(geometry);
+    std::vector<RestRegion> places(std::max<std::size_t>(options.regions.size(), 1));
+    std::vector<BoundRegion> found = plan(geometry, cylinder, options, places);
+    RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
 
+    std::vector<bend::RegionInput> regions;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
+        regions.push_back(region_input(cylinder, options, onset, places[i], own));
+        first += mesh.counts[i];
+    }
     bend::BodyInput input;
-    input.origin = frame.origin;
-    input.axes = frame.axes;
-    input.length = cylinder.length;
+    input.origin = cylinder.origin;
+    input.axes = axes_of(cylinder);
     input.radius = cylinder.radius;
-    input.max_angle = largest_angle(options.profile, options.amplitude, folds, cylinder.length,
-                                    cylinder.radius, largest_rho(vertices));
-    input.table = make_wrinkle_table(options.profile, options.amplitude, folds, cylinder.length,
-                                     cylinder.radius, input.max_angle, options.table_rows);
-    input.vertices = vertices;
-    input.normals = normals;
-    input.tangents = tangents;
-    input.tangent_signs = signs;
-    std::optional<bend::Body> body = bend::Body::make(input);
-    if (!body) throw Error("cannot bind: " + std::string(bend::describe(bend::Body::check(input))));
-
+    input.regions = regions;
+    input.vertices = mesh.vertices;
+    input.normals = mesh.normals;
+    input.tangents = mesh.tangents;
+    input.tangent_signs = mesh.tangent_signs;
+    bend::Body body = make(input);
+    if (options.amplitude == paper::Amplitude::mesh) {
+        solve_factors(body, geometry, mesh.order, regions);
+        body = make(input);
+    }
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    return {std::move(*body), folds, capacity, taken.count()};
+    return {std::move(body), std::move(found), std::move(mesh.order),
+            cylinder,        options.profile,  taken.count()};
 }
 
 }  // namespace goffer::fit

@@ -38,6 +38,11 @@ struct CrowdJob {
     /// Empty: all; else one per instance. 0: its pose and its outputs are as they were, nothing is done for
     /// it.
     std::span<const std::uint8_t> changed = {};
+    /// Empty: all in every frame; else one per instance: n >= 1 deforms instance i in every n-th frame only,
+    /// those in which (frame + i) mod n is 0, so that the work is spread over frames; 0 is taken as 1. In
+    /// other frames its outputs stay as they are. For instances that are far away.
+    std::span<const std::uint8_t> every = {};
+    std::uint32_t frame = 0;  ///< number of the frame: read where there is an `every`
     Stores stores = Stores::automatic;
 };
 
@@ -47,9 +52,10 @@ struct CrowdFault {
     std::size_t instance = 0;         ///< index of the first instance at fault
     bool visible_count = false;       ///< `visible` is neither empty nor one per instance
     bool changed_count = false;       ///< `changed` likewise
+    bool every_count = false;         ///< `every` likewise
 
     [[nodiscard]] bool none() const noexcept {
-        return fault == JobFault::none && !visible_count && !changed_count;
+        return fault == JobFault::none && !visible_count && !changed_count && !every_count;
     }
 };
 
@@ -63,7 +69,7 @@ struct CrowdFault {
 
 /// What a run did.
 struct CrowdResult {
-    std::size_t deformed = 0;  ///< instances that were visible and changed
+    std::size_t deformed = 0;  ///< instances that were visible and changed, and had their turn
     std::size_t clamped = 0;   ///< of these, instances whose angle was beyond their body's and was clamped
 };
 

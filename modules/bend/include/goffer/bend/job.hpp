@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 /// The job: one instance of a body, deformed into the caller's memory.
@@ -34,7 +35,10 @@ struct Bounds {
 /// Inputs and outputs of one deformation. A plain value; everything it points to is the caller's.
 struct DeformJob {
     const Body* body = nullptr;  ///< must outlive the run
-    Pose pose = {};              ///< both numbers finite
+    Pose pose = {};              ///< of a body of one region; both numbers finite
+    /// One per region of the body, from base to tip, each as `pose`, which is then not read. Empty: `pose`.
+    std::span<const Pose> poses = {};
+    bool wrinkles = true;  ///< false: the bare bend, in less time, for instances too far away to show more
     /// From model space to the space of all outputs: an instance's model matrix, if vertices are wanted in
     /// world space. Any numbers up to 1e18; scale, shear and mirroring included. Costs nothing per vertex.
     glm::mat4x3 transform{1};
@@ -48,8 +52,9 @@ struct DeformJob {
 
     /// Positions at another pose, the last frame's for motion vectors. Costs as much as positions do.
     Stream3 previous_positions = {};
-    Pose previous_pose = {};            ///< both numbers finite
-    glm::mat4x3 previous_transform{1};  ///< as `transform`
+    Pose previous_pose = {};                    ///< as `pose`
+    std::span<const Pose> previous_poses = {};  ///< as `poses`
+    glm::mat4x3 previous_transform{1};          ///< as `transform`
 
     Isa isa = Isa::automatic;  ///< kernels to use
 };
@@ -82,6 +87,8 @@ enum class JobFault : std::uint8_t {
     previous_positions_count,
     previous_positions_stride,
     previous_positions_component,
+    poses_count,
+    previous_poses_count,
 };
 
 /// One line on `fault`, in static storage. Thread-safe.
@@ -93,7 +100,7 @@ enum class JobFault : std::uint8_t {
 
 /// What a run did.
 struct DeformResult {
-    bool clamped = false;  ///< the pose's angle was beyond body->max_angle() and was clamped to it
+    bool clamped = false;  ///< an angle was beyond body->max_angle(region) and was clamped to it
 };
 
 /// Deforms all vertices on the calling thread. `job` must validate. Does not allocate, lock or log.

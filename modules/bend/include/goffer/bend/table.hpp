@@ -16,8 +16,12 @@ inline constexpr std::size_t wrinkle_degree = 7;
 ///
 /// The amplitude of the column at beta is
 ///     A = sqrt(kappa T) P(T),   T = 1 + cos(beta - theta),   P(T) = sum of row[n] T^n,
-/// in model units, with the body's size and the area factor m(alpha) in it. (The squeeze is q = kappa T: its
-/// root is the square-root start of eq 7's solution; P is its smooth rest.)
+/// in model units, with the region's size and the area factor m(alpha) in it. (The squeeze is q = kappa T:
+/// its root is the square-root start of eq 7's solution; P is its smooth rest.)
+///
+/// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc (DESIGN's
+/// 2.5) and begins gently: with S and S_0 the column's scale in the pose and at rest,
+///     q = max(0, 1 - S / S_0),   q' = q^2 / (q + q0),   A = S_0 sqrt(q') P(q' / kappa).
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
 /// Rows from angle 0 to `max_angle`, at equal steps of the angle's root: row i of n is for max_angle (i / (n
@@ -32,6 +36,21 @@ struct WrinkleTable {
     /// The row at `angle`, linear between the two nearest, clamped to the table; zeros where there are no
     /// rows. Does not allocate. Thread-safe.
     [[nodiscard]] WrinkleRow at(float angle) const noexcept;
+};
+
+/// Factors on the amplitude by angle and direction (mode `mesh`: with them the bound mesh keeps its own
+/// area). Rows at angles as those of WrinkleTable; value j of a row is for direction 2 pi j / directions,
+/// from e1 to e2. A plain value; empty where all factors are 1.
+struct FactorTable {
+    static constexpr std::size_t directions = 16;
+    float max_angle = 0;  ///< angle of the last row, radians; > 0 where there are rows
+    std::vector<std::array<float, directions>> rows;  ///< none, or two and more
+
+    [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
+
+    /// The factor at `angle` >= 0 and any finite `direction`: linear between its four neighbours, clamped to
+    /// the table's angles; 1 where there are no rows. Does not allocate. Thread-safe.
+    [[nodiscard]] float at(float angle, float direction) const noexcept;
 };
 
 }  // namespace goffer::bend

@@ -6,41 +6,74 @@
 #include <goffer/fit/geometry.hpp>
 #include <goffer/paper/wrinkle.hpp>
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 /// Binds a mesh to its base cylinder: the offline step that makes a body (may allocate, may throw).
 
 namespace goffer::fit {
 
+/// A stretch of the body that bends along an arc of its own.
+struct RegionOptions {
+    double share = 1;  ///< of the body's length, > 0; the shares of all regions add up to 1 (within 1e-6)
+    std::optional<int> folds;  ///< as BindOptions::folds, of this region
+};
+
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
 struct BindOptions {
-    /// Folds k per half length, 0..max_folds. Unset: sensible_folds(). More than the mesh carries is allowed.
+    /// Folds k per half length of a region, 0..max_folds. Unset: sensible_folds() of each region. More than
+    /// the mesh carries is allowed.
     std::optional<int> folds;
     paper::Amplitude amplitude = paper::Amplitude::paper;
     paper::Profile profile = paper::Profile::damped;
     int table_rows = default_table_rows;  ///< 2..4096
+    /// From base to tip, at most bend::max_regions; none: the body is one region. Their lengths and folds are
+    /// fixed at bind; each has an angle and a direction of its own in a pose.
+    std::vector<RegionOptions> regions;
+    /// q0 (DESIGN 2.2), 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently; columns
+    /// become shorter by up to about q0 of their length for it. Unset: 0, and gentle_onset for a body that is
+    /// bent at rest, where without it the wrinkle would begin with a step.
+    std::optional<double> onset;
 
     static constexpr int max_folds = 64;
     static constexpr int default_table_rows = 256;
+    static constexpr double gentle_onset = 1e-3;
+};
+
+/// What was found of a region.
+struct BoundRegion {
+    double length = 0;       ///< of its outer line, model units
+    int folds = 0;           ///< k in use; 0: no wrinkle
+    int folds_capacity = 0;  ///< most folds that the mesh has vertices for
 };
 
 /// A body, and what was found on the way.
 struct Bound {
     bend::Body body;
-    int folds = 0;            ///< k in use; 0: no wrinkle
-    int folds_capacity = 0;   ///< most folds that the mesh has vertices for
+    std::vector<BoundRegion> regions;  ///< as many as the body's
+    /// Vertex i of the body, and so of every output stream, is vertex order[i] of the geometry: regions'
+    /// vertices follow each other. Empty where the order is the geometry's, as it is for one region.
+    std::vector<std::uint32_t> order;
+    Cylinder cylinder;  ///< the base that it was bound to
+    paper::Profile profile = paper::Profile::damped;
     double milliseconds = 0;  ///< time that bind took
+
+    [[nodiscard]] int folds(std::size_t region = 0) const { return regions[region].folds; }
+    [[nodiscard]] int folds_capacity(std::size_t region = 0) const { return regions[region].folds_capacity; }
 };
 
-/// Makes the body of `geometry` on `cylinder`. Vertex i of the body is vertex i of the geometry. Normals and
-/// tangents are carried where the geometry has them; normals are made (make_normals) where it doesn't.
-/// Vectors of no length are replaced (normals by made ones, tangents by a direction orthogonal
-/// to the normal).
+/// Makes the body of `geometry` on `cylinder`, straight or bent at rest. Vertices go to the region that they
+/// stand in, in the order that they have in the geometry (Bound::order). Normals and tangents are carried
+/// where the geometry has them; normals are made (make_normals) where it doesn't. Vectors of no length are
+/// replaced (normals by made ones, tangents by a direction orthogonal to the normal).
 ///
 /// Throws Error: what check(geometry) and check(cylinder) throw; an option out of range; a vertex of a
-/// triangle below z = 0 or above z = length by more than a thousandth of it; a cylinder bent at rest. A
-/// vertex that no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per
-/// 10,000 vertices and 10 ms for the table.
+/// triangle below z = 0 or above z = length by more than a thousandth of it; a rest angle beyond the largest
+/// usable one; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A vertex that
+/// no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per 10,000
+/// vertices and 10 ms for each region's table; Amplitude::mesh deforms the mesh some hundred times, on all
+/// processors: a tenth of a second for 10,000 vertices.
 [[nodiscard]] Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options = {});
 
 /// The wrinkle table for a base cylinder: `rows` rows from angle 0 to `max_angle` (radians, > 0), made in

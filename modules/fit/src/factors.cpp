@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "factors.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/engine/parallel.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <new>
+#include <numbers>
+#include <vector>
+
+namespace goffer::fit {
+namespace {
+
+constexpr std::size_t rows = 17;         // of a table of factors
+constexpr double most = 1.5;             // factor
+constexpr double area_tolerance = 2e-5;  // of the region's area
+constexpr int most_steps = 6;            // of Newton's method, which needs two or three
+
+/// A region's surface in one pose. The map is linear in the wrinkle's amplitude, so that the bare bend and
+/// the wrinkled one give all of them.
+struct Surface {
+    std::vector<glm::vec3> bare;
+    std::vector<glm::vec3> wrinkle;  // what the wrinkle adds
+};
+
+/// Sum of the triangles' areas, and its derivative by the factor.
+struct Area {
+    double area = 0;
+    double slope = 0;
+};
+
+Area area_of(const Surface& surface, std::span<const std::uint32_t> triangles, double factor) {
+    const auto m = static_cast<float>(factor);
+    Area sum;
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+        const glm::vec3 u1 = surface.wrinkle[b] - surface.wrinkle[a];
+        const glm::vec3 v1 = surface.wrinkle[c] - surface.wrinkle[a];
+        const glm::vec3 u = surface.bare[b] - surface.bare[a] + m * u1;
+        const glm::vec3 v = surface.bare[c] - surface.bare[a] + m * v1;
+        const glm::vec3 normal = glm::cross(u, v);
+        const float length = std::sqrt(glm::dot(normal, normal));
+        sum.area += static_cast<double>(length) / 2;
+        if (length > 0) {
+            const float slope = glm::dot(normal, glm::cross(u1, v) + glm::cross(u, v1)) / length;
+            sum.slope += static_cast<double>(slope) / 2;
+        }
+    }
+    return sum;
+}
+
+/// The factor in 0..most at which the surface has `wanted` area, or comes nearest to it.
+double solve(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted, double guess) {
+    double factor = guess;
+    double best = guess, best_error = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < most_steps; ++step) {
+        const Area at = area_of(surface, triangles, factor);
+        const double error = at.area - wanted;
+        if (std::fabs(error) < best_error) best = factor, best_error = std::fabs(error);
+        if (best_error <= area_tolerance * wanted) break;
+        // Towards 0 the area no longer depends on the factor: a step is then no more than a try.
+        const double change = at.slope > 1e-6 * wanted ? -error / at.slope : error < 0 ? 0.25 : -0.25;
+        const double next = std::clamp(factor + std::clamp(change, -0.5, 0.5), 0.0, most);
+        if (next == factor) break;
+        factor = next;
+    }
+    return best;
+}
+
+/// Triangles of which two corners or more are the region's, as vertices of the body.
+std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<const std::uint32_t> triangles,
+                                        std::span<const std::uint32_t> place) {
+    std::vector<std::uint32_t> own;
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        int corners = 0;
+        for (std::size_t i = t; i < t + 3; ++i) {
+            const std::uint32_t vertex = place.empty() ? triangles[i] : place[triangles[i]];
+            corners += vertex >= region.first && vertex < region.last ? 1 : 0;
+        }
+        if (corners < 2) continue;
+        for (std::size_t i = t; i < t + 3; ++i)
+            own.push_back(place.empty() ? triangles[i] : place[triangles[i]]);
+    }
+    return own;
+}
+
+/// Poses of a body, and what its surface is in them.
+class Poser {
+public:
+    explicit Poser(const bend::Body& body) : body_(body) {
+        for (std::size_t r = 0; r < body.region_count(); ++r) poses_.push_back(body.rest_pose(r));
+    }
+
+    /// The body at rest but for one region.
+    void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {
+        poses_[region] = pose;
+        deform(false, surface.bare);
+        deform(true, surface.wrinkle);
+        for (std::size_t i = 0; i < surface.bare.size(); ++i) surface.wrinkle[i] -= surface.bare[i];
+    }
+
+    /// The body at rest.
+    void rest(std::vector<glm::vec3>& positions) { deform(false, positions); }
+
+private:
+    void deform(bool wrinkles, std::vector<glm::vec3>& positions) {
+        positions.resize(body_.vertex_count());
+        bend::DeformJob job;
+        job.body = &body_;
+        job.poses = poses_;
+        job.wrinkles = wrinkles;
+        job.transform[3] = -glm::vec3(body_.origin());  // so that no digits go to a distance from the origin
+        job.positions = interleaved<3>(&positions[0].x, positions.size());
+        bend::run(job);
+    }
+
+    const bend::Body& body_;
+    std::vector<bend::Pose> poses_;
+};
+
+/// One direction's column of a region's table.
+void solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
+                     std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table) {
+    Poser poser(body);
+    Surface surface;
+    double factor = 1;
+    for (std::size_t row = rows - 1; row > 0; --row) {  // from where it is best determined
+        const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
+        const bend::Pose pose = {root * root * table.max_angle,
+                                 2 * std::numbers::pi_v<float> * static_cast<float>(direction) /
+                                     static_cast<float>(bend::FactorTable::directions)};
+        poser.bend(region, pose, surface);
+        factor = solve(surface, triangles, wanted, factor);
+        table.rows[row][direction] = static_cast<float>(factor);
+    }
+    table.rows[0][direction] = table.rows[1][direction];
+}
+
+bend::FactorTable factors_of(const bend::Body& body, std::size_t region,
+                             std::span<const std::uint32_t> triangles, double wanted) {
+    bend::FactorTable table;
+    table.max_angle = body.max_angle(region);
+    table.rows.resize(rows);
+    std::atomic<bool> failed = false;
+    parallel_ranges(bend::FactorTable::directions, 1, [&](std::size_t first, std::size_t last) {
+        try {
+            for (; first < last; ++first) solve_direction(body, region, first, triangles, wanted, table);
+        } catch (...) {  // no memory: nothing else throws here
+            failed = true;
+        }
+    });
+    if (failed) throw std::bad_alloc();
+    return table;
+}
+
+}  // namespace
+
+void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
+                   std::span<bend::RegionInput> regions) {
+    std::vector<std::uint32_t> place(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+    Surface at_rest;
+    Poser(body).rest(at_rest.bare);
+    at_rest.wrinkle.resize(at_rest.bare.size());
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const std::vector<std::uint32_t> triangles =
+            triangles_of(body.regions()[r], geometry.triangles, place);
+        if (regions[r].table.empty() || triangles.empty()) continue;
+        const double wanted = area_of(at_rest, triangles, 0).area;
+        regions[r].factors = factors_of(body, r, triangles, wanted);
+    }
+}
+
+}  // namespace goffer::fit

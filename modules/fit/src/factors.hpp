@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/body.hpp>
+#include <goffer/fit/geometry.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace goffer::fit {
+
+/// Amplitude mode `mesh` (DESIGN 2.2): solves each region's factors m(alpha, theta), 0 <= m <= 1.5, such that
+/// the region's own triangles keep the area that they have at rest. `body`: made from the same regions
+/// without factors; `order`: as Bound::order. Runs on all processors.
+void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
+                   std::span<bend::RegionInput> regions);
+
+}  // namespace goffer::fit

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "rest.hpp"
+
+#include "text.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace goffer::fit {
+namespace {
+
+bool usable_direction(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return std::isfinite(length) && length > 1e-12;
+}
+
+/// The vertices that no triangle uses: nobody's surface.
+class Unused {
+public:
+    explicit Unused(const Geometry& geometry) : geometry_(geometry) {}
+
+    [[nodiscard]] bool operator[](std::size_t vertex) {
+        if (used_.empty()) {
+            used_.resize(geometry_.positions.size());
+            for (const std::uint32_t i : geometry_.triangles) used_[i] = true;
+        }
+        return !used_[vertex];
+    }
+
+private:
+    const Geometry& geometry_;
+    std::vector<bool> used_;  // made when first asked for
+};
+
+/// From model space to the base's coordinates.
+class Straightening {
+public:
+    explicit Straightening(const Cylinder& cylinder)
+        : cylinder_(cylinder),
+          to_body_(glm::transpose(axes_of(cylinder))),
+          rest_{cylinder.rest_angle, cylinder.rest_direction} {}
+
+    [[nodiscard]] paper::Cylindrical vertex(const glm::vec3& position) const {
+        const glm::dvec3 local = to_body_ * (glm::dvec3(position) - cylinder_.origin);
+        return paper::to_cylindrical(local, cylinder_.length, cylinder_.radius, rest_);
+    }
+    [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const {
+        return components(
+            paper::straightened_normal(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_));
+    }
+    [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const {
+        return components(
+            paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_));
+    }
+
+private:
+    [[nodiscard]] static bend::RestVector components(const paper::CylindricalVector& v) {
+        return {v.rho, v.beta, v.z};
+    }
+
+    const Cylinder& cylinder_;
+    glm::dmat3 to_body_;
+    paper::Pose rest_;
+};
+
+std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cylinder& cylinder,
+                                             const Straightening& straightening) {
+    std::vector<paper::Cylindrical> vertices;
+    vertices.reserve(geometry.positions.size());
+    Unused unused(geometry);
+    const double slack = 1e-3 * cylinder.length;
+    for (const glm::vec3& position : geometry.positions) {
+        paper::Cylindrical at = straightening.vertex(position);
+        if (at.z < -slack || at.z > cylinder.length + slack) {
+            if (!unused[vertices.size()]) {
+                throw Error("vertex " + std::to_string(vertices.size()) + " lies at z = " + text(at.z) +
+                            ", outside the base cylinder's 0.." + text(cylinder.length) +
+                            "; fit the cylinder to this mesh, or lengthen it");
+            }
+            at.z = std::clamp(at.z, 0.0, cylinder.length);
+        }
+        vertices.push_back(at);
+    }
+    return vertices;
+}
+
+/// The geometry's vertices region by region.
+std::vector<std::uint32_t> region_order(std::span<const RestRegion> regions,
+                                        std::span<const paper::Cylindrical> vertices,
+                                        std::vector<std::size_t>& counts) {
+    std::vector<std::size_t> region(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        region[i] = region_at(regions, vertices[i].z);
+        ++counts[region[i]];
+    }
+    std::vector<std::uint32_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return region[i]; });
+    return order;
+}
+
+bend::RestVector any_orthogonal(const bend::RestVector& n) {
+    const glm::dvec3 normal(n.rho, n.beta, n.z);
+    const glm::dvec3 other = std::fabs(n.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 tangent = glm::normalize(glm::cross(other, normal));
+    return {tangent.x, tangent.y, tangent.z};
+}
+
+/// Normals of a geometry: its own, or made where it has none or one of no length.
+class Normals {
+public:
+    explicit Normals(const Geometry& geometry) : geometry_(geometry) {}
+
+    [[nodiscard]] glm::dvec3 operator[](std::size_t vertex) {
+        if (!geometry_.normals.empty()) {
+            const glm::dvec3 own(geometry_.normals[vertex]);
+            if (usable_direction(own)) return own;
+        }
+        if (made_.empty()) made_ = make_normals(geometry_.positions, geometry_.triangles);
+        return made_[vertex];
+    }
+
+private:
+    const Geometry& geometry_;
+    std::vector<glm::vec3> made_;  // when first asked for
+};
+
+}  // namespace
+
+glm::dmat3 axes_of(const Cylinder& cylinder) {
+    glm::dmat3 axes(1);
+    axes[2] = glm::normalize(cylinder.axis);
+    axes[0] = glm::normalize(cylinder.zero - glm::dot(cylinder.zero, axes[2]) * axes[2]);
+    axes[1] = glm::cross(axes[2], axes[0]);
+    return axes;
+}
+
+std::size_t region_at(std::span<const RestRegion> regions, double z) {
+    std::size_t region = regions.size() - 1;
+    while (region > 0 && z < regions[region].start) --region;
+    return region;
+}
+
+bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& region, double radius,
+                             paper::Profile profile) {
+    const double z = at.z - region.start;
+    bend::RestVertex rest{at.beta, z, at.rho, 0, 0};
+    if (region.folds == 0) return rest;
+    const double u = std::min(std::fabs(2 * z / region.length - 1), 1.0);
+    const double weight = paper::depth_weight(at.rho, radius);
+    const double weight_by_rho = at.rho > 1e-9 * radius ? weight / at.rho : 2 / radius;
+    rest.wrinkle = weight_by_rho * paper::shape(profile, region.folds, u);
+    rest.slope = weight * paper::shape_slope_z(profile, region.folds, region.length, z);
+    return rest;
+}
+
+RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
+                   std::span<const RestRegion> regions) {
+    const Straightening straightening(cylinder);
+    const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening);
+    RestMesh mesh;
+    mesh.counts.resize(regions.size());
+    const std::vector<std::uint32_t> order = region_order(regions, at, mesh.counts);
+    Normals normals(geometry);
+    for (const std::uint32_t i : order) {
+        const RestRegion& region = regions[region_at(regions, at[i].z)];
+        mesh.vertices.push_back(rest_vertex(at[i], region, cylinder.radius, profile));
+        mesh.normals.push_back(straightening.normal(glm::normalize(normals[i]), at[i]));
+        if (geometry.tangents.empty()) continue;
+        const glm::dvec3 tangent(geometry.tangents[i]);
+        mesh.tangents.push_back(usable_direction(tangent)
+                                    ? straightening.tangent(glm::normalize(tangent), at[i])
+                                    : any_orthogonal(mesh.normals.back()));
+        mesh.tangent_signs.push_back(geometry.tangents[i].w < 0 ? -1.0f : 1.0f);
+    }
+    if (!std::ranges::is_sorted(order)) mesh.order = order;
+    return mesh;
+}
+
+}  // namespace goffer::fit

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/body.hpp>
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/fit/geometry.hpp>
+#include <goffer/paper/closed_form.hpp>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// A mesh in the coordinates of its base cylinder.
+
+namespace goffer::fit {
+
+/// A region as bind plans it.
+struct RestRegion {
+    double start = 0;  ///< z where it begins
+    double length = 0;
+    int folds = 0;
+};
+
+/// The base's axes in model space: columns e1, e2, e3.
+[[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
+
+/// The vertex at `at`, which lies in `region`: z from where that begins, with its wrinkle.
+[[nodiscard]] bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& region,
+                                           double radius, paper::Profile profile);
+
+/// The region that holds height z; a joint belongs to the region that begins there.
+[[nodiscard]] std::size_t region_at(std::span<const RestRegion> regions, double z);
+
+/// A mesh's vertices at rest, straightened, region by region.
+struct RestMesh {
+    std::vector<bend::RestVertex> vertices;  ///< z from where the vertex's region begins
+    std::vector<bend::RestVector> normals;
+    std::vector<bend::RestVector> tangents;  ///< none, or one per vertex
+    std::vector<float> tangent_signs;
+    std::vector<std::size_t> counts;   ///< vertices in each region
+    std::vector<std::uint32_t> order;  ///< vertex i is the geometry's order[i]; empty: i
+};
+
+/// Throws Error where a vertex of a triangle lies beyond the ends.
+[[nodiscard]] RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
+                                 std::span<const RestRegion> regions);
+
+}  // namespace goffer::fit

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "rest.hpp"
+#include "text.hpp"
+
+#include <goffer/fit/sockets.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace goffer::fit {
+namespace {
+
+bend::Socket placed(const Bound& bound, const paper::Cylindrical& at) {
+    std::vector<RestRegion> regions;
+    double start = 0;
+    for (const BoundRegion& region : bound.regions) {
+        regions.push_back({start, region.length, region.folds});
+        start += region.length;
+    }
+    bend::Socket socket;
+    socket.region = region_at(regions, at.z);
+    socket.vertex = rest_vertex(at, regions[socket.region], bound.cylinder.radius, bound.profile);
+    return socket;
+}
+
+/// The point of a triangle nearest to `p`: its foot on the plane where that lies inside, else the nearest
+/// point of its edges.
+glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3]) {
+    const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double area = glm::dot(normal, normal);
+    if (area > 0) {
+        const glm::dvec3 foot = p - glm::dot(p - corner[0], normal) / area * normal;
+        bool inside = true;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
+            inside = inside && glm::dot(glm::cross(edge, foot - corner[i]), normal) >= 0;
+        }
+        if (inside) return foot;
+    }
+    glm::dvec3 nearest = corner[0];
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
+        const double squared = glm::dot(edge, edge);
+        const double t = squared > 0 ? std::clamp(glm::dot(p - corner[i], edge) / squared, 0.0, 1.0) : 0;
+        const glm::dvec3 point = corner[i] + t * edge;
+        if (glm::distance(p, point) < glm::distance(p, nearest)) nearest = point;
+    }
+    return nearest;
+}
+
+bend::RestVector rest_vector(const paper::CylindricalVector& v) {
+    return {v.rho, v.beta, v.z};
+}
+
+}  // namespace
+
+bend::Socket socket_at(const Bound& bound, double z, double beta, double rho) {
+    const double length = bound.cylinder.length;
+    if (!(z >= 0 && z <= length)) throw Error("socket: z = " + text(z) + " is outside 0.." + text(length));
+    if (!(rho >= 0) || !std::isfinite(rho)) throw Error("socket: rho = " + text(rho) + " is not a distance");
+    if (!std::isfinite(beta)) throw Error("socket: beta = " + text(beta) + " is not an angle");
+    return placed(bound, {beta, z, rho});
+}
+
+bend::Socket socket_near(const Bound& bound, const Geometry& geometry, const glm::dvec3& point) {
+    check(geometry);
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+        throw Error("socket: the point is not finite");
+    glm::dvec3 nearest(0), normal(0);
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
+        glm::dvec3 corner[3];
+        for (std::size_t i = 0; i < 3; ++i) corner[i] = geometry.positions[geometry.triangles[t + i]];
+        const glm::dvec3 own = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const glm::dvec3 on = nearest_on_triangle(point, corner);
+        if (!(glm::distance(on, point) < distance) || !(glm::length(own) > 0)) continue;
+        distance = glm::distance(on, point);
+        nearest = on;
+        normal = glm::normalize(own);
+    }
+    const Cylinder& base = bound.cylinder;
+    const glm::dmat3 to_body = glm::transpose(axes_of(base));
+    const paper::Pose rest{base.rest_angle, base.rest_direction};
+    paper::Cylindrical at =
+        paper::to_cylindrical(to_body * (nearest - base.origin), base.length, base.radius, rest);
+    at.z = std::clamp(at.z, 0.0, base.length);
+    bend::Socket socket = placed(bound, at);
+    const paper::CylindricalVector n =
+        paper::straightened_normal(to_body * normal, at, base.length, base.radius, rest);
+    socket.normal = rest_vector(n);
+    // Towards the tip, in the plane; on a cap, whose plane has no such direction, away from the axis.
+    const glm::dvec3 across(n.rho, n.beta, n.z);
+    const glm::dvec3 wished = std::fabs(n.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 tangent = glm::normalize(wished - glm::dot(wished, across) * across);
+    socket.tangent = {tangent.x, tangent.y, tangent.z};
+    return socket;
+}
+
+}  // namespace goffer::fit

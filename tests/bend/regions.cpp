@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+#include "support/accuracy.hpp"
+#include "support/chains.hpp"
+
+#include <goffer/bend/bounds.hpp>
+#include <goffer/bend/crowd.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+/// Bodies of several regions, and bodies bent at rest: P1, P2, P4, P5, P8, P9 and P10 of them.
+
+namespace goffer::test {
+namespace {
+
+fit::BindOptions random_regions(Random& random, std::size_t count) {
+    fit::BindOptions options;
+    options.profile = random() % 2 == 0 ? paper::Profile::damped : paper::Profile::smooth;
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        options.regions.push_back({uniform(random, 0.5, 2), static_cast<int>(random() % 5)});
+        sum += options.regions.back().share;
+    }
+    for (fit::RegionOptions& region : options.regions) region.share /= sum;
+    return options;
+}
+
+/// Within the regions' limits, and within what a chain of arcs can be bent by before float's error has grown
+/// along it.
+std::vector<bend::Pose> random_poses(Random& random, const bend::Body& body) {
+    std::vector<bend::Pose> poses;
+    for (const bend::Region& region : body.regions()) {
+        const double limit = std::min(static_cast<double>(region.max_angle) * (1 - 1e-6), 3.0);
+        const double angle = random() % 6 == 0 ? 0 : uniform(random, 0, limit);
+        poses.push_back({static_cast<float>(random() % 4 == 0 ? -angle : angle),
+                         static_cast<float>(uniform(random, -6, 6))});
+    }
+    return poses;
+}
+
+bend::DeformJob make_job(const bend::Body& body, std::span<const bend::Pose> poses, Isa isa, Output& out) {
+    bend::DeformJob job = test::make_job(body, bend::Pose{}, isa, out);
+    job.poses = poses;
+    return job;
+}
+
+std::vector<bend::Pose> rest_poses(const bend::Body& body) {
+    std::vector<bend::Pose> poses;
+    for (const bend::Region& region : body.regions()) poses.push_back(region.rest);
+    return poses;
+}
+
+/// A body with several regions or one, bent at rest or not.
+struct Case {
+    Subject subject;
+    fit::BindOptions options;
+    fit::Bound bound;
+};
+
+Case random_case(Random& random, std::size_t regions, bool bent) {
+    const double slenderness = uniform(random, 8, 30);
+    Subject subject = random_subject(random, slenderness, std::pow(10, uniform(random, -3, 3)));
+    const fit::BindOptions options = random_regions(random, regions);
+    // Halfway to where the least wrinkled body would fold through itself.
+    if (bent)
+        subject = bent_at_rest(subject, uniform(random, 0.1, 0.2 * slenderness), uniform(random, -3, 3));
+    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    return {std::move(subject), options, std::move(bound)};
+}
+
+/// Every instruction set against the reference, in random poses.
+Worst worst_of(Random& random, const Case& one, double position, double direction) {
+    Worst worst;
+    const std::size_t count = one.subject.positions.size();
+    Output out(count);
+    for (int k = 0; k < 4; ++k) {
+        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+        const Expected expected(ChainReference(one.subject, one.options, one.bound, poses), count);
+        for (const Isa isa : isas_here()) {
+            CAPTURE(name(isa));
+            const bend::DeformJob job = make_job(one.bound.body, poses, isa, out);
+            REQUIRE(bend::validate(job) == bend::JobFault::none);
+            CHECK_FALSE(bend::run(job).clamped);
+            const Worst here(expected, out, one.subject.cylinder.length);
+            CHECK(here.position <= position);
+            CHECK(here.normal <= direction);
+            CHECK(here.tangent <= direction);
+            CHECK(here.unit <= 1e-6);
+            worst.add(here);
+        }
+    }
+    return worst;
+}
+
+void check_rest(const Case& one) {
+    const std::size_t count = one.subject.positions.size();
+    Output out(count);
+    const std::vector<bend::Pose> poses = rest_poses(one.bound.body);
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        bend::run(make_job(one.bound.body, poses, isa, out));
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t vertex = one.bound.order.empty() ? i : one.bound.order[i];
+            const glm::dvec3 rest(one.subject.positions[vertex]);
+            REQUIRE(glm::length(out.position(i) - rest) <= 1e-6 * one.subject.cylinder.length);
+            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.subject.normals[vertex])) < 1e-3);
+            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.subject.tangents[vertex])) < 1e-3);
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("P1, P2, P4: regions agree with the double chain") {
+    Random random(61);
+    Worst worst;
+    for (int trial = 0; trial < 16; ++trial) {
+        const std::size_t regions = 2 + random() % 7;
+        CAPTURE(trial);
+        CAPTURE(regions);
+        const Case one = random_case(random, regions, false);
+        check_rest(one);
+        worst.add(worst_of(random, one, 5e-6, 0.01));
+    }
+    MESSAGE("position ", worst.position, " L, normal ", worst.normal, " deg, tangent ", worst.tangent,
+            " deg");
+}
+
+TEST_CASE("P1, P2, P4: bodies bent at rest agree with the double closed form") {
+    Random random(62);
+    Worst worst;
+    for (int trial = 0; trial < 16; ++trial) {
+        CAPTURE(trial);
+        const Case one = random_case(random, 1 + random() % 3, true);
+        check_rest(one);
+        worst.add(worst_of(random, one, 5e-6, 0.05));
+    }
+    MESSAGE("position ", worst.position, " L, normal ", worst.normal, " deg, tangent ", worst.tangent,
+            " deg");
+}
+
+TEST_CASE("an onset agrees with the double closed form") {
+    Random random(63);
+    for (int trial = 0; trial < 6; ++trial) {
+        const Subject subject = random_subject(random, uniform(random, 8, 30), 1);
+        fit::BindOptions options;
+        options.folds = 1 + static_cast<int>(random() % 6);
+        options.onset = std::pow(10, uniform(random, -4, -1));
+        CAPTURE(*options.onset);
+        Case one{subject, options, fit::bind(subject.geometry(), subject.cylinder, options)};
+        check_rest(one);
+        worst_of(random, one, 5e-6, 0.05);
+    }
+}
+
+TEST_CASE("P9: two regions of the same curvature and direction are one of the summed length") {
+    Random random(64);
+    const Subject subject = random_subject(random, 12, 1);
+    fit::BindOptions one, two;
+    one.folds = two.folds = 0;
+    two.regions = {{0.37, {}}, {0.63, {}}};
+    const fit::Bound whole = fit::bind(subject.geometry(), subject.cylinder, one);
+    const fit::Bound parts = fit::bind(subject.geometry(), subject.cylinder, two);
+    const std::size_t count = subject.positions.size();
+    Output a(count), b(count);
+    for (const Isa isa : isas_here()) {
+        for (const float angle : {0.01f, 1.0f, 3.0f}) {
+            const bend::Pose pose{angle, 0.7f};
+            const bend::Pose poses[] = {{0.37f * angle, 0.7f}, {0.63f * angle, 0.7f}};
+            bend::run(test::make_job(whole.body, pose, isa, a));
+            bend::run(make_job(parts.body, poses, isa, b));
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t vertex = parts.order[i];
+                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 5e-6);
+                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 0.01);
+            }
+        }
+    }
+}
+
+TEST_CASE("regions meet: positions, and the tangent planes of the bare bend") {
+    // Each vertex twice: as the end of one region, and as the beginning of the next.
+    Random random(65);
+    const double length = 0.5, radius = 0.1;
+    const bend::WrinkleTable table =
+        fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 3, length, radius, 2);
+    constexpr std::size_t around = 32;
+    std::vector<bend::RestVertex> vertices;
+    for (const double z : {length, 0.0}) {
+        for (std::size_t i = 0; i < around; ++i) {
+            const double beta = 2 * std::numbers::pi * static_cast<double>(i) / around;
+            const double slope = paper::shape_slope_z(paper::Profile::damped, 3, length, z);
+            vertices.push_back({beta, z, radius, 0, slope});  // g is 0 at both ends
+        }
+    }
+    const std::vector<bend::RestVector> normals(vertices.size(), {1, 0, 0});
+    const bend::RegionInput regions[] = {
+        {.length = length, .max_angle = 2, .table = table, .vertex_count = around},
+        {.length = length, .max_angle = 2, .table = table, .vertex_count = around}};
+    bend::BodyInput input;
+    input.radius = radius;
+    input.regions = regions;
+    input.vertices = vertices;
+    input.normals = normals;
+    const std::optional<bend::Body> body = bend::Body::make(input);
+    REQUIRE(body);
+    Output out(vertices.size());
+    for (const Isa isa : isas_here()) {
+        for (int trial = 0; trial < 50; ++trial) {
+            const std::vector<bend::Pose> poses = random_poses(random, *body);
+            bend::DeformJob job = make_job(*body, poses, isa, out);
+            for (const bool wrinkles : {true, false}) {
+                job.wrinkles = wrinkles;
+                bend::run(job);
+                for (std::size_t i = 0; i < around; ++i) {
+                    REQUIRE(glm::length(out.position(i) - out.position(around + i)) < 1e-6);
+                    if (!wrinkles) REQUIRE(angle_between(out.normal(i), out.normal(around + i)) < 0.01);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("P8: turning all directions and the body's vertices turns the result") {
+    Random random(66);
+    const double turn = 0.9;
+    Subject subject = random_subject(random, 15, 1);
+    const fit::BindOptions options = random_regions(random, 4);
+    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    Subject turned = subject;  // the same mesh, told of in a frame turned about the axis
+    const glm::dvec3 e2 = glm::cross(subject.cylinder.axis, subject.cylinder.zero);
+    turned.cylinder.zero = std::cos(turn) * subject.cylinder.zero + std::sin(turn) * e2;
+    const fit::Bound other = fit::bind(turned.geometry(), turned.cylinder, options);
+    const std::size_t count = subject.positions.size();
+    Output a(count), b(count);
+    for (const Isa isa : isas_here()) {
+        std::vector<bend::Pose> poses = random_poses(random, bound.body);
+        bend::run(make_job(bound.body, poses, isa, a));
+        for (bend::Pose& pose : poses) pose.direction -= static_cast<float>(turn);
+        bend::run(make_job(other.body, poses, isa, b));
+        for (std::size_t i = 0; i < count; ++i) REQUIRE(glm::length(a.position(i) - b.position(i)) < 5e-6);
+    }
+}
+
+TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
+    Random random(67);
+    for (const bool bent : {false, true}) {
+        const Case one = random_case(random, 5, bent);
+        const std::size_t count = one.subject.positions.size();
+        Output whole(count), parts(count);
+        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+        for (const Isa isa : isas_here()) {
+            const auto same = [&] {
+                for (std::size_t c = 0; c < 10; ++c)
+                    if (!std::ranges::equal(whole.columns[c], parts.columns[c])) return false;
+                return true;
+            };
+            bend::run(make_job(one.bound.body, poses, isa, whole));
+            bend::DeformJob job = make_job(one.bound.body, poses, isa, parts);
+            for (std::size_t first = 0; first < count;) {
+                const std::size_t last = std::min(count, first + 1 + random() % 200);
+                bend::run_range(job, first, last);
+                first = last;
+            }
+            CHECK(same());
+            for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
+                parts = Output(count);
+                job = make_job(one.bound.body, poses, isa, parts);
+                bend::run_parallel(bend::CrowdJob{.instances = {&job, 1}, .stores = stores});
+                CHECK(same());
+                parts = Output(count);
+                job = make_job(one.bound.body, poses, isa, parts);
+                for (std::size_t piece = 0; piece < 3; ++piece)
+                    bend::run_piece(bend::CrowdJob{.instances = {&job, 1}, .stores = stores}, piece, 3);
+                CHECK(same());
+            }
+        }
+    }
+}
+
+TEST_CASE("streams that have no kernel of their own have the bits of those that have") {
+    Random random(68);
+    for (const bool bent : {false, true}) {
+        const Case one = random_case(random, 2, bent);
+        const std::size_t count = one.subject.positions.size();
+        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+        for (const Isa isa : isas_here()) {
+            for (const bool wrinkles : {true, false}) {
+                Output all(count);
+                bend::DeformJob job = make_job(one.bound.body, poses, isa, all);
+                job.wrinkles = wrinkles;
+                bend::run(job);
+                for (unsigned streams = 1; streams < 7; ++streams) {
+                    Output some(count);
+                    job = make_job(one.bound.body, poses, isa, some);
+                    job.wrinkles = wrinkles;
+                    if ((streams & 1) == 0) job.positions = {};
+                    if ((streams & 2) == 0) job.normals = {};
+                    if ((streams & 4) == 0) job.tangents = {};
+                    bend::run(job);
+                    for (std::size_t c = 0; c < 10; ++c) {
+                        const bool wanted = ((streams >> std::min<std::size_t>(c / 3, 2)) & 1) != 0;
+                        if (wanted) REQUIRE(std::ranges::equal(some.columns[c], all.columns[c]));
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("without wrinkles a body bends as one that has no folds") {
+    Random random(69);
+    const Subject subject = random_subject(random, 12, 1);
+    fit::BindOptions none, some;
+    none.folds = 0;
+    some.folds = 4;
+    const fit::Bound folded = fit::bind(subject.geometry(), subject.cylinder, some);
+    const fit::Bound bare = fit::bind(subject.geometry(), subject.cylinder, none);
+    Output a(subject.positions.size()), b(subject.positions.size());
+    bend::DeformJob job = test::make_job(folded.body, {1.3f, 2.0f}, Isa::automatic, a);
+    job.wrinkles = false;
+    bend::run(job);
+    bend::run(test::make_job(bare.body, {1.3f, 2.0f}, Isa::automatic, b));
+    for (std::size_t c = 0; c < 10; ++c) REQUIRE(std::ranges::equal(a.columns[c], b.columns[c]));
+    job.wrinkles = true;
+    bend::run(job);
+    CHECK_FALSE(std::ranges::equal(a.columns[0], b.columns[0]));
+}
+
+TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") {
+    Random random(70);
+    for (int trial = 0; trial < 40; ++trial) {
+        const Case one = random_case(random, 1 + random() % 6, trial % 2 == 0);
+        const std::size_t count = one.subject.positions.size();
+        Output out(count);
+        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+        const bend::DeformJob job = make_job(one.bound.body, poses, Isa::automatic, out);
+        bend::run(job);
+        const bend::Bounds box = bend::bounds(job);
+        const bend::Bounds same = bend::bounds(one.bound.body, poses);
+        CHECK(box.low == same.low);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 p(out.position(i));
+            REQUIRE(glm::all(glm::lessThanEqual(box.low, p)));
+            REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
+        }
+    }
+}
+
+TEST_CASE("P7: validate names the poses at fault") {
+    Random random(71);
+    const Case one = random_case(random, 3, false);
+    Output out(one.subject.positions.size());
+    const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+    bend::DeformJob job = make_job(one.bound.body, poses, Isa::automatic, out);
+    CHECK(bend::validate(job) == bend::JobFault::none);
+    job.poses = std::span(poses).first(2);
+    CHECK(bend::validate(job) == bend::JobFault::poses_count);
+    job.poses = {};
+    CHECK(bend::validate(job) == bend::JobFault::poses_count);
+    std::vector<bend::Pose> bad = poses;
+    bad[2].angle = std::numeric_limits<float>::quiet_NaN();
+    job.poses = bad;
+    CHECK(bend::validate(job) == bend::JobFault::pose_angle);
+    bad = poses;
+    bad[1].direction = std::numeric_limits<float>::infinity();
+    CHECK(bend::validate(job) == bend::JobFault::pose_direction);
+    job.poses = poses;
+    job.previous_positions = job.positions;
+    CHECK(bend::validate(job) == bend::JobFault::previous_poses_count);
+    job.previous_poses = poses;
+    CHECK(bend::validate(job) == bend::JobFault::none);
+}
+
+TEST_CASE("a chain is clamped where any region is") {
+    Random random(72);
+    const Case one = random_case(random, 3, false);
+    Output out(one.subject.positions.size());
+    std::vector<bend::Pose> poses(3);
+    CHECK_FALSE(bend::run(make_job(one.bound.body, poses, Isa::automatic, out)).clamped);
+    poses[1].angle = 1.01f * one.bound.body.max_angle(1);
+    CHECK(bend::run(make_job(one.bound.body, poses, Isa::automatic, out)).clamped);
+}
+
+}  // namespace goffer::test
