@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "centre_line.hpp"
+#include "instance.hpp"
+
+#include <goffer/bend/capsules.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::bend {
+namespace {
+
+/// How far vertices between two heights (of z / L - 1/2) lie from the centre line at most.
+float widest(const Bands& bands, float amplitude, float from, float to) noexcept {
+    const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
+    float radius = 0;
+    for (std::size_t j = 0; j < Bands::count; ++j) {
+        // A band's width beyond both ends: bands are told apart in float.
+        const float low = bands.lowest + (static_cast<float>(j) - 1) * height;
+        const bool apart = low > to || low + 3 * height < from;
+        if (apart || bands.rho[j + 1] < 0) continue;
+        radius = std::max({radius, bands.rho[j + 1] + amplitude * bands.lift[j + 1],
+                           amplitude * bands.dip[j + 1] - bands.rho[j + 1]});
+    }
+    return radius;
+}
+
+/// The largest factor that the linear part of `transform` stretches a vector by, or a little more: the root
+/// of the largest sum of a row of the matrix times its transpose.
+float largest_scale(const glm::mat4x3& transform) noexcept {
+    float largest = 0;
+    for (int i = 0; i < 3; ++i) {
+        float sum = 0;
+        for (int j = 0; j < 3; ++j) {
+            float product = 0;
+            for (int row = 0; row < 3; ++row) product += transform[i][row] * transform[j][row];
+            sum += std::fabs(product);
+        }
+        largest = std::max(largest, sum);
+    }
+    return std::sqrt(largest);
+}
+
+glm::vec3 placed(const Coefficients& k, const CentreLine& line, int i) noexcept {
+    glm::vec3 point;
+    for (int row = 0; row < 3; ++row)
+        point[row] = k.offset[row] + k.matrix[row] * line.x[i] + k.matrix[8 + row] * line.z[i];
+    return point;
+}
+
+void region_capsules(const Region& region, const Coefficients& k, float scale, std::span<Capsule> result) {
+    constexpr float margin = 1.00001f;  // for rounding
+    const Bands& bands = region.bands;
+    const Four deepest = amplitudes(k);
+    const float count = static_cast<float>(result.size());
+    const float step = (bands.highest - bands.lowest) / count;
+    const float turn = k.curvature * region.length * step;
+    // Of an arc about a point, which turns by no more than half.
+    const float arc = k.one_minus_kappa * region.length * step;
+    const float sagitta = turn < 3 ? arc * turn / 8 : arc;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const float from = bands.lowest + step * static_cast<float>(i);
+        const CentreLine line = centre_line(k, Four{from, from + step, from, from});
+        const float radius =
+            region.first == region.last
+                ? 0
+                : scale * margin * (widest(bands, deepest[sectors - 1], from, from + step) + sagitta);
+        result[i] = {placed(k, line, 0), placed(k, line, 1), radius};
+    }
+}
+
+}  // namespace
+
+void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept {
+    const Posed posed = {job.body, poses_of(job), &job.transform, job.wrinkles};
+    const float scale = largest_scale(job.transform);
+    const std::span<const Region> regions = job.body->regions();
+    Coefficients k;
+    Joint from = job.body->frame().base, to;
+    for (std::size_t r = 0; r < regions.size(); ++r, from = to) {
+        prepare_region(posed, r, from, k, to);
+        region_capsules(regions[r], k, scale, result.subspan(r * pieces, pieces));
+    }
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/sockets.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace goffer::bend {
+namespace {
+
+/// A region's input back from the body that it was made into, for `count` vertices of another.
+RegionInput input_of(const Region& region, std::size_t count) {
+    RegionInput input;
+    input.length = static_cast<double>(region.length);
+    input.max_angle = static_cast<double>(region.max_angle);
+    input.rest_angle = static_cast<double>(region.rest.angle);
+    input.rest_direction = static_cast<double>(region.rest.direction);
+    input.onset = static_cast<double>(region.onset);
+    input.table = region.table;
+    input.factors = region.factors;
+    input.vertex_count = count;
+    return input;
+}
+
+}  // namespace
+
+std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> sockets) {
+    std::vector<std::size_t> place(sockets.size());
+    std::iota(place.begin(), place.end(), std::size_t{0});
+    std::ranges::stable_sort(place, {}, [&](std::size_t i) { return sockets[i].region; });
+    std::vector<std::size_t> counts(body.region_count());
+    std::vector<RestVertex> vertices;
+    std::vector<RestVector> normals, tangents;
+    for (const std::size_t i : place) {
+        if (sockets[i].region >= counts.size()) return std::nullopt;
+        ++counts[sockets[i].region];
+        vertices.push_back(sockets[i].vertex);
+        normals.push_back(sockets[i].normal);
+        tangents.push_back(sockets[i].tangent);
+    }
+    std::vector<RegionInput> regions;
+    for (std::size_t r = 0; r < counts.size(); ++r) regions.push_back(input_of(body.regions()[r], counts[r]));
+    const std::vector<float> signs(sockets.size(), 1.0f);
+    BodyInput input;
+    input.origin = body.origin();
+    input.axes = body.axes();
+    input.radius = body.radius();
+    input.regions = regions;
+    input.vertices = vertices;
+    input.normals = normals;
+    input.tangents = tangents;
+    input.tangent_signs = signs;
+    std::optional<Body> made = Body::make(input);
+    if (!made) return std::nullopt;
+    Sockets result(std::move(*made));
+    result.place_ = std::move(place);
+    return result;
+}
+
+}  // namespace goffer::bend

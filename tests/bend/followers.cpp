@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "support/chains.hpp"
+
+#include <goffer/bend/capsules.hpp>
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/path.hpp>
+#include <goffer/bend/sockets.hpp>
+#include <goffer/fit/sockets.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+/// What follows a body without its mesh: sockets, capsules; poses along a path; turns of a crowd.
+
+namespace goffer::test {
+namespace {
+
+/// A body of regions, bent at rest or not, and poses of it.
+struct Chain {
+    Subject subject;
+    fit::Bound bound;
+    std::vector<bend::Pose> poses;
+};
+
+Chain random_chain(Random& random, std::size_t regions, bool bent) {
+    Subject subject = random_subject(random, uniform(random, 10, 20), 1);
+    if (bent) subject = bent_at_rest(subject, uniform(random, 0.2, 1.5), uniform(random, -3, 3));
+    fit::BindOptions options;
+    options.folds = 3;
+    for (std::size_t i = 0; i < regions; ++i)
+        options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
+    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    std::vector<bend::Pose> poses;
+    for (const bend::Region& region : bound.body.regions()) {
+        poses.push_back({static_cast<float>(uniform(random, 0, 0.9 * static_cast<double>(region.max_angle))),
+                         static_cast<float>(uniform(random, -3, 3))});
+    }
+    return {std::move(subject), std::move(bound), std::move(poses)};
+}
+
+std::uint32_t place_of(const Chain& chain, std::size_t vertex) {
+    return chain.bound.order.empty() ? static_cast<std::uint32_t>(vertex) : chain.bound.order[vertex];
+}
+
+double distance(const glm::dvec3& p, const bend::Capsule& capsule) {
+    const glm::dvec3 a(capsule.from), step = glm::dvec3(capsule.to) - a;
+    const double squared = glm::dot(step, step);
+    const double t = squared > 0 ? std::clamp(glm::dot(p - a, step) / squared, 0.0, 1.0) : 0;
+    return glm::distance(p, a + t * step);
+}
+
+}  // namespace
+
+TEST_CASE("a socket goes where the vertex at its place goes") {
+    Random random(81);
+    for (int trial = 0; trial < 10; ++trial) {
+        const Chain chain = random_chain(random, 1 + random() % 4, trial % 2 == 0);
+        const Subject& s = chain.subject;
+        const std::size_t count = s.positions.size();
+        const glm::dmat3 axes(s.cylinder.zero, glm::cross(s.cylinder.axis, s.cylinder.zero), s.cylinder.axis);
+        std::vector<bend::Socket> sockets;
+        std::vector<std::size_t> vertices;
+        for (int i = 0; i < 100; ++i) {  // in any order of the regions
+            const std::size_t vertex = random() % count;
+            const paper::Cylindrical at = paper::to_cylindrical(
+                glm::transpose(axes) * (glm::dvec3(s.positions[place_of(chain, vertex)]) - s.cylinder.origin),
+                s.cylinder.length, s.cylinder.radius, {s.cylinder.rest_angle, s.cylinder.rest_direction});
+            sockets.push_back(
+                fit::socket_at(chain.bound, std::clamp(at.z, 0.0, s.cylinder.length), at.beta, at.rho));
+            vertices.push_back(vertex);
+        }
+        const std::optional<bend::Sockets> made = bend::Sockets::make(chain.bound.body, sockets);
+        REQUIRE(made);
+        REQUIRE(made->count() == sockets.size());
+        const glm::mat4x3 transform = random_transform(random, 1);
+        double size = 0;
+        for (int c = 0; c < 3; ++c) size = std::max(size, static_cast<double>(glm::length(transform[c])));
+        Output out(count);
+        bend::DeformJob job = make_job(chain.bound.body, {}, Isa::automatic, out);
+        job.poses = chain.poses;
+        job.transform = transform;
+        bend::run(job);
+        std::vector<bend::SocketFrame> frames(sockets.size()), same(sockets.size());
+        made->frames(job, frames);
+        made->frames(chain.poses, same, transform);
+        for (std::size_t i = 0; i < sockets.size(); ++i) {
+            REQUIRE(glm::length(glm::dvec3(frames[i].position) - out.position(vertices[i])) < 2e-6 * size);
+            REQUIRE(frames[i].position == same[i].position);
+            const glm::dmat3 a(frames[i].axes);
+            const glm::dmat3 unit = glm::transpose(a) * a;
+            for (int c = 0; c < 3; ++c)
+                for (int r = 0; r < 3; ++r) REQUIRE(std::fabs(unit[c][r] - (c == r)) < 1e-5);
+            REQUIRE(glm::determinant(a) > 0.99);
+        }
+    }
+}
+
+TEST_CASE("the socket nearest to a point lies on the surface there, its axis along the normal") {
+    Random random(82);
+    for (const bool bent : {false, true}) {
+        const Chain chain = random_chain(random, 2, bent);
+        const Subject& s = chain.subject;
+        for (int trial = 0; trial < 20; ++trial) {
+            // Off a triangle's middle, along its normal.
+            const std::size_t t = random() % (s.triangles.size() / 3) * 3;
+            glm::dvec3 corner[3];
+            for (std::size_t i = 0; i < 3; ++i) corner[i] = s.positions[s.triangles[t + i]];
+            const glm::dvec3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
+            const glm::dvec3 normal =
+                glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+            const bend::Socket socket = fit::socket_near(chain.bound, s.geometry(), middle + 1e-5 * normal);
+            const std::optional<bend::Sockets> made = bend::Sockets::make(chain.bound.body, {&socket, 1});
+            REQUIRE(made);
+            std::vector<bend::Pose> rest;
+            for (const bend::Region& region : chain.bound.body.regions()) rest.push_back(region.rest);
+            bend::SocketFrame frame;
+            made->frames(rest, {&frame, 1});
+            REQUIRE(glm::length(glm::dvec3(frame.position) - middle) < 3e-6);
+            REQUIRE(angle_between(glm::dvec3(frame.axes[2]), normal) < 0.05);
+        }
+    }
+}
+
+TEST_CASE("sockets that cannot be are refused") {
+    Random random(83);
+    const Chain chain = random_chain(random, 2, false);
+    CHECK_THROWS_WITH_AS(static_cast<void>(fit::socket_at(chain.bound, 2, 0, 0.1)),
+                         doctest::Contains("socket: z = 2"), fit::Error);
+    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.bound, 0.5, 0, -1)), fit::Error);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.bound, 0.5, nan, 0.1)), fit::Error);
+    CHECK_THROWS_AS(
+        static_cast<void>(fit::socket_near(chain.bound, chain.subject.geometry(), glm::dvec3(nan, 0, 0))),
+        fit::Error);
+    bend::Socket socket = fit::socket_at(chain.bound, 0.5, 0, 0.1);
+    socket.region = 2;
+    CHECK_FALSE(bend::Sockets::make(chain.bound.body, {&socket, 1}));
+}
+
+TEST_CASE("capsules hold every vertex, and more of them fit closer") {
+    Random random(84);
+    double before[3] = {};
+    for (int trial = 0; trial < 30; ++trial) {
+        const Chain chain = random_chain(random, 1 + random() % 4, trial % 2 == 0);
+        const std::size_t count = chain.subject.positions.size();
+        Output out(count);
+        bend::DeformJob job = make_job(chain.bound.body, {}, Isa::automatic, out);
+        job.poses = chain.poses;
+        if (trial % 3 == 0) job.transform = random_transform(random, 1);
+        bend::run(job);
+        std::size_t step = 0;
+        for (const std::size_t pieces : {1u, 4u, 16u}) {
+            std::vector<bend::Capsule> chain_of(bend::capsule_count(chain.bound.body, pieces));
+            bend::capsules(job, pieces, chain_of);
+            double widest = 0;
+            for (const bend::Capsule& capsule : chain_of)
+                widest = std::max(widest, static_cast<double>(capsule.radius));
+            before[step++] += widest;
+            for (std::size_t i = 0; i < count; ++i) {
+                double inside = std::numeric_limits<double>::infinity();
+                for (const bend::Capsule& capsule : chain_of)
+                    inside = std::min(
+                        inside, distance(out.position(i), capsule) - static_cast<double>(capsule.radius));
+                REQUIRE(inside <= 0);
+            }
+        }
+    }
+    CHECK(before[1] < before[0]);
+    CHECK(before[2] <= before[1]);
+}
+
+TEST_CASE("poses along a path: the centre line follows it, the better the more regions there are") {
+    Random random(85);
+    const Subject subject = random_subject(random, 30, 10, 12, 65, 0);
+    const glm::vec3 control[4] = {{1, 2, 3}, {5, 2, 3}, {6, 7, 3}, {9, 5, 6}};  // about as long as the body
+    double last = 2;
+    for (const std::size_t regions : {2u, 4u, 8u, 16u}) {
+        fit::BindOptions options;
+        options.folds = 0;
+        for (std::size_t i = 0; i < regions; ++i)
+            options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
+        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+        std::vector<bend::Pose> poses(regions);
+        const bend::PathFit fit = bend::poses_along_bezier(bound.body, control, poses);
+        CAPTURE(regions);
+        CHECK_FALSE(fit.clamped);
+        CHECK(fit.error > 0);
+        CHECK(static_cast<double>(fit.error) < 0.45 * last);  // nearly a quarter each time
+        last = static_cast<double>(fit.error);
+        // What is said of the centre line holds for what is deformed: sockets on the axis.
+        std::vector<bend::Socket> sockets;
+        for (int i = 0; i <= 50; ++i) sockets.push_back(fit::socket_at(bound, 0.2 * i, 0, 0));
+        const std::optional<bend::Sockets> made = bend::Sockets::make(bound.body, sockets);
+        REQUIRE(made);
+        std::vector<bend::SocketFrame> frames(sockets.size());
+        made->frames(poses, frames, fit.transform);
+        CHECK(glm::length(frames[0].position - control[0]) < 1e-4f);
+        double worst = 0;
+        for (const bend::SocketFrame& frame : frames) {
+            double nearest = std::numeric_limits<double>::infinity();
+            for (int i = 0; i <= 4000; ++i) {
+                const float t = static_cast<float>(i) / 4000, u = 1 - t;
+                const glm::vec3 p = u * u * u * control[0] + 3 * u * u * t * control[1] +
+                                    3 * u * t * t * control[2] + t * t * t * control[3];
+                nearest = std::min(nearest, static_cast<double>(glm::distance(p, frame.position)));
+            }
+            worst = std::max(worst, nearest);
+        }
+        // Beyond the path's end the body goes straight on; the curve ends.
+        CHECK(worst < 1.1 * static_cast<double>(fit.error) + 0.35);
+    }
+    CHECK(last < 0.03);
+}
+
+TEST_CASE("paths that are none are named") {
+    using bend::PathFault;
+    const glm::vec3 a(0, 0, 0), b(1, 0, 0), bad(0, std::numeric_limits<float>::infinity(), 0);
+    const auto check = [](std::initializer_list<glm::vec3> points) {
+        return bend::check_path(std::span(points.begin(), points.size()));
+    };
+    CHECK(check({a, b, a}) == PathFault::none);
+    CHECK(check({a}) == PathFault::too_few_points);
+    CHECK(check({a, bad}) == PathFault::not_finite);
+    CHECK(check({a, b, b}) == PathFault::repeated_point);
+    for (const PathFault fault :
+         {PathFault::too_few_points, PathFault::not_finite, PathFault::repeated_point})
+        CHECK(bend::describe(fault).starts_with("path: "));
+}
+
+TEST_CASE("every n-th frame: each instance has its turn, and the turns are spread") {
+    Random random(86);
+    const bend::Body body = loose_body(random, 20);
+    constexpr std::size_t instances = 12;
+    std::vector<Output> outputs;
+    std::vector<bend::DeformJob> jobs;
+    for (std::size_t i = 0; i < instances; ++i) outputs.emplace_back(body.vertex_count());
+    for (Output& out : outputs) jobs.push_back(make_job(body, {1, 0}, Isa::automatic, out));
+    const std::vector<std::uint8_t> every = {0, 1, 2, 3, 4, 4, 4, 4, 3, 3, 2, 255};
+    bend::CrowdJob crowd{.instances = jobs, .every = every};
+    std::vector<int> turns(instances);
+    for (crowd.frame = 0; crowd.frame < 12; ++crowd.frame) {
+        for (Output& out : outputs) std::ranges::fill(out.columns[0], 99.0f);
+        const bend::CrowdResult result = bend::run(crowd);
+        std::size_t deformed = 0;
+        for (std::size_t i = 0; i < instances; ++i) {
+            const bool own = outputs[i].columns[0][0] != 99.0f;
+            turns[i] += own ? 1 : 0;
+            deformed += own ? 1 : 0;
+        }
+        CHECK(deformed == result.deformed);
+        CHECK(deformed <= 7);  // of the four with n = 4, for one, there is one in each frame
+    }
+    for (std::size_t i = 0; i + 1 < instances; ++i) CHECK(turns[i] == 12 / std::max<int>(every[i], 1));
+    crowd.every = std::span(every).first(3);
+    CHECK(bend::validate(crowd).every_count);
+    CHECK(bend::describe(bend::validate(crowd)).starts_with("every: "));
+}
+
+}  // namespace goffer::test
