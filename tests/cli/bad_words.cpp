@@ -54,7 +54,7 @@ TEST_CASE("bad words: numbers and names out of range") {
     for (const std::string word : {"65", "-1", "2.5", "many", ""})
         place.refuse_bend({"--folds", word}, {"--folds"});
     for (const std::string word : {"-1", "1025", "x"}) place.refuse_bend({"--threads", word}, {"--threads"});
-    place.refuse_bend({"--amplitude", "mesh"}, {"--amplitude", "mesh", "paper", "area", "none"});
+    place.refuse_bend({"--amplitude", "wavy"}, {"--amplitude", "wavy", "paper", "area", "mesh", "none"});
     place.refuse_bend({"--profile", "round"}, {"--profile", "round", "damped", "smooth"});
     place.refuse_bend({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});
 }

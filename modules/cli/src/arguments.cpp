@@ -108,8 +108,23 @@ CLI::Validator number_within(double low, double high, const std::string& what) {
     return {check, ""};
 }
 
+std::vector<double> read_numbers(const std::string& option, const std::string& text) {
+    std::vector<double> numbers;
+    std::istringstream parts(text + ",");
+    for (std::string part; std::getline(parts, part, ',');) {
+        const std::optional<double> value = one_number(part);
+        if (!value || !std::isfinite(*value)) {
+            throw UsageError(option + ": '" + part + "' in '" + text +
+                             "' is not a number; give numbers with commas between them");
+        }
+        numbers.push_back(*value);
+    }
+    return numbers;
+}
+
 paper::Amplitude parse_amplitude(const std::string& text) {
     if (text == "none") return paper::Amplitude::none;
+    if (text == "mesh") return paper::Amplitude::mesh;
     return text == "area" ? paper::Amplitude::area : paper::Amplitude::paper;
 }
 

@@ -42,6 +42,9 @@ using Action = std::function<void()>;
 /// be.
 [[nodiscard]] CLI::Validator number_within(double low, double high, const std::string& what);
 
+/// Finite numbers with commas between them, at least one. `option` begins the error.
+[[nodiscard]] std::vector<double> read_numbers(const std::string& option, const std::string& text);
+
 [[nodiscard]] paper::Amplitude parse_amplitude(const std::string& text);
 [[nodiscard]] paper::Profile parse_profile(const std::string& text);
 

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "model.hpp"
 #include "picture.hpp"
+#include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -14,7 +15,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace goffer::cli {
@@ -23,8 +27,7 @@ namespace {
 struct BendOptions {
     std::filesystem::path model;
     std::filesystem::path output;
-    double angle = 90;
-    double direction = 0;
+    PoseWords pose;
     BindWords bind;
     std::filesystem::path fit;
     std::string isa = "auto";
@@ -36,14 +39,14 @@ struct BendOptions {
 
 /// Everything that can be refused by looking at the words alone.
 struct Request {
+    PoseRequest pose;
     BindRequest bind;
-    bend::Pose pose;
     Isa isa;
     int threads;
 
     explicit Request(const BendOptions& options)
-        : bind(options.bind),
-          pose{static_cast<float>(radians(options.angle)), static_cast<float>(radians(options.direction))},
+        : pose(options.pose),
+          bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
         if (options.ghost && options.png.empty())
@@ -60,7 +63,6 @@ struct Request {
 /// The deformed records and how long they took.
 struct Deformed {
     mesh::Records records;
-    bool clamped = false;
     double microseconds = 0;
 };
 
@@ -78,14 +80,24 @@ double median_microseconds(Run&& run) {
     return times[4];
 }
 
-Deformed deform(const bend::Body& body, const mesh::Records& rest, const Request& request) {
+/// Values in the body's order, put into the model's.
+template <class T>
+void reorder(std::vector<T>& values, std::span<const std::uint32_t> order) {
+    if (order.empty() || values.empty()) return;
+    std::vector<T> sorted(values.size());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted[order[i]] = values[i];
+    values = std::move(sorted);
+}
+
+Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Request& request) {
     Deformed result;
+    const bend::Body& body = bound.body;
     const std::size_t count = body.vertex_count();
     result.records = rest;
     result.records.normals.resize(count);
     bend::DeformJob job;
     job.body = &body;
-    job.pose = request.pose;
+    job.poses = request.pose.poses;
     job.isa = request.isa;
     job.positions = interleaved<3>(&result.records.positions.front().x, count);
     job.normals = interleaved<3>(&result.records.normals.front().x, count);
@@ -94,8 +106,10 @@ Deformed deform(const bend::Body& body, const mesh::Records& rest, const Request
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
     }
     tbb::task_arena arena(request.threads);
-    result.microseconds = median_microseconds(
-        [&] { arena.execute([&] { result.clamped = bend::run_parallel(job).clamped; }); });
+    result.microseconds = median_microseconds([&] { arena.execute([&] { bend::run_parallel(job); }); });
+    reorder(result.records.positions, bound.order);
+    reorder(result.records.normals, bound.order);
+    reorder(result.records.tangents, bound.order);
     return result;
 }
 
@@ -111,33 +125,44 @@ double base_area_change(const fit::Cylinder& cylinder, const fit::BindOptions& o
     return paper::lateral_area(options.profile, folds, cylinder.length, cylinder.radius, angle, factor) - 1;
 }
 
+/// The same of all regions together, bent by `angles`.
+double base_area_change(const BoundModel& model, const fit::BindOptions& options,
+                        std::span<const double> angles) {
+    double change = 0;
+    for (std::size_t r = 0; r < angles.size(); ++r) {
+        fit::Cylinder stretch = model.cylinder;
+        stretch.length = model.bound.regions[r].length;
+        change += stretch.length / model.cylinder.length *
+                  base_area_change(stretch, options, model.bound.folds(r), angles[r]);
+    }
+    return change;
+}
+
 /// A fit of another model can hold this one in a corner of itself.
 void warn_of_foreign_fit(Report& report, const bend::Body& body) {
-    const auto heights = body.column(bend::Body::height).first(body.vertex_count());
-    const auto [low, high] = std::ranges::minmax(heights);
-    constexpr float least = 0.5f;
-    if (high - low >= least) return;
-    report.warn("the mesh takes up " + number(100 * static_cast<double>(high - low)) +
+    double taken = 0;  // of the length
+    for (const bend::Region& region : body.regions()) {
+        const auto span = static_cast<double>(region.bands.highest - region.bands.lowest);
+        taken += span * static_cast<double>(region.length) / body.length();
+    }
+    constexpr double least = 0.5;
+    if (taken >= least) return;
+    report.warn("the mesh takes up " + number(100 * taken) +
                 " % of the length of --fit; is it the fit of this model?");
 }
 
 void report_bend(Report& report, const BendOptions& options, const Request& request, const BoundModel& model,
                  const Deformed& bent, double area_before) {
     const fit::Bound& bound = model.bound;
-    const double limit = static_cast<double>(bound.body.max_angle());
-    const double asked = std::fabs(static_cast<double>(request.pose.angle));
-    const double used = bent.clamped ? limit : asked;
+    std::vector<double> used;
+    for (std::size_t r = 0; r < bound.regions.size(); ++r)
+        used.push_back(used_angle(bound.body, r, request.pose.poses[r]));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
-    const double base_change = base_area_change(model.cylinder, request.bind.options, bound.folds, used);
+    const double base_change = base_area_change(model, request.bind.options, used);
     nlohmann::ordered_json& json = report.json;
-    json["max_angle"] = degrees(limit);
-    json["folds_capacity"] = bound.folds_capacity;
-    json["pose"] = {{"angle", bent.clamped ? std::copysign(degrees(limit), options.angle) : options.angle},
-                    {"direction", options.direction}};
-    json["folds"] = bound.folds;
+    report_poses(report, request.pose, bound);
     json["amplitude"] = options.bind.amplitude;
     json["profile"] = options.bind.profile;
-    json["clamped"] = bent.clamped;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
     json["base_area_change"] = base_change;
@@ -146,19 +171,11 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
     json["isa"] = name(resolve(request.isa));
     json["threads"] = request.threads;
 
-    report.line("bend", number(degrees(used)) + " degrees towards " + number(options.direction) +
-                            ", at most " + number(degrees(limit)));
-    report.line("folds", std::to_string(bound.folds) + " of " + std::to_string(bound.folds_capacity) +
-                             " that the mesh carries");
     report.line("area change", percent(area_after / area_before - 1) + " of the mesh, " +
                                    percent(base_change) + " of its base");
     report.line("time", number(bound.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
-    if (bent.clamped) {
-        report.warn("the angle of " + number(options.angle) + " degrees is beyond the largest, " +
-                    number(degrees(limit)) + ", where the body would fold through itself; clamped to it");
-    }
     warn_of_folds(report, options.bind, model, used);
 }
 
@@ -167,7 +184,7 @@ void run_bend(const BendOptions& options) {
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request.bind, options.fit);
     const bend::Body& body = model.bound.body;
-    const Deformed bent = deform(body, model.rest, request);
+    const Deformed bent = deform(model.bound, model.rest, request);
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
@@ -176,9 +193,9 @@ void run_bend(const BendOptions& options) {
     if (!options.fit.empty()) warn_of_foreign_fit(report, body);
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
-        write_picture(
-            {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, request.pose},
-            options.ghost, options.png);
+        write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals,
+                       request.pose.poses[0]},
+                      options.ghost, options.png);
         report.line("picture", options.png.string());
     }
     mesh::save(mesh::with_records(model.mesh, bent.records), options.output);
@@ -194,13 +211,7 @@ void add_bend(CLI::App& app, Action& action) {
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
     command->add_option("-o,--output", options->output, "Model to write, with one of these endings")
         ->required();
-    const CLI::Validator angle = number_within(-36000, 36000, "an angle in degrees");
-    command->add_option("--angle", options->angle, "How far the tip turns, degrees; negative: the other way")
-        ->check(angle)
-        ->capture_default_str();
-    command->add_option("--direction", options->direction, "Towards where, degrees about the axis")
-        ->check(angle)
-        ->capture_default_str();
+    add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");

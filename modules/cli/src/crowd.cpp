@@ -79,18 +79,19 @@ void report_models(Report& report, const CrowdOptions& options, std::span<const 
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
         report.json["models"].push_back({{"file", model.file.string()},
                                          {"vertices", body.vertex_count()},
-                                         {"folds", model.bound.folds},
+                                         {"folds", model.bound.folds()},
                                          {"max_angle", limit}});
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
                                  " vertices, " +
-                                 counted(static_cast<std::size_t>(model.bound.folds), "fold"));
+                                 counted(static_cast<std::size_t>(model.bound.folds()), "fold"));
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
         if (std::fabs(options.angle) > limit) {
             report.warn(where + "the angle of " + number(options.angle) + " degrees is beyond the largest, " +
                         number(limit) +
                         ", where the body would fold through itself; it is bent so far at most");
         }
-        warn_of_folds(report, options.bind, model, radians(std::min(std::fabs(options.angle), limit)), where);
+        const double used = radians(std::min(std::fabs(options.angle), limit));
+        warn_of_folds(report, options.bind, model, {&used, 1}, where);
     }
 }
 

@@ -28,11 +28,11 @@ void run_inspect(const InspectOptions& options) {
     report_fit(report, model.cylinder);
     const double max_angle = degrees(static_cast<double>(bound.body.max_angle()));
     report.json["max_angle"] = max_angle;
-    report.json["folds_capacity"] = bound.folds_capacity;
-    report.json["folds"] = bound.folds;
+    report.json["folds_capacity"] = bound.folds_capacity();
+    report.json["folds"] = bound.folds();
     report.line("largest angle", number(max_angle) + " degrees");
-    report.line("folds", std::to_string(bound.folds) + " would be used; the mesh carries " +
-                             std::to_string(bound.folds_capacity));
+    report.line("folds", std::to_string(bound.folds()) + " would be used; the mesh carries " +
+                             std::to_string(bound.folds_capacity()));
     report.finish();
 }
 

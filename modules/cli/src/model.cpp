@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model.hpp"
 
+#include "poses.hpp"
 #include "progress.hpp"
 
 #include <algorithm>
@@ -9,24 +10,32 @@
 namespace goffer::cli {
 
 void add_bind_words(CLI::App& command, BindWords& words) {
+    command.add_option("--folds", words.folds,
+                       "Folds per half length of a region, or a list of one number for each "
+                       "(default: what suits the body and its mesh)");
     command
-        .add_option("--folds", words.folds,
-                    "Folds per half length (default: what suits the body and its mesh)")
-        ->check(CLI::Range(0, fit::BindOptions::max_folds));
-    command
-        .add_option("--amplitude", words.amplitude,
-                    "Wrinkle: paper (keeps lengths), area (keeps the area), none")
-        ->check(CLI::IsMember({"paper", "area", "none"}))
+        .add_option(
+            "--amplitude", words.amplitude,
+            "Wrinkle: paper (keeps lengths), area (keeps the base's area), mesh (keeps the mesh's own "
+            "area), none")
+        ->check(CLI::IsMember({"paper", "area", "mesh", "none"}))
         ->capture_default_str();
     command.add_option("--profile", words.profile, "Wrinkle's shape: damped, smooth")
         ->check(CLI::IsMember({"damped", "smooth"}))
         ->capture_default_str();
+    command
+        .add_option("--onset", words.onset,
+                    "Squeeze below which wrinkles begin gently, 0..1 (default: 0; 0.001 if bent at rest)")
+        ->check(number_within(0, 1, "a squeeze"));
     command.add_option("--axis", words.axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
 }
 
-BindRequest::BindRequest(const BindWords& words) : axis(parse_axis(words.axis)) {
-    options.folds = words.folds;
+BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
+    : axis(parse_axis(words.axis)) {
+    options.folds = read_folds(words.folds, regions);
+    options.regions = std::move(regions);
+    options.onset = words.onset;
     options.amplitude = parse_amplitude(words.amplitude);
     options.profile = parse_profile(words.profile);
 }
@@ -47,27 +56,32 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     return {file, std::move(mesh), std::move(rest), cylinder, std::move(bound)};
 }
 
-void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model, double angle,
-                   const std::string& where) {
+void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
+                   std::span<const double> angles, const std::string& where) {
     const fit::Bound& bound = model.bound;
-    const fit::Cylinder& cylinder = model.cylinder;
-    const int wanted = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
-    const auto capacity = static_cast<std::size_t>(bound.folds_capacity);
-    if (bound.folds > bound.folds_capacity) {
-        report.warn(where + "the mesh has vertices for " + counted(capacity, "fold") + ", not " +
-                    std::to_string(bound.folds) + ": wrinkles are coarse, and the area is not kept");
-    } else if (!words.folds && bound.folds == 0 && wanted > 0 && words.amplitude != "none") {
-        report.warn(where + "bent without wrinkles: the mesh has vertices for " + counted(capacity, "fold") +
-                    ", and " + std::to_string(wanted) +
-                    " would suit its length; use a finer mesh, or --folds K to insist");
-    }
-    if (bound.folds == 0) return;
-    const double squeeze = std::min(2 * angle * cylinder.radius / cylinder.length, 0.999);
-    if (paper::amplitude(parse_profile(words.profile), bound.folds, cylinder.length, squeeze) >
-        cylinder.radius) {
-        report.warn(where +
-                    "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "
-                    "axis; use more folds");
+    for (std::size_t r = 0; r < angles.size(); ++r) {
+        fit::Cylinder stretch = model.cylinder;
+        stretch.length = bound.regions[r].length;
+        const std::string which =
+            where + (angles.size() == 1 ? "" : "region " + std::to_string(r + 1) + ": ");
+        const int wanted = fit::sensible_folds(stretch, fit::BindOptions::max_folds);
+        const auto capacity = static_cast<std::size_t>(bound.folds_capacity(r));
+        if (bound.folds(r) > bound.folds_capacity(r)) {
+            report.warn(which + "the mesh has vertices for " + counted(capacity, "fold") + ", not " +
+                        std::to_string(bound.folds(r)) + ": wrinkles are coarse, and the area is not kept");
+        } else if (!words.folds && bound.folds(r) == 0 && wanted > 0 && words.amplitude != "none") {
+            report.warn(which + "bent without wrinkles: the mesh has vertices for " +
+                        counted(capacity, "fold") + ", and " + std::to_string(wanted) +
+                        " would suit its length; use a finer mesh, or --folds K to insist");
+        }
+        if (bound.folds(r) == 0) continue;
+        const double squeeze = std::min(2 * angles[r] * stretch.radius / stretch.length, 0.999);
+        if (paper::amplitude(parse_profile(words.profile), bound.folds(r), stretch.length, squeeze) >
+            stretch.radius) {
+            report.warn(which +
+                        "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "
+                        "axis; use more folds");
+        }
     }
 }
 

@@ -9,7 +9,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 /// From a file to a body: what every command does with its models first.
 
@@ -17,13 +19,14 @@ namespace goffer::cli {
 
 /// Words on how models are fitted and bound.
 struct BindWords {
-    std::optional<int> folds = {};
+    std::optional<std::string> folds = {};
     std::string amplitude = "paper";
     std::string profile = "damped";
     std::string axis = "auto";
+    std::optional<double> onset = {};
 };
 
-/// Adds --folds, --amplitude, --profile and --axis. `words` must outlive `command`.
+/// Adds --folds, --amplitude, --profile, --onset and --axis. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Such words, understood. Throws UsageError.
@@ -31,10 +34,11 @@ struct BindRequest {
     std::optional<glm::dvec3> axis;
     fit::BindOptions options;
 
-    explicit BindRequest(const BindWords& words);
+    /// `regions`: as PoseRequest's; none for a body of one region.
+    explicit BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions = {});
 };
 
-/// A model read, fitted and bound. Vertex i of the body is record i.
+/// A model read, fitted and bound. Vertex i of the body is record bound.order[i], or i where that is empty.
 struct BoundModel {
     std::filesystem::path file;
     mesh::Mesh mesh;
@@ -48,9 +52,10 @@ struct BoundModel {
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
 
-/// Warns of folds that the mesh cannot carry and of those that reach past the axis at `angle` (radians, >=
-/// 0). `where` begins each warning: empty, or which of several models is meant.
-void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model, double angle,
-                   const std::string& where = {});
+/// Warns of folds that the mesh cannot carry and of those that reach past the axis when regions are bent by
+/// `angles` (radians, >= 0; one per region). `where` begins each warning: empty, or which of several models
+/// is meant.
+void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
+                   std::span<const double> angles, const std::string& where = {});
 
 }  // namespace goffer::cli

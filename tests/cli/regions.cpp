@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <string>
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+mesh::Mesh bent(const Folder& folder, const Words& words) {
+    well(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words);
+    return mesh::load(folder / "out.ply");
+}
+
+double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
+    REQUIRE(a.positions.size() == b.positions.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i)
+        most = std::max(most, double{glm::length(a.positions[i] - b.positions[i])});
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("bend: regions report themselves, one by one") {
+    const Folder folder;
+    const json all = report(folder, {"bend", base(folder), "-o", "out.glb", "--regions", "0.3,0.4,0.3",
+                                     "--angles", "40,-60,20", "--directions", "0,0,90", "--folds", "3,5,2"});
+    REQUIRE(all["poses"].size() == 3);
+    REQUIRE(all["regions"].size() == 3);
+    CHECK(all["poses"][1]["angle"] == -60.0);
+    CHECK(all["poses"][2]["direction"] == 90.0);
+    CHECK(all["regions"][0]["length"].get<double>() == doctest::Approx(3));
+    CHECK(all["regions"][1]["folds"] == 5);
+    CHECK(all["clamped"] == false);
+}
+
+TEST_CASE("bend: regions of one curvature and direction are one bend, if nothing wrinkles") {
+    const Folder folder;
+    base(folder);
+    const mesh::Mesh one = bent(folder, {"--angle", "80", "--folds", "0"});
+    const mesh::Mesh spread = bent(folder, {"--angle", "80", "--folds", "0", "--regions", "0.25,0.5,0.25"});
+    const mesh::Mesh said =
+        bent(folder, {"--angles", "20,40,20", "--folds", "0", "--regions", "0.25,0.5,0.25"});
+    CHECK(farthest(one, spread) < 2e-5);
+    CHECK(farthest(one, said) < 2e-5);
+}
+
+TEST_CASE("bend: an S comes back to the direction that it began in") {
+    const Folder folder;
+    base(folder);
+    const mesh::Mesh s = bent(folder, {"--regions", "0.5,0.5", "--angles", "60,-60", "--folds", "0"});
+    // The caps' centres are the last two vertices; each region moves the tip by the same step.
+    const double alpha = std::acos(-1.0) / 3, kappa = alpha / 5;
+    const double x = (1 - kappa) * 5 * (1 - std::cos(alpha)) / alpha;
+    const double z = (1 - kappa) * 5 * std::sin(alpha) / alpha;
+    const glm::vec3 tip = s.positions.back();
+    CHECK(tip.x == doctest::Approx(2 * x).epsilon(1e-4));
+    CHECK(tip.z == doctest::Approx(2 * z).epsilon(1e-4));
+}
+
+TEST_CASE("bend: a region beyond its largest angle is clamped, and named") {
+    const Folder folder;
+    const json all =
+        report(folder, {"bend", base(folder), "-o", "out.ply", "--regions", "0.5,0.5", "--angles", "10,900"});
+    CHECK(all["clamped"] == true);
+    CHECK(all["regions"][0]["clamped"] == false);
+    CHECK(all["regions"][1]["clamped"] == true);
+    bool named = false;
+    for (const json& warning : all["warnings"])
+        named = named || warning.get<std::string>().starts_with("region 2: the angle of 900 degrees");
+    CHECK(named);
+}
+
+TEST_CASE("bad regions: wrong usage, one line, and nothing written") {
+    const Folder folder;
+    base(folder);
+    struct Bad {
+        Words words;
+        std::string said;
+    };
+    std::string many = "0.03";
+    for (int i = 0; i < 32; ++i) many += ",0.03";
+    for (const Bad& bad : {
+             Bad{{"--regions", "0.3,0.3"}, "adds up to 0.6"},
+             Bad{{"--regions", "0.5,0,0.5"}, "must be above 0"},
+             Bad{{"--regions", "0.5,x"}, "'x'"},
+             Bad{{"--regions", "0.5,,0.5"}, "''"},
+             Bad{{"--regions", many}, "33 of them"},
+             Bad{{"--regions", "0.5,0.5", "--angles", "1,2,3"}, "--angles: 3 for 2 regions"},
+             Bad{{"--regions", "0.5,0.5", "--directions", "1"}, "--directions: 1 for 2 regions"},
+             Bad{{"--regions", "0.5,0.5", "--folds", "1,2,3"}, "--folds: 3 for 2 regions"},
+             Bad{{"--folds", "1,2"}, "--folds: 2 for 1 region"},
+             Bad{{"--folds", "2.5"}, "whole number"},
+             Bad{{"--folds", "65"}, "0..64"},
+             Bad{{"--regions", "0.5,0.5", "--angles", "1,40000"}, "40000"},
+             Bad{{"--angles", "10"}, "--regions"},
+             Bad{{"--onset", "2"}, "a squeeze"},
+         }) {
+        CAPTURE(bad.said);
+        refused(folder, 2, Words{"bend", "base.ply", "-o", "new.ply"} + bad.words, {bad.said});
+    }
+}
+
+TEST_CASE("bend: amplitude mesh keeps the mesh's own area, and an onset costs some") {
+    const Folder folder;
+    base(folder);
+    const auto change = [&](const Words& words) {
+        const json all = report(folder, Words{"bend", "base.ply", "-o", "out.ply", "--angle", "100"} + words);
+        return std::abs(all["area_after"].get<double>() / all["area_before"].get<double>() - 1);
+    };
+    const double plain = change({}), mesh = change({"--amplitude", "mesh"});
+    CHECK(plain > 1e-3);
+    CHECK(mesh < 1e-3);
+    const double gentle = change({"--onset", "0.05"});
+    CHECK(gentle > plain);
+    CHECK(gentle < 0.05);
+}
