@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct DeformCase {
     Size size;
     Isa isa;
     int threads;
+    Shape shape = Shape::plain;
+    bool wrinkles = true;
 };
 
 /// Instances whose poses change from sample to sample. Each begins on a cache line of every plane: what a
@@ -34,13 +37,19 @@ struct DeformCase {
 class Crowd {
 public:
     Crowd(Stage& stage, const DeformCase& what) : jobs_(what.size.instances) {
-        const bend::Body& body = stage.body(what.size.vertices);
+        const bend::Body& body = stage.body(what.size.vertices, what.shape);
+        poses_.resize(jobs_.size() * body.region_count());
+        previous_poses_.resize(poses_.size());
         const std::size_t padded = padded_vertices(what.size);
         const CrowdMemory memory{stage.memory(memory_floats(what.layout, what.size)).data(),
                                  capacity(what.layout, what.size)};
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             jobs_[i].body = &body;
             jobs_[i].isa = what.isa;
+            jobs_[i].wrinkles = what.wrinkles;
+            const std::size_t regions = body.region_count();
+            jobs_[i].poses = std::span(poses_).subspan(i * regions, regions);
+            jobs_[i].previous_poses = std::span(previous_poses_).subspan(i * regions, regions);
             set_streams(jobs_[i], what.layout, memory, i * padded);
         }
         next_poses();
@@ -48,10 +57,11 @@ public:
 
     void next_poses() {
         phase_ += 0.01f;
-        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+        previous_poses_ = poses_;
+        const std::size_t regions = poses_.size() / jobs_.size();
+        for (std::size_t i = 0; i < poses_.size(); ++i) {
             const auto at = static_cast<float>(i);
-            jobs_[i].previous_pose = jobs_[i].pose;
-            jobs_[i].pose = {1.0f + 0.5f * std::sin(phase_ + at), at};
+            poses_[i] = {(1.0f + 0.5f * std::sin(phase_ + at)) / static_cast<float>(regions), at};
         }
     }
 
@@ -72,6 +82,7 @@ private:
     }
 
     std::vector<bend::DeformJob> jobs_;
+    std::vector<bend::Pose> poses_, previous_poses_;  // of one instance after the other
     float phase_ = 0;
 };
 
@@ -123,12 +134,23 @@ void register_deform(Stage& stage) {
     };
     const Named sizes[] = {
         {"cache", {1, 10'000}}, {"crowd", {1000, 10'000}}, {"crowd10000x200", {10'000, 200}}};
+    struct Like {
+        std::string name;
+        Shape shape;
+        bool wrinkles;
+    };
+    const Like others[] = {
+        {"-regions8", Shape::regions, true}, {"-arc", Shape::arc, true}, {"-bare", Shape::plain, false}};
     for (const Layout& layout : layouts()) {
         for (const Named& size : sizes) {
             for (const Isa isa : built_isas()) {
                 if (!runs_here(isa)) continue;
                 for (const int threads : Stage::thread_counts())
                     register_case(stage, "deform", size.name, {layout, size.size, isa, threads});
+                if (layout.name != "positions" && layout.name != "positions+normals") continue;
+                for (const Like& like : others)
+                    register_case(stage, "deform", size.name + like.name,
+                                  {layout, size.size, isa, 1, like.shape, like.wrinkles});
             }
         }
     }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "stage.hpp"
 
-#include "subject.hpp"
-
 #include <thread>
 
 namespace goffer::bench {
 
-const bend::Body& Stage::body(std::size_t vertices) {
-    const auto found = bodies_.find(vertices);
+const bend::Body& Stage::body(std::size_t vertices, Shape shape) {
+    const std::pair key(vertices, shape);
+    const auto found = bodies_.find(key);
     if (found != bodies_.end()) return found->second;
-    return bodies_.emplace(vertices, make_body(vertices)).first->second;
+    return bodies_.emplace(key, make_body(vertices, shape)).first->second;
 }
 
 std::span<float> Stage::memory(std::size_t floats) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "subject.hpp"
+
 #include <goffer/bend/body.hpp>
 #include <goffer/engine/columns.hpp>
 
@@ -19,7 +21,7 @@ namespace goffer::bench {
 class Stage {
 public:
     /// The body of so many vertices.
-    [[nodiscard]] const bend::Body& body(std::size_t vertices);
+    [[nodiscard]] const bend::Body& body(std::size_t vertices, Shape shape = Shape::plain);
 
     /// Memory for `floats` floats, on a cache line, its pages touched. The same memory for every case: a
     /// crowd's page faults are paid once, not in every case. Grows, never shrinks; what it holds is whatever
@@ -36,7 +38,7 @@ public:
     [[nodiscard]] static std::vector<int> thread_counts();
 
 private:
-    std::map<std::size_t, bend::Body> bodies_;
+    std::map<std::pair<std::size_t, Shape>, bend::Body> bodies_;
     std::map<int, tbb::task_arena> arenas_;
     Columns memory_;
 };

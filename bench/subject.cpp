@@ -2,13 +2,17 @@
 #include "subject.hpp"
 
 #include <goffer/fit/bind.hpp>
+#include <goffer/paper/closed_form.hpp>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace goffer::bench {
 namespace {
+
+constexpr double rest_angle = 1;
 
 /// The divisor of `vertices` nearest to the number of columns that makes rows four times as many.
 std::size_t columns_for(std::size_t vertices) {
@@ -36,7 +40,9 @@ double Grid::rho(double beta, double z) {
     return radius * (1 + 0.05 * std::sin(3 * beta) * std::cos(2 * z));
 }
 
-Model::Model(std::size_t vertices) {
+Model::Model(std::size_t vertices, Shape like) : shape(like) {
+    const paper::ClosedForm bent({.length = length, .radius = radius},
+                                 {shape == Shape::arc ? rest_angle : 0, 0});
     const Grid grid(vertices);
     const auto index = [&](std::size_t row, std::size_t column) {
         return static_cast<std::uint32_t>(row * grid.columns + column % grid.columns);
@@ -45,7 +51,7 @@ Model::Model(std::size_t vertices) {
         for (std::size_t column = 0; column < grid.columns; ++column) {
             const double beta = grid.beta(column);
             const double rho = Grid::rho(beta, grid.z(row));
-            positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), grid.z(row));
+            positions.emplace_back(bent.position({beta, grid.z(row), rho}));
             tangents.emplace_back(-std::sin(beta), std::cos(beta), 0, 1);
             if (row + 1 == grid.rows) continue;
             const std::uint32_t a = index(row, column);
@@ -62,14 +68,16 @@ bend::Body bind_model(const Model& model) {
     cylinder.length = length;
     cylinder.radius = radius;
     fit::BindOptions options;
-    options.folds = folds;
+    options.folds = model.shape == Shape::regions ? 1 : folds;
+    if (model.shape == Shape::regions) options.regions.assign(8, {1.0 / 8, std::nullopt});
+    if (model.shape == Shape::arc) cylinder.rest_angle = rest_angle;
     const fit::Geometry geometry{
         .positions = model.positions, .triangles = model.triangles, .tangents = model.tangents};
     return std::move(fit::bind(geometry, cylinder, options).body);
 }
 
-bend::Body make_body(std::size_t vertices) {
-    return bind_model(Model(vertices));
+bend::Body make_body(std::size_t vertices, Shape shape) {
+    return bind_model(Model(vertices, shape));
 }
 
 }  // namespace goffer::bench

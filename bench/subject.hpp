@@ -19,6 +19,13 @@ inline constexpr double length = 10;
 inline constexpr double radius = 1;
 inline constexpr int folds = 5;
 
+/// What the body is like: each is another way through the kernels.
+enum class Shape {
+    plain,    ///< one region, straight at rest
+    regions,  ///< eight regions of a fold each
+    arc,      ///< bent at rest by one radian
+};
+
 /// The vertices' places: columns about the axis, about four times as many rows along it.
 struct Grid {
     std::size_t columns, rows;
@@ -31,18 +38,20 @@ struct Grid {
     [[nodiscard]] static double rho(double beta, double z);
 };
 
-/// The body as a mesh, with tangents about the axis. Bind makes the normals.
+/// The body as a mesh, with tangents about the axis, or where they were before it was bent. Bind makes the
+/// normals.
 struct Model {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec4> tangents;
     std::vector<std::uint32_t> triangles;
+    Shape shape;
 
-    explicit Model(std::size_t vertices);
+    explicit Model(std::size_t vertices, Shape like = Shape::plain);
 };
 
 [[nodiscard]] bend::Body bind_model(const Model& model);
 
-/// bind_model of Model(vertices).
-[[nodiscard]] bend::Body make_body(std::size_t vertices);
+/// bind_model of Model(vertices, shape).
+[[nodiscard]] bend::Body make_body(std::size_t vertices, Shape shape);
 
 }  // namespace goffer::bench
