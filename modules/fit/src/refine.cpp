@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "text.hpp"
+
+#include <goffer/fit/refine.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace goffer::fit {
+namespace {
+
+constexpr int most_folds = 1 << 20;   // as folds_capacity
+constexpr int rows_per_stretch = 16;  // 8 a fold, folds per half length
+constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
+
+/// Heights counted in rows: a broken line, whose inverse is wanted too.
+class RowScale {
+public:
+    explicit RowScale(std::span<const Stretch> stretches) {
+        double z = 0, row = 0;
+        for (const Stretch& stretch : stretches) {
+            const double rows = double{rows_per_stretch} * stretch.folds;
+            pieces_.push_back({z, row, rows / stretch.length});
+            z += stretch.length;
+            row += rows;
+        }
+    }
+
+    [[nodiscard]] double row(double z) const {
+        const Piece& piece = last_before([z](const Piece& p) { return p.z <= z; });
+        return piece.row + (z - piece.z) * piece.rate;
+    }
+
+    /// The height of a row; of a stretch without folds, all of which is one row, its upper end.
+    [[nodiscard]] double height(double row) const {
+        const Piece& piece = last_before([row](const Piece& p) { return p.row <= row && p.rate > 0; });
+        return piece.rate > 0 ? piece.z + (row - piece.row) / piece.rate : piece.z;
+    }
+
+private:
+    struct Piece {
+        double z, row, rate;
+    };
+
+    template <class Begun>
+    [[nodiscard]] const Piece& last_before(Begun begun) const {
+        const auto found = std::find_if(pieces_.rbegin(), pieces_.rend(), begun);
+        return found != pieces_.rend() ? *found : pieces_.front();
+    }
+
+    std::vector<Piece> pieces_;
+};
+
+struct Edge {
+    std::uint32_t a, b;
+};
+
+/// A triangle's corners from bottom to top (by rows), and whether that order turns as the triangle does.
+struct Upright {
+    std::uint32_t low, middle, high;
+    bool same_turn;
+};
+
+class Refiner {
+public:
+    Refiner(const Geometry& geometry, std::span<const double> heights, const RowScale& scale)
+        : triangles_(geometry.triangles),
+          scale_(scale),
+          points_(geometry.positions.begin(), geometry.positions.end()),
+          heights_(heights.begin(), heights.end()) {
+        for (const double z : heights_) rows_.push_back(scale_.row(z));
+    }
+
+    Refinement run(std::size_t most_triangles) && {
+        check_growth(most_triangles);
+        for (std::size_t t = 0; t < triangles_.size(); t += 3) cut(t / 3);
+        return std::move(out_);
+    }
+
+private:
+    [[nodiscard]] double pieces(Edge edge) const {
+        return std::max(1.0, std::ceil(std::abs(rows_[edge.a] - rows_[edge.b]) / longest));
+    }
+
+    [[nodiscard]] std::array<Edge, 3> edges(std::size_t triangle) const {
+        const std::uint32_t* c = &triangles_[3 * triangle];
+        return {{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[0]}}};
+    }
+
+    void check_growth(std::size_t most_triangles) const;
+    void cut(std::size_t triangle);
+    void emit(std::size_t parent, const Upright& corners, std::array<std::uint32_t, 3> piece);
+    [[nodiscard]] Upright upright(std::size_t triangle) const;
+    void append_inner(std::vector<std::uint32_t>& chain, Edge upwards);
+    std::uint32_t first_between(Edge edge, std::uint32_t count);
+    [[nodiscard]] bool left_next(std::size_t i, std::size_t j) const;
+
+    std::span<const std::uint32_t> triangles_;
+    const RowScale& scale_;
+    std::vector<glm::dvec3> points_;  // the three below: of the mesh's vertices, then of the new ones
+    std::vector<double> heights_, rows_;
+    std::unordered_map<std::uint64_t, std::uint32_t> first_between_;
+    std::vector<std::uint32_t> left_, right_;  // the two sides of a triangle, inner vertices, upwards
+    Refinement out_;
+};
+
+void Refiner::check_growth(std::size_t most_triangles) const {
+    double triangles = 0, vertices = static_cast<double>(heights_.size());
+    for (std::size_t t = 0; t < triangles_.size() / 3; ++t) {
+        for (const Edge& edge : edges(t)) {
+            triangles += pieces(edge);
+            vertices += pieces(edge) - 1;
+        }
+        triangles -= 2;
+    }
+    const double indices = std::numeric_limits<std::uint32_t>::max();
+    if (triangles <= static_cast<double>(most_triangles) && vertices < indices) return;
+    throw Error("refined, the mesh would have " + text(triangles) + " triangles, more than the " +
+                std::to_string(most_triangles) + " allowed; ask for fewer folds");
+}
+
+Upright Refiner::upright(std::size_t triangle) const {
+    const std::uint32_t* c = &triangles_[3 * triangle];
+    std::array<std::size_t, 3> order{0, 1, 2};
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rows_[c[i]]; });
+    return {c[order[0]], c[order[1]], c[order[2]], (order[0] + 1) % 3 == order[1]};
+}
+
+void Refiner::emit(std::size_t parent, const Upright& corners, std::array<std::uint32_t, 3> piece) {
+    if (!corners.same_turn) std::swap(piece[1], piece[2]);
+    out_.triangles.insert(out_.triangles.end(), piece.begin(), piece.end());
+    out_.parents.push_back(static_cast<std::uint32_t>(parent));
+}
+
+/// The first of the `count` new vertices on an edge, which follow it upwards. Heights are the same on both
+/// sides of a seam, so both name the edge that way and make the same sums.
+std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
+    const auto next = static_cast<std::uint32_t>(points_.size());
+    const std::uint64_t key = (std::uint64_t{edge.a} << 32) | edge.b;
+    const auto [entry, is_new] = first_between_.try_emplace(key, next);
+    if (!is_new) return entry->second;
+    const double from = heights_[edge.a], to = heights_[edge.b];
+    for (std::uint32_t i = 1; i <= count; ++i) {
+        const double share = i / (count + 1.0);
+        const double row = rows_[edge.a] + share * (rows_[edge.b] - rows_[edge.a]);
+        const double t = (scale_.height(row) - from) / (to - from);
+        out_.vertices.push_back({edge.a, edge.b, t});
+        points_.push_back(points_[edge.a] + t * (points_[edge.b] - points_[edge.a]));
+        heights_.push_back(from + t * (to - from));
+        rows_.push_back(row);
+    }
+    return entry->second;
+}
+
+void Refiner::append_inner(std::vector<std::uint32_t>& chain, Edge upwards) {
+    const auto count = static_cast<std::uint32_t>(pieces(upwards)) - 1;
+    if (count == 0) return;
+    const std::uint32_t first = first_between(upwards, count);
+    for (std::uint32_t i = 0; i < count; ++i) chain.push_back(first + i);
+}
+
+/// Whether the next piece takes a step up the left side. The side that lags may always step; the other one
+/// may where the new cross edge stays within a row. Of two that may, the shorter cross edge is taken.
+bool Refiner::left_next(std::size_t i, std::size_t j) const {
+    if (j + 1 == right_.size()) return true;
+    if (i + 1 == left_.size()) return false;
+    const auto reach = [&](std::uint32_t a, std::uint32_t b) { return std::abs(rows_[a] - rows_[b]); };
+    const std::uint32_t left = left_[i], right = right_[j], left_up = left_[i + 1], right_up = right_[j + 1];
+    const bool left_lags = rows_[left] <= rows_[right];
+    if (!left_lags && reach(left_up, right) > longest) return false;
+    if (left_lags && reach(left, right_up) > longest) return true;
+    const double by_left = glm::distance(points_[left_up], points_[right]);
+    const double by_right = glm::distance(points_[left], points_[right_up]);
+    return by_left == by_right ? left_lags : by_left < by_right;
+}
+
+/// One side of an upright triangle is its longest edge, the other one the other two; pieces fill the space
+/// between, from the bottom up, as a zip is closed. Each has one side's edge and, across, a vertex of the
+/// other side that is within a row of both ends.
+void Refiner::cut(std::size_t triangle) {
+    const Upright corners = upright(triangle);
+    if (pieces({corners.low, corners.high}) == 1) {
+        const std::uint32_t* c = &triangles_[3 * triangle];
+        out_.triangles.insert(out_.triangles.end(), c, c + 3);
+        out_.parents.push_back(static_cast<std::uint32_t>(triangle));
+        return;
+    }
+    left_.clear();
+    right_.clear();
+    append_inner(left_, {corners.low, corners.high});
+    append_inner(right_, {corners.low, corners.middle});
+    right_.push_back(corners.middle);
+    append_inner(right_, {corners.middle, corners.high});
+
+    emit(triangle, corners, {corners.low, right_[0], left_[0]});
+    for (std::size_t i = 0, j = 0; i + j + 2 < left_.size() + right_.size();) {
+        const bool left = left_next(i, j);
+        emit(triangle, corners, {left_[i], right_[j], left ? left_[i + 1] : right_[j + 1]});
+        ++(left ? i : j);
+    }
+    emit(triangle, corners, {left_.back(), right_.back(), corners.high});
+}
+
+void check_stretches(std::span<const Stretch> stretches) {
+    if (stretches.empty()) throw Error("stretches: there are none; give one or more");
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+        const std::string which = stretches.size() > 1 ? " of stretch " + std::to_string(i) : "";
+        const auto [length, folds] = stretches[i];
+        if (!(length > 0) || !std::isfinite(length))
+            throw Error("length" + which + " is " + text(length) + "; give one above 0");
+        if (folds < 0 || folds > most_folds)
+            throw Error("folds" + which + " are " + std::to_string(folds) + "; give 0 to " +
+                        std::to_string(most_folds));
+    }
+}
+
+void check_heights(std::span<const double> heights, std::size_t vertices) {
+    if (heights.size() != vertices)
+        throw Error("heights: " + std::to_string(heights.size()) + " for " + std::to_string(vertices) +
+                    " vertices; give one per vertex");
+    const auto bad = std::ranges::find_if_not(heights, [](double z) { return std::isfinite(z); });
+    if (bad != heights.end())
+        throw Error("height of vertex " + std::to_string(bad - heights.begin()) +
+                    " is NaN or infinite; give z in model units");
+}
+
+}  // namespace
+
+Refinement refine(const Geometry& geometry, std::span<const double> heights,
+                  std::span<const Stretch> stretches, const RefineOptions& options) {
+    check(geometry);
+    check_stretches(stretches);
+    check_heights(heights, geometry.positions.size());
+    const RowScale scale(stretches);
+    return Refiner(geometry, heights, scale).run(options.most_triangles);
+}
+
+Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
+                  const RefineOptions& options) {
+    check(geometry);
+    check(cylinder);
+    std::vector<double> heights;
+    heights.reserve(geometry.positions.size());
+    for (const glm::vec3& p : geometry.positions)
+        heights.push_back(glm::dot(glm::dvec3(p) - cylinder.origin, cylinder.axis));
+    const Stretch whole{cylinder.length, folds};
+    return refine(geometry, heights, {&whole, 1}, options);
+}
+
+std::vector<glm::vec3> refined_positions(std::span<const glm::vec3> positions, const Refinement& refinement) {
+    std::vector<glm::vec3> all(positions.begin(), positions.end());
+    all.reserve(positions.size() + refinement.vertices.size());
+    for (const auto& [a, b, t] : refinement.vertices) {
+        const glm::dvec3 from = positions[a], to = positions[b];
+        all.emplace_back(from + t * (to - from));
+    }
+    return all;
+}
+
+}  // namespace goffer::fit
