@@ -179,6 +179,9 @@ struct Output {
 [[nodiscard]] std::optional<Output> rewritten(const Mesh& mesh, const std::filesystem::path& file,
                                               bool embed);
 
+/// What was written, as a document again. `folder`: where the files lie that it names.
+[[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const std::filesystem::path& folder);
+
 /// A new document for a mesh from elsewhere.
 [[nodiscard]] Output made(const Mesh& mesh);
 

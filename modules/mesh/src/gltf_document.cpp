@@ -213,6 +213,15 @@ std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
     return document;
 }
 
+std::shared_ptr<const Document> document_of(Output output, const std::filesystem::path& folder) {
+    const auto document = std::make_shared<Document>();
+    document->folder = folder;
+    document->json = std::move(output.json);
+    set_buffer(document->json, output.buffer, "");
+    if (!output.buffer.empty()) document->buffers.push_back(std::move(output.buffer));
+    return document;
+}
+
 std::string glb_file(Json json, const std::string& buffer) {
     set_buffer(json, buffer, "");
     const std::string text =

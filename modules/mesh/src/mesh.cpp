@@ -177,6 +177,10 @@ std::size_t triangle_count(const Mesh& mesh) {
     return mesh.corners.size() - 2 * mesh.faces.size();
 }
 
+std::vector<std::uint32_t> triangles(const Mesh& mesh) {
+    return fans(mesh, mesh.corners);
+}
+
 Mesh with_records(const Mesh& mesh, const Records& bent) {
     const Split parts = split(mesh);
     const auto enough = [&](const auto& stream) { return stream.size() >= parts.keys.size(); };

@@ -55,6 +55,9 @@ struct Counts {
 /// The v, vt and vn part of a face's argument; empty where absent.
 [[nodiscard]] std::array<std::string_view, 3> corner_parts(std::string_view argument);
 
+/// Appends a blank and what a face says of a corner of `mesh`: v, v/vt, v//vn or v/vt/vn.
+void append_corner(std::string& out, const Mesh& mesh, std::size_t corner);
+
 /// An OBJ index (from 1, or from the last one backwards if negative) from 0; `seen` values stand before it.
 [[nodiscard]] inline std::int64_t from_zero(std::int64_t index, std::size_t seen) {
     return index > 0 ? index - 1 : static_cast<std::int64_t>(seen) + index;

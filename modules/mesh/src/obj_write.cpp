@@ -107,18 +107,6 @@ std::vector<std::string> material_names(const Mesh& mesh) {
     return names;
 }
 
-void append_corner(std::string& out, const Mesh& mesh, std::size_t corner) {
-    const std::uint32_t vertex = mesh.corners[corner];
-    const std::uint32_t uv = mesh.uvs.empty() ? none : value_at(mesh.uvs[0], corner, vertex);
-    const std::uint32_t normal = value_at(mesh.normals, corner, vertex);
-    append_all(out, vertex + std::uint64_t{1});
-    if (uv != none || normal != none) out += '/';
-    if (uv != none) append(out, uv + std::uint64_t{1});
-    if (normal == none) return;
-    out += '/';
-    append(out, normal + std::uint64_t{1});
-}
-
 void append_faces(std::string& out, const Mesh& mesh) {
     const std::vector<std::string> names = material_names(mesh);
     std::size_t face = 0, corner = 0;
@@ -173,6 +161,18 @@ const ObjSource* source_of(const Mesh& mesh) {
 }
 
 }  // namespace
+
+void append_corner(std::string& out, const Mesh& mesh, std::size_t corner) {
+    const std::uint32_t vertex = mesh.corners[corner];
+    const std::uint32_t uv = mesh.uvs.empty() ? none : value_at(mesh.uvs[0], corner, vertex);
+    const std::uint32_t normal = value_at(mesh.normals, corner, vertex);
+    append_all(out, vertex + std::uint64_t{1});
+    if (uv != none || normal != none) out += '/';
+    if (uv != none) append(out, uv + std::uint64_t{1});
+    if (normal == none) return;
+    out += '/';
+    append(out, normal + std::uint64_t{1});
+}
 
 std::string write_obj(const Mesh& mesh, const std::filesystem::path& file) {
     if (const ObjSource* source = source_of(mesh)) return ObjEditor(*source, mesh, file).finish();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "binary.hpp"
 #include "format.hpp"
+#include "refine.hpp"
 #include "text.hpp"
 
 #include <glm/geometric.hpp>
@@ -55,6 +56,7 @@ public:
     }
     [[nodiscard]] std::string_view solid() const { return solid_; }
     [[nodiscard]] std::size_t solids() const { return solids_; }
+    [[nodiscard]] std::string_view end() const { return rest_.substr(0, 0); }  ///< of the facet
     [[noreturn]] void fail_at(std::string_view place, const std::string& what) const {
         fail(file_, line_of(text_, place.data()) + ": " + what);
     }
@@ -224,6 +226,56 @@ std::string edit_binary(const StlSource& source, const Mesh& mesh) {
     return out;
 }
 
+void append_text(std::string& out, const std::array<glm::vec3, 3>& corners) {
+    const glm::vec3 normal = facet_normal(corners);
+    out += "\n  facet normal";
+    append_all(out, normal.x, normal.y, normal.z);
+    out += "\n    outer loop";
+    for (const glm::vec3& v : corners) {
+        out += "\n      vertex";
+        append_all(out, v.x, v.y, v.z);
+    }
+    out += "\n    endloop\n  endfacet";
+}
+
+/// The corners of a piece, in a mesh whose faces are all triangles.
+std::array<glm::vec3, 3> piece(const Mesh& refined, std::size_t p) {
+    const auto at = [&](std::size_t k) { return refined.positions[refined.corners[3 * p + k]]; };
+    return {at(0), at(1), at(2)};
+}
+
+std::string refine_text(const std::string& text, const Cut& cut, const Mesh& refined) {
+    const std::filesystem::path nowhere;  // as in edit_text
+    Editor out(text);
+    TextFacets facets(nowhere, text);
+    for (std::size_t f = 0; facets.next(); ++f) {
+        if (!cut.is_cut(f)) continue;
+        const auto first = piece(refined, cut.first_piece(f));
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                out.replace(facets.vertex(corner, axis), first[corner][static_cast<int>(axis)]);
+        std::string others;
+        for (std::size_t p = cut.first_piece(f) + 1; p < cut.first_piece(f + 1); ++p)
+            append_text(others, piece(refined, p));
+        out.replace(facets.end(), others);
+    }
+    return out.finish();
+}
+
+std::string refine_binary(const std::string& bytes, const Cut& cut, const Mesh& refined) {
+    std::string out = bytes.substr(0, header_size - 4);
+    append_bytes(out, std::endian::little, static_cast<std::uint32_t>(refined.faces.size()));
+    for (std::size_t f = 0; f < cut.mesh().faces.size(); ++f) {
+        const std::string facet = bytes.substr(header_size + facet_size * f, facet_size);
+        if (!cut.is_cut(f)) out += facet;
+        for (std::size_t p = cut.first_piece(f); cut.is_cut(f) && p < cut.first_piece(f + 1); ++p) {
+            append_facet(out, piece(refined, p));
+            out += facet.substr(facet_size - 2);  // its attributes
+        }
+    }
+    return out;
+}
+
 std::string write_anew(const Mesh& mesh) {
     std::string out = "goffer";
     out.resize(80);
@@ -259,6 +311,15 @@ Mesh read_stl(const std::filesystem::path& file, std::string_view bytes) {
     source->read = mesh;
     mesh.source = std::move(source);
     return mesh;
+}
+
+std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone) {
+    const auto* source = dynamic_cast<const StlSource*>(cut.mesh().source.get());
+    if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
+    const std::string now = write_stl(cut.mesh());
+    Mesh out = read_stl({}, is_text(now) ? refine_text(now, cut, alone) : refine_binary(now, cut, alone));
+    out.warnings = cut.mesh().warnings;
+    return out;
 }
 
 std::string write_stl(const Mesh& mesh) {

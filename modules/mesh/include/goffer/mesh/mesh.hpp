@@ -105,6 +105,10 @@ struct Records {
 /// The number of triangles once polygons are cut up into fans.
 [[nodiscard]] std::size_t triangle_count(const Mesh& mesh);
 
+/// The vertices of these triangles, 3 each: face after face, each cut up into a fan. Pure; may be called from
+/// any thread.
+[[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
+
 /// `mesh` with the positions, normals and tangents of `bent`, which holds as many records as `records(mesh)`
 /// in the same order. Streams that the mesh does not have are ignored. Keeps `source`. Attribute values keep
 /// their places; one that several vertices share and that is no longer the same for all is split, its copies

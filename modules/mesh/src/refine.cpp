@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "refine.hpp"
+
+#include "interpolate.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <unordered_map>
+#include <utility>
+
+namespace goffer::mesh {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error("refined: " + what + "; give what was made for this mesh");
+}
+
+/// A value that stands between two others of an attribute.
+struct Mix {
+    std::uint32_t a, b;
+    std::uint64_t t;
+    bool operator==(const Mix&) const = default;
+};
+
+struct MixHash {
+    std::size_t operator()(const Mix& mix) const {
+        std::uint64_t h = ((std::uint64_t{mix.a} << 32) | mix.b) * 0x9e3779b97f4a7c15u;
+        h = (h ^ (h >> 29) ^ mix.t) * 0xbf58476d1ce4e5b9u;
+        return h ^ (h >> 32);
+    }
+};
+
+/// Faces and corners of the refined mesh, and its parts.
+class FaceMaker {
+public:
+    FaceMaker(const Cut& cut, Mesh& out) : cut_(cut), out_(out), count_(cut.mesh().faces.size(), 0) {
+        out_.corners.clear();
+        out_.faces.clear();
+        cut.each_face(*this);
+        for (Part& part : out_.parts) {
+            const auto first = count_.begin() + part.first_face, end = first + part.face_count;
+            part.first_face = next_face_;
+            part.face_count = 0;
+            for (auto c = first; c != end; ++c) part.face_count += *c;
+            next_face_ += part.face_count;
+        }
+    }
+
+    void face(std::size_t face, std::size_t corner, std::size_t size) {
+        const auto first = cut_.mesh().corners.begin() + static_cast<std::ptrdiff_t>(corner);
+        out_.corners.insert(out_.corners.end(), first, first + static_cast<std::ptrdiff_t>(size));
+        out_.faces.push_back(static_cast<std::uint32_t>(size));
+        count_[face] = 1;
+    }
+
+    void piece(std::size_t face, std::size_t piece) {
+        const auto corners = cut_.pieces().triangles.subspan(3 * piece, 3);
+        out_.corners.insert(out_.corners.end(), corners.begin(), corners.end());
+        out_.faces.push_back(3);
+        ++count_[face];
+    }
+
+private:
+    const Cut& cut_;
+    Mesh& out_;
+    std::vector<std::uint32_t> count_;  ///< of faces that each face becomes
+    std::uint32_t next_face_ = 0;
+};
+
+/// An attribute with an index of its own: new values where both ends have one, shared where the ends are.
+template <class T, class Between>
+class CornerMaker {
+public:
+    CornerMaker(const Cut& cut, const Attribute<T>& attribute, Between between)
+        : cut_(cut), was_(attribute), out_{attribute.values, {}}, between_(between) {
+        cut.each_face(*this);
+    }
+    Attribute<T> finish() && { return std::move(out_); }
+
+    void face(std::size_t, std::size_t corner, std::size_t size) {
+        const auto first = was_.corners.begin() + static_cast<std::ptrdiff_t>(corner);
+        out_.corners.insert(out_.corners.end(), first, first + static_cast<std::ptrdiff_t>(size));
+    }
+
+    void piece(std::size_t, std::size_t piece) {
+        for (const PieceCorner& corner : cut_.corners(piece)) out_.corners.push_back(value(corner));
+    }
+
+private:
+    std::uint32_t value(const PieceCorner& corner) {
+        const std::uint32_t a = was_.corners[corner.a], b = was_.corners[corner.b];
+        if (a == b) return a;
+        if (a == was_.none || b == was_.none) return was_.none;
+        const auto next = static_cast<std::uint32_t>(out_.values.size());
+        const auto [entry, is_new] =
+            made_.try_emplace(Mix{a, b, std::bit_cast<std::uint64_t>(corner.t)}, next);
+        if (is_new) out_.values.push_back(between_(was_.values[a], was_.values[b], corner.t));
+        return entry->second;
+    }
+
+    const Cut& cut_;
+    const Attribute<T>& was_;
+    Attribute<T> out_;
+    Between between_;
+    std::unordered_map<Mix, std::uint32_t, MixHash> made_;
+};
+
+template <class T, class F>
+void append(std::vector<T>& values, const Cut& cut, F between) {
+    if (values.empty()) return;
+    values.reserve(values.size() + cut.pieces().vertices.size());
+    for (const auto& [a, b, t] : cut.pieces().vertices) values.push_back(between(values[a], values[b], t));
+}
+
+template <class T, class F>
+void refine(Attribute<T>& attribute, const Cut& cut, F between) {
+    if (attribute.per_vertex()) {
+        append(attribute.values, cut, between);
+    } else {
+        attribute = CornerMaker(cut, attribute, between).finish();
+    }
+}
+
+}  // namespace
+
+Cut::Cut(const Mesh& mesh, const Pieces& pieces) : mesh_(mesh), pieces_(pieces) {
+    std::size_t first = 0;
+    fans_.reserve(3 * triangle_count(mesh));
+    for (const std::uint32_t size : mesh.faces) {
+        for (std::size_t k = 1; k + 1 < size; ++k)
+            fans_.insert(fans_.end(), {first, first + k, first + k + 1});
+        first += size;
+    }
+    check_vertices();
+    const std::size_t triangles = fans_.size() / 3;
+    if (pieces.triangles.size() != 3 * pieces.parents.size())
+        refuse(std::to_string(pieces.triangles.size()) + " corners for " +
+               std::to_string(pieces.parents.size()) + " triangles");
+    for (std::size_t p = 0; p < pieces.parents.size(); ++p) {
+        const std::size_t parent = pieces.parents[p];
+        if (parent >= triangles || parent + 1 < first_piece_.size() || parent > first_piece_.size())
+            refuse("piece " + std::to_string(p) + " is of triangle " + std::to_string(parent) +
+                   ", which is out of range or out of order");
+        if (parent == first_piece_.size()) first_piece_.push_back(p);
+        check_piece(p);
+    }
+    if (first_piece_.size() != triangles)
+        refuse("there are pieces for " + std::to_string(first_piece_.size()) + " of " +
+               std::to_string(triangles) + " triangles");
+    first_piece_.push_back(pieces.parents.size());
+}
+
+void Cut::check_vertices() const {
+    const std::size_t count = mesh_.positions.size();
+    if (count + pieces_.vertices.size() > Attribute<glm::vec3>::none)
+        refuse("there are more vertices than 32 bits can number");
+    for (std::size_t i = 0; i < pieces_.vertices.size(); ++i) {
+        const auto& [a, b, t] = pieces_.vertices[i];
+        if (a >= count || b >= count || a == b || !(t > 0 && t < 1))
+            refuse("new vertex " + std::to_string(i) + " does not lie between two of the mesh");
+    }
+}
+
+void Cut::check_piece(std::size_t piece) const {
+    const std::size_t* fan = &fans_[3 * std::size_t{pieces_.parents[piece]}];
+    const auto in_parent = [&](std::uint32_t vertex) {
+        return std::any_of(fan, fan + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
+    };
+    for (const std::uint32_t vertex : pieces_.triangles.subspan(3 * piece, 3)) {
+        const std::size_t next = vertex - mesh_.positions.size();
+        const bool old = vertex < mesh_.positions.size();
+        const bool fits = old ? in_parent(vertex)
+                              : next < pieces_.vertices.size() && in_parent(pieces_.vertices[next].a) &&
+                                    in_parent(pieces_.vertices[next].b);
+        if (!fits)
+            refuse("piece " + std::to_string(piece) + ": vertex " + std::to_string(vertex) +
+                   " does not lie in triangle " + std::to_string(pieces_.parents[piece]));
+    }
+}
+
+std::vector<glm::vec3> Cut::positions() const {
+    std::vector<glm::vec3> made;
+    made.reserve(pieces_.vertices.size());
+    for (const auto& [a, b, t] : pieces_.vertices)
+        made.push_back(linear(mesh_.positions[a], mesh_.positions[b], t));
+    return made;
+}
+
+bool Cut::is_cut(std::size_t triangle) const {
+    const std::size_t first = first_piece_[triangle];
+    const auto corners = pieces_.triangles.subspan(3 * first, 3);
+    return first_piece_[triangle + 1] - first > 1 ||
+           std::ranges::any_of(corners, [&](auto v) { return v >= mesh_.positions.size(); });
+}
+
+std::array<PieceCorner, 3> Cut::corners(std::size_t piece) const {
+    const std::size_t* fan = &fans_[3 * std::size_t{pieces_.parents[piece]}];
+    const auto corner_of = [&](std::uint32_t vertex) {
+        return *std::find_if(fan, fan + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
+    };
+    std::array<PieceCorner, 3> out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = pieces_.triangles[3 * piece + k];
+        if (vertex < mesh_.positions.size()) {
+            out[k] = {vertex, corner_of(vertex), corner_of(vertex), 0};
+        } else {
+            const auto& [a, b, t] = pieces_.vertices[vertex - mesh_.positions.size()];
+            out[k] = {vertex, corner_of(a), corner_of(b), t};
+        }
+    }
+    return out;
+}
+
+Mesh refined_alone(const Cut& cut) {
+    Mesh out = cut.mesh();
+    out.source = nullptr;
+    const FaceMaker faces(cut, out);
+    append(out.positions, cut, linear<3>);
+    append(out.colors, cut, linear<4>);
+    refine(out.normals, cut, direction);
+    refine(out.tangents, cut, tangent_between);
+    for (auto& uvs : out.uvs) refine(uvs, cut, linear<2>);
+    return out;
+}
+
+Mesh refined(const Mesh& mesh, const Pieces& pieces) {
+    const Cut cut(mesh, pieces);
+    if (pieces.vertices.empty()) return mesh;
+    Mesh alone = refined_alone(cut);
+    for (const auto with_source : {refined_gltf, refined_obj, refined_ply, refined_stl})
+        if (std::optional<Mesh> out = with_source(cut, alone)) return std::move(*out);
+    return alone;
+}
+
+}  // namespace goffer::mesh

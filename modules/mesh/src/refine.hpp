@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/mesh/refined.hpp>
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// What the parts of `refined` share. Each format refines the file that a mesh came from and reads that, so
+/// that the mesh and its source go on belonging together.
+
+namespace goffer::mesh {
+
+/// A corner of a piece: a corner of the mesh, or a place between two of the same triangle.
+struct PieceCorner {
+    std::uint32_t vertex;  ///< of the refined mesh
+    std::size_t a, b;      ///< corners of the mesh; both the same where it is one
+    double t;              ///< 0 where it is one
+    [[nodiscard]] bool is_old() const { return a == b; }
+};
+
+/// A mesh and its pieces, known to fit together.
+class Cut {
+public:
+    /// Throws Error where they don't fit.
+    Cut(const Mesh& mesh, const Pieces& pieces);
+
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] const Pieces& pieces() const { return pieces_; }
+
+    /// The positions of the new vertices.
+    [[nodiscard]] std::vector<glm::vec3> positions() const;
+
+    /// The pieces of a triangle or of a run of them: a range of pieces.
+    [[nodiscard]] std::size_t first_piece(std::size_t triangle) const { return first_piece_[triangle]; }
+
+    [[nodiscard]] bool is_cut(std::size_t triangle) const;
+
+    /// The corners of a piece, in the mesh's terms.
+    [[nodiscard]] std::array<PieceCorner, 3> corners(std::size_t piece) const;
+
+    /// Calls visit.face(face, size) for each face that stays and visit.piece(face, piece) for each piece of
+    /// those that don't, in the order that the refined mesh has them in. `corner` of a face: the mesh's
+    /// first.
+    template <class Visit>
+    void each_face(Visit&& visit) const {
+        std::size_t triangle = 0, corner = 0;
+        for (std::size_t face = 0; face < mesh_.faces.size(); ++face) {
+            const std::size_t size = mesh_.faces[face], end = triangle + size - 2;
+            bool cut = false;
+            for (std::size_t t = triangle; t < end; ++t) cut = cut || is_cut(t);
+            if (!cut) visit.face(face, corner, size);
+            for (std::size_t p = first_piece_[triangle]; cut && p < first_piece_[end]; ++p)
+                visit.piece(face, p);
+            triangle = end;
+            corner += size;
+        }
+    }
+
+private:
+    void check_vertices() const;
+    void check_piece(std::size_t piece) const;
+
+    const Mesh& mesh_;
+    Pieces pieces_;
+    std::vector<std::size_t> fans_;         ///< the mesh's corners of each triangle, 3 each
+    std::vector<std::size_t> first_piece_;  ///< of each triangle, and the number of pieces
+};
+
+/// `cut` in a mesh without a source, whatever the mesh came from: new vertices behind all others.
+[[nodiscard]] Mesh refined_alone(const Cut& cut);
+
+/// The refined mesh with a refined source of its format; null where the mesh has none of that format, or is
+/// not its source's any more. `alone`: what refined_alone makes.
+[[nodiscard]] std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone);
+[[nodiscard]] std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone);
+[[nodiscard]] std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone);
+[[nodiscard]] std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone);
+
+}  // namespace goffer::mesh

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/fit/refine.hpp>
+#include <goffer/mesh/refined.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Meshes refined, and what is to be seen of them afterwards.
+
+namespace goffer::test {
+
+/// What fit says on how to cut a mesh, in the words of mesh.
+struct MeshRecipe {
+    fit::Refinement made;
+    std::vector<mesh::Between> vertices;
+
+    [[nodiscard]] mesh::Pieces pieces() const { return {vertices, made.triangles, made.parents}; }
+};
+
+/// Cuts for 16 rows a fold along x, y or z.
+inline MeshRecipe recipe(const mesh::Mesh& mesh, int axis, int folds = 1) {
+    std::vector<double> heights;
+    for (const glm::vec3& p : mesh.positions) heights.push_back(static_cast<double>(p[axis]));
+    const auto [low, high] = std::ranges::minmax(heights);
+    for (double& z : heights) z -= low;
+    const fit::Stretch whole{high - low, folds};
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    MeshRecipe recipe;
+    recipe.made = fit::refine({mesh.positions, triangles}, heights, {&whole, 1});
+    for (const auto& [a, b, t] : recipe.made.vertices) recipe.vertices.push_back({a, b, t});
+    return recipe;
+}
+
+inline mesh::Mesh refined_along(const mesh::Mesh& mesh, int axis, int folds = 1) {
+    return mesh::refined(mesh, recipe(mesh, axis, folds).pieces());
+}
+
+/// How many edges run more often one way than the other, duplicated vertices welded by the bits of their
+/// positions: 0 where the surface is closed.
+inline std::size_t open_edges(const mesh::Mesh& mesh) {
+    using Place = std::array<std::uint32_t, 3>;
+    const auto place = [&](std::uint32_t vertex) {
+        const glm::vec3 q = mesh.positions[vertex] + 0.0f;
+        return Place{std::bit_cast<std::uint32_t>(q.x), std::bit_cast<std::uint32_t>(q.y),
+                     std::bit_cast<std::uint32_t>(q.z)};
+    };
+    std::map<std::pair<Place, Place>, int> runs;
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Place a = place(triangles[t + i]), b = place(triangles[t + (i + 1) % 3]);
+            if (a < b) ++runs[{a, b}];
+            if (b < a) --runs[{b, a}];
+        }
+    }
+    const auto open = [](const auto& run) { return run.second != 0; };
+    return static_cast<std::size_t>(std::ranges::count_if(runs, open));
+}
+
+/// The value of a corner, zero where it has none.
+template <class T>
+T corner_value(const mesh::Mesh& mesh, const mesh::Attribute<T>& attribute, std::size_t corner) {
+    if (attribute.empty()) return T(0.0f);
+    const std::uint32_t index = attribute.per_vertex() ? mesh.corners[corner] : attribute.corners[corner];
+    return index == mesh::Attribute<T>::none ? T(0.0f) : attribute.values[index];
+}
+
+}  // namespace goffer::test
