@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_files.hpp"
+#include "gltf_valid.hpp"
 #include "support/models.hpp"
-
-#include <sys/wait.h>
-
-#include <cstdlib>
 
 using namespace goffer::test;
 using goffer::mesh::load;
@@ -12,22 +9,6 @@ using goffer::mesh::Mesh;
 using goffer::mesh::save;
 
 namespace {
-
-/// Khronos' validator over `files`. What it says goes to the test's output.
-void check_valid(const std::vector<std::filesystem::path>& files) {
-    if (std::system("node --version > /dev/null 2>&1") != 0) {
-        MESSAGE("skipped: node is not installed, so Khronos' validator cannot run");
-        return;
-    }
-    std::string command = "node '" GOFFER_SOURCE_DIR "/tests/mesh/validate_gltf.mjs'";
-    for (const auto& file : files) command += " '" + file.string() + "'";
-    const int status = WEXITSTATUS(std::system(command.c_str()));
-    if (status == 77) {
-        MESSAGE("skipped: run npm install --prefix build gltf-validator@2.0.0-dev.3.10");
-    } else {
-        CHECK(status == 0);
-    }
-}
 
 Mesh sheared(Mesh mesh) {
     for (glm::vec3& p : mesh.positions) p += glm::vec3(0.3f * p.y, 0.1f * p.z, 0.0f);

@@ -178,6 +178,12 @@ TEST_CASE("refined: PLY keeps all elements and properties, names from the nearer
     CHECK(now.ends_with(" 8\n77\n"));
     check_same(load_text("again.ply", now), out);
     CHECK(load_text("again.ply", now).warnings.empty());
+
+    const Mesh bytes = refined_along(reloaded(without_source(mesh), "binary.ply"), 2);
+    CHECK(bytes.positions == alone.positions);
+    CHECK(bytes.corners == alone.corners);
+    for (std::size_t i = 4; i < 49; ++i)  // of 0 to 255, as far as bytes go
+        CHECK(bytes.colors[i].b == std::round(alone.colors[i].b * 255) / 255);
 }
 
 TEST_CASE("refined: a PLY whose types are too small for the new vertices is written anew") {

@@ -59,17 +59,17 @@ using Influences = std::vector<std::pair<float, double>>;
 Influences mixed(const Influences& a, const Influences& b, double t, std::size_t count) {
     std::map<float, double> sums;
     double whole = 0, kept = 0;
-    for (const auto& [joint, weight] : a) sums[joint] += (1 - t) * weight;
-    for (const auto& [joint, weight] : b) sums[joint] += t * weight;
+    for (const auto& [joint, weight] : a)
+        if (weight != 0) sums[joint] += (1 - t) * weight;
+    for (const auto& [joint, weight] : b)
+        if (weight != 0) sums[joint] += t * weight;
     Influences all(sums.begin(), sums.end());
     for (const auto& [joint, weight] : all) whole += weight;
     std::ranges::stable_sort(all, [](const auto& x, const auto& y) { return x.second > y.second; });
     all.resize(std::min(all.size(), count));
     for (const auto& [joint, weight] : all) kept += weight;
     for (auto& [joint, weight] : all) weight = kept > 0 ? weight * whole / kept : weight;
-    all.resize(count, {0.0f, 0.0});
-    for (auto& [joint, weight] : all)
-        if (weight == 0) joint = 0;  // as glTF wants unused ones
+    all.resize(count, {0.0f, 0.0});  // glTF wants unused ones to be joint 0
     return all;
 }
 

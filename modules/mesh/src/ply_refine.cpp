@@ -36,7 +36,10 @@ void append_number(std::string& out, const Header& header, Type type, double num
         }
         return;
     }
-    const auto put = [&]<class T>(T) { append_bytes(out, header.order, static_cast<T>(number)); };
+    const auto put = [&]<class T>(T) {
+        const double rounded = is_integer(type) ? std::round(number) : number;
+        append_bytes(out, header.order, static_cast<T>(rounded));
+    };
     switch (type) {
         case Type::i8:
             return put(std::int8_t{});
@@ -132,9 +135,7 @@ private:
         for (std::size_t v = numbers_.size(); v < now_.positions.size(); ++v) {
             for (std::size_t p = 0; p < vertex_->properties.size(); ++p) {
                 const Property& property = vertex_->properties[p];
-                const double number = new_number(property, p, v);
-                append_number(body_, header_, property.type,
-                              is_integer(property.type) ? std::round(number) : number);
+                append_number(body_, header_, property.type, new_number(property, p, v));
             }
             end_line();
         }
