@@ -189,6 +189,7 @@ void run_bend(const BendOptions& options) {
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
     report_fit(report, model.cylinder);
+    if (model.growth) report_growth(report, *model.growth);
     report_bend(report, options, request, model, bent, area_before);
     if (!options.fit.empty()) warn_of_foreign_fit(report, body);
     if (!options.png.empty()) {
@@ -213,6 +214,8 @@ void add_bend(CLI::App& app, Action& action) {
         ->required();
     add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
+    command->add_flag("--refine", options->bind.refine,
+                      "Add vertices along the body until its mesh carries the folds");
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")

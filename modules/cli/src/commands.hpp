@@ -9,6 +9,7 @@ namespace goffer::cli {
 
 void add_base(CLI::App& app, Action& action);
 void add_inspect(CLI::App& app, Action& action);
+void add_refine(CLI::App& app, Action& action);
 void add_bend(CLI::App& app, Action& action);
 void add_crowd(CLI::App& app, Action& action);
 

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
     Action action;
     add_base(app, action);
     add_inspect(app, action);
+    add_refine(app, action);
     add_bend(app, action);
     add_crowd(app, action);
     try {

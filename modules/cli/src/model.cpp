@@ -38,6 +38,10 @@ BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions>
     options.onset = words.onset;
     options.amplitude = parse_amplitude(words.amplitude);
     options.profile = parse_profile(words.profile);
+    refine = words.refine;
+    if (refine && words.folds == "0")
+        throw UsageError(
+            "--refine: without folds there is nothing to refine for; leave out one of --folds 0, --refine");
 }
 
 BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
@@ -45,15 +49,21 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     const Progress progress("reading " + file.string());
     mesh::Mesh mesh = mesh::load(file);
     mesh::Records rest = mesh::records(mesh);
-    const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
+    fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
         fit::check(geometry);
         return given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis);
     });
+    std::optional<Growth> growth;
+    if (request.refine) {
+        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options); });
+        rest = mesh::records(mesh);
+        geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
+    }
     fit::Bound bound =
         in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, request.options); });
-    return {file, std::move(mesh), std::move(rest), cylinder, std::move(bound)};
+    return {file, std::move(mesh), std::move(rest), cylinder, std::move(bound), growth};
 }
 
 void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
@@ -68,11 +78,13 @@ void warn_of_folds(Report& report, const BindWords& words, const BoundModel& mod
         const auto capacity = static_cast<std::size_t>(bound.folds_capacity(r));
         if (bound.folds(r) > bound.folds_capacity(r)) {
             report.warn(which + "the mesh has vertices for " + counted(capacity, "fold") + ", not " +
-                        std::to_string(bound.folds(r)) + ": wrinkles are coarse, and the area is not kept");
+                        std::to_string(bound.folds(r)) +
+                        ": wrinkles are coarse, and the area is not kept; goffer refine adds vertices");
         } else if (!words.folds && bound.folds(r) == 0 && wanted > 0 && words.amplitude != "none") {
             report.warn(which + "bent without wrinkles: the mesh has vertices for " +
                         counted(capacity, "fold") + ", and " + std::to_string(wanted) +
-                        " would suit its length; use a finer mesh, or --folds K to insist");
+                        " would suit its length; use a finer mesh, which goffer refine makes, or --folds K "
+                        "to insist");
         }
         if (bound.folds(r) == 0) continue;
         const double squeeze = std::min(2 * angles[r] * stretch.radius / stretch.length, 0.999);

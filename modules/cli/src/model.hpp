@@ -2,6 +2,7 @@
 #pragma once
 
 #include "arguments.hpp"
+#include "refine.hpp"
 #include "report.hpp"
 
 #include <goffer/fit/bind.hpp>
@@ -24,6 +25,7 @@ struct BindWords {
     std::string profile = "damped";
     std::string axis = "auto";
     std::optional<double> onset = {};
+    bool refine = false;  ///< split edges until the mesh carries the folds
 };
 
 /// Adds --folds, --amplitude, --profile, --onset and --axis. `words` must outlive `command`.
@@ -33,22 +35,25 @@ void add_bind_words(CLI::App& command, BindWords& words);
 struct BindRequest {
     std::optional<glm::dvec3> axis;
     fit::BindOptions options;
+    bool refine = false;
 
     /// `regions`: as PoseRequest's; none for a body of one region.
     explicit BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions = {});
 };
 
-/// A model read, fitted and bound. Vertex i of the body is record bound.order[i], or i where that is empty.
+/// A model read, fitted, refined where that was asked for, and bound. Vertex i of the body is record
+/// bound.order[i], or i where that is empty.
 struct BoundModel {
     std::filesystem::path file;
     mesh::Mesh mesh;
     mesh::Records rest;
     fit::Cylinder cylinder;
     fit::Bound bound;
+    std::optional<Growth> growth = {};  ///< where the mesh was refined
 };
 
-/// Reads, fits and binds `file`; says so on a terminal where that takes long. `fit`: a report that the
-/// cylinder is taken from, or empty. Throws an error that names the file at fault.
+/// Reads, fits, refines and binds `file`; says so on a terminal where that takes long. `fit`: a report that
+/// the cylinder is taken from, or empty. Throws an error that names the file at fault.
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
 

@@ -51,6 +51,7 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
 std::vector<BoundRegion> plan(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options,
                               std::span<RestRegion> rest) {
     std::vector<BoundRegion> regions;
+    const Rows rows(geometry, cylinder);
     double start = 0;
     for (std::size_t i = 0; i < rest.size(); ++i) {
         const RegionOptions own = options.regions.empty() ? RegionOptions{} : options.regions[i];
@@ -58,7 +59,7 @@ std::vector<BoundRegion> plan(const Geometry& geometry, const Cylinder& cylinder
         stretch.length = own.share * cylinder.length;
         BoundRegion region;
         region.length = stretch.length;
-        region.folds_capacity = folds_capacity(geometry, stretch);
+        region.folds_capacity = rows.folds(stretch.length);
         const std::optional<int> folds = own.folds ? own.folds : options.folds;
         const bool none = options.amplitude == paper::Amplitude::none;
         region.folds = none ? 0 : folds.value_or(sensible_folds(stretch, region.folds_capacity));

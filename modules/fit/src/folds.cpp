@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "rest.hpp"
+
 #include <goffer/fit/cylinder.hpp>
+#include <goffer/paper/closed_form.hpp>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
+#include <vector>
 
 namespace goffer::fit {
 namespace {
@@ -17,15 +22,14 @@ constexpr int most_folds = 1 << 20;  // far beyond any use, well inside int
 using Reach = std::pair<double, double>;
 
 std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
+    const std::vector<double> z = heights(geometry.positions, cylinder);
     std::vector<Reach> all;
     all.reserve(geometry.triangles.size() / 3);
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
-        const auto corner = [&](std::size_t i) {
-            return glm::dvec3(geometry.positions[geometry.triangles[t + i]]) - cylinder.origin;
-        };
-        const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
-        const auto [low, high] =
-            std::minmax({glm::dot(a, cylinder.axis), glm::dot(b, cylinder.axis), glm::dot(c, cylinder.axis)});
+        const std::uint32_t i = geometry.triangles[t], j = geometry.triangles[t + 1],
+                            k = geometry.triangles[t + 2];
+        const glm::dvec3 a(geometry.positions[i]), b(geometry.positions[j]), c(geometry.positions[k]);
+        const auto [low, high] = std::minmax({z[i], z[j], z[k]});
         all.emplace_back(high - low, glm::length(glm::cross(b - a, c - a)) / 2);
     }
     return all;
@@ -46,13 +50,31 @@ double reach_beyond(std::vector<Reach> all, double share) {
 
 }  // namespace
 
-int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
-    constexpr double left_out = 0.02;
+std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder) {
+    std::vector<double> z;
+    z.reserve(positions.size());
+    const glm::dmat3 to_body = glm::transpose(axes_of(cylinder));
+    const paper::Pose rest{cylinder.rest_angle, cylinder.rest_direction};
+    for (const glm::vec3& position : positions) {
+        const glm::dvec3 local = to_body * (glm::dvec3(position) - cylinder.origin);
+        z.push_back(rest.angle == 0 ? local.z
+                                    : paper::to_cylindrical(local, cylinder.length, cylinder.radius, rest).z);
+    }
+    return z;
+}
+
+Rows::Rows(const Geometry& geometry, const Cylinder& cylinder)
+    : reach_(reach_beyond(reaches(geometry, cylinder), 0.02)) {}
+
+int Rows::folds(double length) const {
     constexpr double rows_per_length = 16;  // 8 a fold, k folds per half length
     constexpr double rounding = 1e-3;       // a mesh of just enough rows has enough
-    const double reach = reach_beyond(reaches(geometry, cylinder), left_out);
-    const double folds = (1 + rounding) * cylinder.length / (rows_per_length * reach);
+    const double folds = (1 + rounding) * length / (rows_per_length * reach_);
     return folds < most_folds ? static_cast<int>(folds) : most_folds;
+}
+
+int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
+    return Rows(geometry, cylinder).folds(cylinder.length);
 }
 
 int sensible_folds(const Cylinder& cylinder, int capacity) {

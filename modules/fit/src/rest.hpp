@@ -34,6 +34,18 @@ struct RestRegion {
 /// The region that holds height z; a joint belongs to the region that begins there.
 [[nodiscard]] std::size_t region_at(std::span<const RestRegion> regions, double z);
 
+/// How far apart a mesh's rows of vertices lie along its base.
+class Rows {
+public:
+    Rows(const Geometry& geometry, const Cylinder& cylinder);
+
+    /// The most folds, per half length, that a stretch of `length` can carry (folds_capacity).
+    [[nodiscard]] int folds(double length) const;
+
+private:
+    double reach_;  // along z, of the coarsest triangles that count
+};
+
 /// A mesh's vertices at rest, straightened, region by region.
 struct RestMesh {
     std::vector<bend::RestVertex> vertices;  ///< z from where the vertex's region begins

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 /// Fits the base cylinder: axis, base and tip, length, radius (offline; may allocate, may throw).
@@ -40,6 +41,10 @@ struct Cylinder {
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or
 /// radius not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
 void check(const Cylinder& cylinder);
+
+/// z of each position (model space): its height along the axis, or along the rest arc where there is one.
+/// `cylinder` as `check` accepts it, its rest angle as bind does. Pure; may be called from any thread.
+[[nodiscard]] std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder);
 
 /// The most folds per half length that the mesh can carry: a fold needs 8 rows of vertices along z, so an
 /// edge may reach over at most L / (16 k). Decided by the triangles' extents along the axis, by area, the

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "refine.hpp"
+
+#include "commands.hpp"
+#include "model.hpp"
+#include "progress.hpp"
+
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/refine.hpp>
+#include <goffer/mesh/refined.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+struct RefineOptions {
+    std::filesystem::path model;
+    std::filesystem::path output;
+    std::optional<int> folds;
+    std::string axis = "auto";
+    std::filesystem::path fit;
+    std::filesystem::path json;
+};
+
+void run_refine(const RefineOptions& options) {
+    BindWords words;
+    if (options.folds) words.folds = std::to_string(*options.folds);
+    words.axis = options.axis;
+    words.refine = true;
+    const BindRequest request(words);
+    if (!options.fit.empty() && request.axis)
+        throw UsageError("--axis: the axis is in the file of --fit; give one of them");
+    check_places({{"MODEL", options.model}, {"--fit", options.fit}},
+                 {{"-o", options.output}, {"--json", options.json}});
+    check_model_output(options.output);
+    Report report(options.json);
+    const BoundModel model = bind_model(options.model, request, options.fit);
+    report_model(report, options.model, model.mesh,
+                 fit::surface_area(model.rest.positions, model.rest.triangles));
+    report_fit(report, model.cylinder);
+    report_growth(report, *model.growth);
+    report.json["folds_capacity"] = model.bound.folds_capacity();
+    report.line("folds", "the mesh carries " + std::to_string(model.bound.folds_capacity()));
+    mesh::save(model.mesh, options.output);
+    report.line("written", options.output.string());
+    report.finish();
+}
+
+/// The folds that are asked for, or suit the body.
+std::vector<fit::Stretch> stretches(const fit::Cylinder& cylinder, const fit::BindOptions& options) {
+    std::vector<fit::RegionOptions> regions = options.regions;
+    if (regions.empty()) regions.emplace_back();
+    std::vector<fit::Stretch> result;
+    for (const fit::RegionOptions& region : regions) {
+        fit::Cylinder own = cylinder;
+        own.length = region.share * cylinder.length;
+        const std::optional<int> folds = region.folds ? region.folds : options.folds;
+        const int sensible = fit::sensible_folds(own, fit::BindOptions::max_folds);
+        result.push_back({own.length, folds.value_or(sensible)});
+    }
+    return result;
+}
+
+}  // namespace
+
+Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options) {
+    Growth growth;
+    const std::vector<fit::Stretch> wanted = stretches(cylinder, options);
+    for (const fit::Stretch& stretch : wanted) growth.folds = std::max(growth.folds, stretch.folds);
+    growth.vertices_before = mesh.positions.size();
+    growth.triangles_before = mesh::triangle_count(mesh);
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    const fit::Geometry geometry{mesh.positions, triangles};
+    const fit::Refinement made = fit::refine(geometry, fit::heights(mesh.positions, cylinder), wanted);
+    std::vector<mesh::Between> vertices;
+    vertices.reserve(made.vertices.size());
+    for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
+    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents});
+    growth.vertices_after = mesh.positions.size();
+    growth.triangles_after = mesh::triangle_count(mesh);
+    return growth;
+}
+
+void report_growth(Report& report, const Growth& growth) {
+    report.json["refined"] = {{"folds", growth.folds},
+                              {"vertices_before", growth.vertices_before},
+                              {"vertices_after", growth.vertices_after},
+                              {"triangles_before", growth.triangles_before},
+                              {"triangles_after", growth.triangles_after}};
+    report.line("refined", "from " + std::to_string(growth.triangles_before) + " to " +
+                               std::to_string(growth.triangles_after) + " triangles, from " +
+                               std::to_string(growth.vertices_before) + " to " +
+                               std::to_string(growth.vertices_after) + " vertices, for " +
+                               counted(static_cast<std::size_t>(growth.folds), "fold"));
+    if (growth.folds == 0)
+        report.warn("the body is too short for folds of its own, so that nothing is refined; give --folds K");
+}
+
+void add_refine(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<RefineOptions>();
+    CLI::App* command = app.add_subcommand(
+        "refine", "Give a model the rows of vertices that its folds need, its shape unchanged");
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("-o,--output", options->output, "Model to write, with one of these endings")
+        ->required();
+    command->add_option("--folds", options->folds, "Folds per half length (default: what suits the body)")
+        ->check(CLI::Range(1, fit::BindOptions::max_folds));
+    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+        ->capture_default_str();
+    command->add_option("--fit", options->fit,
+                        "Take the base cylinder from a report of 'goffer inspect --json'");
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_refine(*options); }; });
+}
+
+}  // namespace goffer::cli

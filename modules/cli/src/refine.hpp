@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "arguments.hpp"
+#include "report.hpp"
+
+#include <goffer/fit/bind.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <cstddef>
+
+/// A model with as many rows as its folds need: `goffer refine`, and `--refine` of other commands.
+
+namespace goffer::cli {
+
+/// How a mesh grew.
+struct Growth {
+    int folds = 0;  ///< that it was refined for: of the region that has the most
+    std::size_t vertices_before = 0, vertices_after = 0;
+    std::size_t triangles_before = 0, triangles_after = 0;
+};
+
+/// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that
+/// suits the body where nobody says. Throws what fit and mesh throw.
+Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options);
+
+/// The growth, as a line and as "refined" in the JSON. Warns where there was no fold to refine for.
+void report_growth(Report& report, const Growth& growth);
+
+}  // namespace goffer::cli

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "mesh/refined.hpp"
+#include "support/models.hpp"
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+/// A cylinder of L = 10, r = 1 whose sides are one row of quads.
+std::string coarse(const Folder& folder, const std::string& columns = "64") {
+    return base(folder, "coarse.ply", {"--columns", columns, "--rows", "2", "--caps"});
+}
+
+bool begins_with(const mesh::Mesh& now, const mesh::Mesh& was, float within) {
+    const auto near = [&](const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) <= within; };
+    return now.positions.size() >= was.positions.size() &&
+           std::equal(was.positions.begin(), was.positions.end(), now.positions.begin(), near);
+}
+
+}  // namespace
+
+TEST_CASE("refine: a bare cylinder gets the rows of its folds") {
+    const Folder folder;
+    coarse(folder);
+    const json all = report(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--folds", "6"});
+    CHECK(all["refined"]["folds"] == 6);
+    CHECK(all["refined"]["vertices_before"] == 130);
+    CHECK(all["refined"]["vertices_after"] == 130 + 2 * 64 * 95);
+    CHECK(all["refined"]["triangles_before"] == 4 * 64);
+    CHECK(all["refined"]["triangles_after"] == 2 * 64 + 2 * 64 * 191);
+    CHECK(all["vertices"] == all["refined"]["vertices_after"]);
+    CHECK(all["triangles"] == all["refined"]["triangles_after"]);
+    CHECK(all["folds_capacity"] == 6);
+    CHECK(all["warnings"] == json::array());
+    const mesh::Mesh fine = mesh::load(folder / "fine.ply");
+    CHECK(begins_with(fine, mesh::load(folder / "coarse.ply"), 0));
+    CHECK(open_edges(fine) == 0);
+    CHECK(report(folder, {"inspect", "coarse.ply"})["folds_capacity"] == 0);
+    CHECK(report(folder, {"inspect", "fine.ply"})["folds_capacity"] == 6);
+}
+
+TEST_CASE("refine: without a number, for the folds that suit the body") {
+    const Folder folder;
+    coarse(folder);
+    CHECK(report(folder, {"refine", "coarse.ply", "-o", "fine.ply"})["refined"]["folds"] == 5);
+    const json bent = report(folder, {"bend", "coarse.ply", "-o", "bent.ply", "--refine"});
+    CHECK(bent["folds"] == 5);
+    CHECK(bent["folds_capacity"] == 5);
+    CHECK(bent["refined"]["folds"] == 5);
+    CHECK(bent["warnings"] == json::array());
+    // a body too short for a fold
+    base(folder, "ring.ply", {"--length", "1", "--radius", "2", "--rows", "2"});
+    const json ring = report(folder, {"refine", "ring.ply", "-o", "out.ply", "--axis", "z"});
+    CHECK(ring["refined"]["triangles_after"] == ring["refined"]["triangles_before"]);
+    REQUIRE(ring["warnings"].size() == 1);
+    CHECK(ring["warnings"][0].get<std::string>().find("too short") != std::string::npos);
+}
+
+TEST_CASE("refine: bend --refine is refine, then bend") {
+    const Folder folder;
+    coarse(folder);
+    well(folder, {"inspect", "coarse.ply", "--json", "fit.json"});
+    const Words pose{"--fit", "fit.json", "--folds", "4", "--angle", "70", "--direction", "20"};
+    const std::string out = well(folder, Words{"bend", "coarse.ply", "-o", "one.ply", "--refine"} + pose);
+    CHECK(
+        out.find("refined           from 256 to 16384 triangles, from 130 to 8194 vertices, for 4 folds\n") !=
+        out.npos);
+    well(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--fit", "fit.json", "--folds", "4"});
+    well(folder, Words{"bend", "fine.ply", "-o", "two.ply"} + pose);
+    CHECK(bytes_of(folder / "one.ply") == bytes_of(folder / "two.ply"));
+}
+
+TEST_CASE("refine: what has its rows is left as it is, and without the word nothing is refined") {
+    const Folder folder;
+    base(folder);
+    well(folder, {"refine", "base.ply", "-o", "same.ply", "--folds", "10"});
+    CHECK(bytes_of(folder / "same.ply") == bytes_of(folder / "base.ply"));
+    CHECK(!report(folder, {"bend", "base.ply", "-o", "out.ply"}).contains("refined"));
+    const json all = report(folder, {"bend", "base.ply", "-o", "refined.ply", "--refine"});
+    CHECK(all["refined"]["triangles_after"] == all["refined"]["triangles_before"]);
+    CHECK(bytes_of(folder / "out.ply") == bytes_of(folder / "refined.ply"));
+}
+
+TEST_CASE("refine: at angle 0 the refined mesh comes back, its first vertices those of the file (P1)") {
+    const Folder folder;
+    coarse(folder);
+    well(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--folds", "6"});
+    well(folder, {"bend", "coarse.ply", "-o", "out.ply", "--refine", "--folds", "6", "--angle", "0"});
+    const mesh::Mesh out = mesh::load(folder / "out.ply"), fine = mesh::load(folder / "fine.ply");
+    CHECK(out.positions.size() == fine.positions.size());
+    CHECK(begins_with(out, fine, 1e-5f));
+    CHECK(begins_with(out, mesh::load(folder / "coarse.ply"), 1e-5f));
+}
+
+TEST_CASE("refine: a coarse mesh keeps its area as the base does") {
+    const Folder folder;
+    coarse(folder, "128");
+    for (const std::string angle : {"30", "90", "150"}) {
+        CAPTURE(angle);
+        const Words words{"bend", "coarse.ply", "-o", "out.ply", "--angle", angle, "--folds", "6"};
+        const auto change = [](const json& all) {
+            return all["area_after"].get<double>() / all["area_before"].get<double>() - 1;
+        };
+        const json fine = report(folder, words + Words{"--refine"});
+        CHECK(fine["warnings"] == json::array());
+        CHECK(std::abs(change(fine)) < 0.01);
+        const json rough = report(folder, words);
+        CHECK(std::abs(change(rough)) > 0.04);
+        REQUIRE(rough["warnings"].size() == 1);
+        CHECK(rough["warnings"][0].get<std::string>().find("goffer refine") != std::string::npos);
+    }
+}
+
+TEST_CASE("refine: real models carry six folds at 90 degrees, and what was closed is closed") {
+    for (const char* name : {"wine_bottle.glb", "WaterBottle.gltf", "log_01.glb", "cushion_02.glb",
+                             "insect_leg.glb", "fuze.ply", "banana.obj", "lh_trochanterfemur.stl"}) {
+        const std::filesystem::path file = model(name);
+        if (file.empty()) continue;
+        CAPTURE(name);
+        const Folder folder;
+        const json all =
+            report(folder, {"bend", file.string(), "-o", name, "--refine", "--folds", "6", "--angle", "90"});
+        CHECK(all["folds"] == 6);
+        CHECK(all["folds_capacity"].get<int>() >= 6);
+        CHECK(all["refined"]["triangles_after"].get<int>() >= all["refined"]["triangles_before"].get<int>());
+        CHECK(all["refined"]["triangles_after"].get<int>() <
+              12 * all["refined"]["triangles_before"].get<int>());
+        const mesh::Mesh before = mesh::load(file), bent = mesh::load(folder / name);
+        CHECK(mesh::triangle_count(bent) == all["triangles"].get<std::size_t>());
+        CHECK(bent.parts.size() == before.parts.size());
+        CHECK(bent.uvs.size() == before.uvs.size());
+        CHECK(bent.colors.empty() == before.colors.empty());
+        CHECK((open_edges(bent) == 0) == (open_edges(before) == 0));
+        (void)report(folder, {"refine", file.string(), "-o", "fine.glb", "--folds", "6"});
+        CHECK(report(folder, {"inspect", "fine.glb"})["folds_capacity"].get<int>() >= 6);
+    }
+}
+
+TEST_CASE("refine: bad words, bad files, and more than there is room for") {
+    const Folder folder;
+    coarse(folder);
+    folder.write("out.ply", "kept");
+    const Words refine{"refine", "coarse.ply", "-o", "out.ply"};
+    refused(folder, 2, {"bend", "coarse.ply", "-o", "out.ply", "--refine", "--folds", "0"},
+            {"--refine", "--folds 0", "nothing to refine for"});
+    for (const std::string word : {"0", "65", "-1", "many"})
+        refused(folder, 2, refine + Words{"--folds", word}, {"--folds"});
+    refused(folder, 2, {"refine", "coarse.ply"}, {"--output"});
+    refused(folder, 2, {"refine", "coarse.ply", "-o", "out.txt"}, {"out.txt"});
+    refused(folder, 2, {"refine", "coarse.ply", "-o", "coarse.ply"}, {"coarse.ply"});
+    refused(folder, 2, refine + Words{"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
+    refused(folder, 1, {"refine", "none.ply", "-o", "out.ply"}, {"none.ply", "no such file"});
+    base(folder, "wide.ply", {"--columns", "30000", "--rows", "2"});
+    refused(
+        folder, 1, {"refine", "wide.ply", "-o", "out.ply", "--folds", "64"},
+        {"wide.ply: refined, the mesh would have", "more than the 50000000 allowed; ask for fewer folds"});
+}
