@@ -246,12 +246,8 @@ Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                   const RefineOptions& options) {
     check(geometry);
     check(cylinder);
-    std::vector<double> heights;
-    heights.reserve(geometry.positions.size());
-    for (const glm::vec3& p : geometry.positions)
-        heights.push_back(glm::dot(glm::dvec3(p) - cylinder.origin, cylinder.axis));
     const Stretch whole{cylinder.length, folds};
-    return refine(geometry, heights, {&whole, 1}, options);
+    return refine(geometry, heights(geometry.positions, cylinder), {&whole, 1}, options);
 }
 
 std::vector<glm::vec3> refined_positions(std::span<const glm::vec3> positions, const Refinement& refinement) {
