@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What bench/gate is made of: trees and pairs, counts, ratios, their judgement, reports and history."""

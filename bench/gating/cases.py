@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""Which cases of goffer_bench are compared in pairs."""
+
+from __future__ import annotations
+
+import re
+
+# Widest first. `{widest}` stands for the first of these that the program has cases for.
+ISAS = ("avx512", "avx2", "neon", "sse4.2", "scalar")
+
+PAIRED = (
+    "setup/instance",
+    "setup/bounds",
+    "deform/positions/cache/{widest}/1",
+    "deform/positions+normals/cache/{widest}/1",
+    "deform/interleaved-positions+normals/cache/{widest}/1",
+    "deform/packed/cache/{widest}/1",
+    "deform/positions/cache/avx2/1",
+    "deform/positions+normals/cache/avx2/1",
+    "sweep/positions/100x200/{widest}/1",  # a small crowd in the cache: its instances cost as much as its vertices
+    "deform/positions+normals/crowd10000x200/{widest}/1",  # past the cache
+)
+
+
+def widest(names: list[str]) -> str:
+    """The widest instruction set among the cases that a program has."""
+    found = {isa for name in names for isa in ISAS if f"/{isa}/" in name}
+    return next((isa for isa in ISAS if isa in found), "scalar")
+
+
+def resolve(pattern: str, isa: str) -> str:
+    """A case's name on a machine whose widest instruction set is `isa`."""
+    return pattern.replace("{widest}", isa)
+
+
+def paired(names: list[str], only: str = "") -> list[str]:
+    """The cases to compare, given those of head; `only` is a regular expression that picks among them."""
+    isa = widest(names)
+    found = dict.fromkeys(resolve(case, isa) for case in PAIRED)
+    return [case for case in found if re.search(only, case)]
