@@ -9,6 +9,7 @@ frequency, another process: they hit both alike. Which of the two is started fir
 from __future__ import annotations
 
 import statistics
+import time
 from collections.abc import Callable
 
 from .judgement import Estimate, estimates
@@ -17,6 +18,7 @@ from .outcome import Part, Row, Unmeasured, Verdict
 from .programs import Run, cases_of, time_of
 
 SECONDS = 0.03  # that a case is timed for in each run, at least
+MINUTES = 5  # after which nothing is measured again
 ROUNDS = 3  # of measuring a case that is too noisy: so many pairs, as many again, twice as many again
 
 Pair = tuple[float, float]  # base's time, head's time
@@ -51,6 +53,7 @@ class Comparison:
         self._threshold = threshold
         self._progress = progress
         self._measured = 0
+        self._until = time.monotonic() + 60 * MINUTES
 
     def judge(self, cases: list[str]) -> list[Row]:
         """A row for each case. Those that seem slower are measured once more, from the start."""
@@ -73,7 +76,7 @@ class Comparison:
             count = len(pairs[left[0]])
             found = estimates(pairs)
             left = [case for case in cases if found[case].unclear(self._threshold)]
-            if not left:
+            if not left or time.monotonic() > self._until:
                 break
         return pairs
 
