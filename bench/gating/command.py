@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import filecmp
 import json
+import os
 import pathlib
 import sys
 
@@ -110,7 +111,7 @@ class Gate:
         """Head against base."""
         from . import pairs, programs  # here, so that counts and ratios go without SciPy
         both = tuple(self._given.programs) if self._given.programs else self._built()
-        same = filecmp.cmp(*both, shallow=False)
+        same = all(map(os.path.exists, both)) and filecmp.cmp(*both, shallow=False)
         remark = "Base and head are the same program, byte for byte."
         if same and self._given.skip_same:
             return Part("pairs", remarks=[remark + " Nothing was measured."])

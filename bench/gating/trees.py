@@ -108,9 +108,9 @@ class Repository:
         partial = self.folder / "partial"
         shutil.rmtree(partial, ignore_errors=True)
         partial.mkdir(parents=True)
-        archive = subprocess.Popen(["git", "-C", str(self.root), "archive", commit], stdout=subprocess.PIPE)
-        unpacked = subprocess.run(["tar", "-x", "-C", str(partial)], stdin=archive.stdout, check=False)
-        if archive.wait() != 0 or unpacked.returncode != 0:
+        with subprocess.Popen(["git", "-C", str(self.root), "archive", commit], stdout=subprocess.PIPE) as archive:
+            unpacked = subprocess.run(["tar", "-x", "-C", str(partial)], stdin=archive.stdout, check=False)
+        if archive.returncode != 0 or unpacked.returncode != 0:
             raise Unmeasured(f"git archive {commit[:12]} failed")
         source.parent.mkdir(exist_ok=True)
         partial.rename(source)

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""The command, with programs that pretend to be goffer_bench: verdicts, exit codes and reports."""
+
+import contextlib
+import io
+import json
+import unittest
+
+import support
+from support import CASES
+from gating import command
+
+
+ONE = {"setup/instance": 60.0}
+
+
+class Gate(support.Case):
+    def gate(self, base, head, *words):
+        """The exit code; what it said is kept."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                code = command.main(["--programs", base, head, "--pairs", "15", "--json", str(self.folder / "r.json"),
+                                     "--markdown", str(self.folder / "r.md"), *words])
+            except SystemExit as end:
+                code = end.code
+        self.out, self.err = out.getvalue(), err.getvalue()
+        return code
+
+    def report(self):
+        document = json.loads((self.folder / "r.json").read_text())
+        return document, {row["name"]: row for row in document["parts"][0]["rows"]}
+
+    def test_no_change_passes(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head")), 0)
+        document, rows = self.report()
+        self.assertEqual(document["exit_code"], 0)
+        self.assertEqual(set(rows), set(CASES))
+        self.assertTrue(all(row["verdict"] == "pass" and row["pairs"] >= 15 for row in rows.values()))
+        self.assertIn("# Benchmark gate: pass", (self.folder / "r.md").read_text())
+        self.assertEqual(self.err, "")
+
+    def test_a_slowdown_fails(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head", CASES | {"setup/instance": 69.0})), 1)
+        document, rows = self.report()
+        self.assertEqual(document["exit_code"], 1)
+        self.assertEqual(rows["setup/instance"]["verdict"], "regression")
+        self.assertEqual(rows["setup/instance"]["pairs"], 30)  # a second set
+        self.assertAlmostEqual(rows["setup/instance"]["change"], 0.15, delta=0.02)
+        self.assertGreater(rows["setup/instance"]["low"], 0.1)
+        self.assertEqual(rows["deform/positions/cache/avx2/1"]["verdict"], "pass")
+        self.assertIn("**REGRESSION**: seen in two sets", (self.folder / "r.md").read_text())
+        self.assertIn("setup/instance", self.out)
+
+    def test_below_the_threshold_passes(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, factor=1.03)), 0)
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, factor=1.03), "--threshold", "1"), 1)
+
+    def test_a_gain_is_said(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, factor=0.85)), 0)
+        self.assertTrue(all(row["verdict"] == "gain" for row in self.report()[1].values()))
+
+    def test_a_spell_is_not_confirmed(self):
+        # Slow for a first run and fifteen pairs, and no slower than the base after that.
+        head = self.fake("head", ONE, factor=1.2, change_after=(16, 1 / 1.2))
+        self.assertEqual(self.gate(self.fake("base"), head), 0)
+        self.assertTrue(all("not confirmed" in row["remark"] for row in self.report()[1].values()))
+
+    def test_too_noisy(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, swing=1)), 2)
+        self.assertRegex(self.err, r"^bench/gate: pairs: too noisy: setup/instance\n$")
+        self.assertEqual(self.report()[1]["setup/instance"]["pairs"], 60)
+
+    def test_cases_that_only_one_has(self):
+        head = self.fake("head", CASES | {"setup/bounds": 300.0})
+        base = self.fake("base", CASES | {"deform/packed/cache/avx2/1": 4.0})
+        self.assertEqual(self.gate(base, head), 0)
+        document, rows = self.report()
+        self.assertEqual(set(rows), set(CASES))
+        self.assertIn("`setup/bounds` is not in the base: not compared", document["parts"][0]["remarks"])
+        self.assertIn("`deform/packed/cache/avx2/1` is in the base alone: not compared", document["parts"][0]["remarks"])
+
+    def test_nothing_in_common(self):
+        code = self.gate(self.fake("base", {"a": 1.0}), self.fake("head"))
+        self.assertEqual(code, 2)
+        self.assertIn("no case in common", self.err)
+
+    def test_only_some_cases(self):
+        self.assertEqual(self.gate(self.fake("base"), self.fake("head"), "--cases", "^setup"), 0)
+        self.assertEqual(list(self.report()[1]), ["setup/instance"])
+
+    def test_programs_that_fail(self):
+        for fault, said in (("exit", "it went wrong"), ("error", "no such body"), ("empty", "no readable result")):
+            with self.subTest(fault):
+                self.assertEqual(self.gate(self.fake("base"), self.fake("head", fault=fault)), 2)
+                self.assertEqual(len(self.err.splitlines()), 1)
+                self.assertIn(said, self.err)
+                self.assertEqual(self.report()[0]["exit_code"], 2)
+        self.assertEqual(self.gate(self.fake("base"), "/nowhere/goffer_bench"), 2)
+
+    def test_the_same_program(self):
+        base = self.fake("base", fault="exit")  # it would fail if it ran
+        head = self.folder / "head"
+        head.write_bytes((self.folder / "base").read_bytes())
+        head.chmod(0o755)
+        self.assertEqual(self.gate(base, str(head), "--skip-same"), 0)
+        self.assertIn("same program", (self.folder / "r.md").read_text())
+
+    def test_wrong_usage(self):
+        self.assertEqual(self.gate("a", "b", "--pairs", "3"), 2)
+        self.assertEqual(self.gate("a", "b", "--only", "paris"), 2)
+
+    def test_record(self):
+        history = self.folder / "h.csv"
+        for _ in range(2):
+            self.gate(self.fake("base"), self.fake("head", ONE), "--record", str(history))
+        lines = history.read_text().splitlines()
+        self.assertEqual(len(lines), 1 + 2)
+        self.assertEqual(lines[0], "commit,date,compiler,cpu,case,value")
+        self.assertRegex(lines[1], r"^unknown,20.*,unknown,.*,pairs/setup/instance,[0-9.]+$")
+
+
+if __name__ == "__main__":
+    unittest.main()

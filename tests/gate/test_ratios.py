@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""Bounds: the best of several tries, and threads on a busy machine."""
+
+import unittest
+import unittest.mock
+
+import support
+from gating import ratios
+from gating.outcome import Verdict
+
+CASE = "deform/positions/cache/avx2/1"
+PAIR = {"deform/packed/crowd/avx2/1": 2.0, "deform/packed/crowd/avx2/2": 1.1}
+
+
+class Ratios(support.Case):
+    def judge(self, bounds, program, others=0.0):
+        with unittest.mock.patch.object(ratios.Others, "processors", return_value=others):
+            part = ratios.judge({"ratios": bounds}, program, lambda text: None)
+        return part, [row.verdict for row in part.rows]
+
+    def test_met_and_missed(self):
+        program = self.fake("head", {CASE: 1.0, "naive/positions": 20.0}, spread=0)
+        part, verdicts = self.judge({"over_naive": {CASE: 19}, "of_floor": {CASE: 0.25}}, program)
+        self.assertEqual(verdicts, [Verdict.PASS, Verdict.REGRESSION])
+        self.assertEqual([row.head for row in part.rows], [20, 0.2])
+        self.assertEqual(part.exit_code, 1)
+
+    def test_the_best_of_several_tries(self):
+        program = self.fake("head", PAIR, spread=0, swing=0.0, change_after=(2, 0.5))
+        for bound, verdict in ((1.8, Verdict.PASS), (1.9, Verdict.REGRESSION)):
+            self.assertEqual(self.judge({"two_threads": {"deform/packed/crowd/avx2": bound}}, program)[1], [verdict])
+
+    def test_tries_end_when_the_bound_is_met(self):
+        program = self.fake("head", {CASE: 1.0}, spread=0)
+        self.judge({"of_floor": {CASE: 0.1}}, program)
+        self.assertEqual((self.folder / "head.runs").read_text(), ".")
+        self.judge({"of_floor": {CASE: 0.3}}, program)
+        self.assertEqual((self.folder / "head.runs").read_text(), "." * (1 + ratios.TRIES))
+
+    def test_threads_on_a_busy_machine_are_not_judged(self):
+        program = self.fake("head", PAIR, spread=0)
+        bounds = {"two_threads": {"deform/packed/crowd/avx2": 1.9}}
+        part, verdicts = self.judge(bounds, program, others=0.8)
+        self.assertEqual(verdicts, [Verdict.NOTE])
+        self.assertIn("busy", part.rows[0].remark)
+        self.assertEqual(part.exit_code, 0)
+
+    def test_cases_that_are_not_there(self):
+        part, verdicts = self.judge({"of_floor": {"deform/positions/cache/avx512/1": 0.1}}, self.fake("head"))
+        self.assertEqual(verdicts, [Verdict.NOTE])
+        self.assertEqual(part.exit_code, 0)
+
+    def test_failing(self):
+        part, _ = self.judge({"of_floor": {CASE: 0.1}}, self.fake("head", fault="exit"))
+        self.assertIn("it went wrong", part.unmeasured)
+        self.assertEqual(part.exit_code, 2)
+        self.assertEqual(self.judge({}, self.fake("head"))[0].exit_code, 2)
+
+    def test_naive_of(self):
+        self.assertEqual(ratios.naive_of("deform/interleaved-positions+normals/cache/avx2/1"), "naive/positions+normals")
+
+
+if __name__ == "__main__":
+    unittest.main()
