@@ -56,7 +56,8 @@ def estimate(pairs: Sequence[tuple[float, float]], cases: int) -> Estimate:
         found = stats.bootstrap((logs,), np.median, confidence_level=1 - ALPHA / cases, n_resamples=RESAMPLES,
                                 method="percentile", random_state=1)
         low, high = found.confidence_interval
-    p = stats.wilcoxon(logs).pvalue if np.any(logs) else 1.0
+    changed = logs[logs != 0]  # the test has no use for pairs that are equal
+    p = stats.wilcoxon(changed).pvalue if changed.size else 1.0
     change, low, high = (float(np.expm1(value)) for value in (np.median(logs), low, high))
     return Estimate(change, low, high, float(p), len(logs))
 

@@ -4,6 +4,7 @@
 import math
 import unittest
 import unittest.mock
+import warnings
 
 from support import seeded
 from gating import judgement
@@ -76,6 +77,12 @@ class Judgement(unittest.TestCase):
         slower = judgement.estimate([(2.0, 2.2)] * PAIRS, 1)
         self.assertAlmostEqual(slower.low, 0.1)
         self.assertTrue(slower.slower())
+
+    def test_some_equal_pairs(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            found = judgement.estimate([(2.0, 2.0)] * 3 + pairs(seeded(7), NOISES["normal, 3 %"], 0.1), 1)
+        self.assertTrue(found.slower())
 
     def test_holm(self):
         for got, expected in zip(judgement.holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
