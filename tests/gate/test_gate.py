@@ -54,6 +54,8 @@ class Gate(support.Case):
 
     def test_below_the_threshold_passes(self):
         self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, factor=1.03)), 0)
+        row = self.report()[1]["setup/instance"]
+        self.assertEqual((row["pairs"], row["remark"]), (15, "slower, by less than the threshold"))
         self.assertEqual(self.gate(self.fake("base"), self.fake("head", ONE, factor=1.03), "--threshold", "1"), 1)
 
     def test_a_gain_is_said(self):

@@ -28,6 +28,7 @@ class Report(support.Case):
         self.assertIn("| `setup/x` | 10 | 11.2 | +12.0 % | +5.0 % .. +20.0 % | 0.001 | 40 | **REGRESSION**: seen |", text)
         self.assertIn("| `allocations` | 0 | 3 | from 0 to 3 | **REGRESSION** |", text)
         self.assertIn("| `b` | 10 | 9 | -10.0 % | better: keep it |", text)
+        self.assertEqual(text.count("| `a` |"), 1)
         self.assertIn("<summary>1 counts within the tolerance</summary>", text)
         self.assertIn("**Could not measure:** there | is no program", text)
         self.assertIn("\nBusy.\n", text)
