@@ -117,3 +117,30 @@ TEST_CASE("inspect: any unit") {
         CHECK(fit["radius"].get<double>() == doctest::Approx(std::stod(thin)).epsilon(1e-4));
     }
 }
+
+TEST_CASE("inspect: --rest tells the arc that a body is bent along") {
+    const Folder folder;
+    base(folder);
+    well(folder,
+         {"bend", "base.ply", "--angle", "70", "--direction", "30", "--amplitude", "none", "-o", "bent.ply"});
+    const json bent = report(folder, {"inspect", "bent.ply", "--rest", "auto", "--axis", "z"});
+    CHECK(bent["fit"]["rest_angle"].get<double>() == doctest::Approx(70).epsilon(1e-3));
+    CHECK(bent["fit"]["rest_direction"].is_number_float());
+    CHECK(bent["fit"]["length"].get<double>() == doctest::Approx(10).epsilon(1e-3));
+    check_vector(bent["fit"]["origin"], {0, 0, 0}, 1e-2);
+    CHECK(bent["rest"]["bent"] == true);
+    CHECK(bent["rest"]["arc_radius"].get<double>() == doctest::Approx(10 / 1.2217305 - 1).epsilon(1e-3));
+    CHECK(bent["rest"]["residual"] == bent["fit"]["residual"]);
+    CHECK(bent["rest"]["residual_straight"].get<double>() > 5 * bent["fit"]["residual"].get<double>());
+    const std::string lines = well(folder, {"inspect", "bent.ply", "--rest", "auto"});
+    CHECK(lines.find("bent by 70") != lines.npos);
+
+    const json straight = report(folder, {"inspect", "bent.ply", "--rest", "straight", "--axis", "z"});
+    CHECK(straight["fit"]["rest_angle"] == 0.0);
+    CHECK_FALSE(straight.contains("rest"));
+    const json cylinder = report(folder, {"inspect", "base.ply", "--rest", "auto"});
+    CHECK(cylinder["rest"]["bent"] == false);
+    CHECK(cylinder["rest"]["arc_radius"].is_null());
+    CHECK(cylinder["fit"]["rest_angle"] == 0.0);
+    CHECK(run(folder, {"inspect", "base.ply", "--rest", "curly"}).code == 2);
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "arc.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace goffer::fit {
+namespace {
+
+using Row = Eigen::Matrix<double, 6, 1>;
+
+/// The vertices of a cloud about its centroid and a direction.
+struct Chord {
+    Line line;
+    double spread;                // variance along it
+    std::array<Vector3d, 5> bow;  // directions in which the body may bow off it, unit
+};
+
+/// Most arcs bow as n in x, y = a + m z + n z^2 says, in least squares. Where a stout body's caps drown that,
+/// it is one of the main directions of the surface across the chord.
+Chord chord_of(const Body& cloud, const Vector3d& axis) {
+    Vector3d centroid = Vector3d::Zero();
+    for (const Vector3d& p : cloud.points) centroid += p / static_cast<double>(cloud.points.size());
+    const Line line = line_through(centroid, axis);
+    Matrix3d normal = Matrix3d::Zero();
+    Matrix3d spread = Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> right = decltype(right)::Zero();
+    for (const Vector3d& place : cloud.points) {
+        const Vector3d p = line.frame.transpose() * (place - centroid);
+        const Vector3d row{1, p.z(), p.z() * p.z()};
+        normal += row * row.transpose();
+        spread += p * p.transpose();
+        right += row * p.head<2>().transpose();
+    }
+    const Eigen::Matrix<double, 3, 2> by = normal.completeOrthogonalDecomposition().solve(right);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.topLeftCorner<2, 2>());
+    const auto across = [&line](const Eigen::Vector2d& v) -> Vector3d {
+        return (line.frame.leftCols<2>() * v).stableNormalized();
+    };
+    const Vector3d p = across(solver.eigenvectors().col(0)), q = across(solver.eigenvectors().col(1));
+    return {line, normal(1, 1) / normal(0, 0), {across(by.row(2)), p, -p, q, -q}};
+}
+
+/// The arc of `angle` with that centroid and that spread.
+Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
+    const double half = angle / 2;
+    const double radius = std::sqrt(2 * chord.spread / (1 - std::sin(angle) / angle));
+    const double inwards = radius * (1 - std::sin(half) / half);
+    return line_through(chord.line.point - inwards * bow, chord.line.axis(), bow / radius);
+}
+
+/// A body's sections, gathered in a few slices along its line: a bottle's neck is thinner than its belly, and
+/// none of that is a bend.
+class Slices {
+public:
+    Slices(const Body& body, const View& view) : body_(body), view_(view) {
+        for (const std::uint32_t i : body.triangles) {
+            low_ = std::min(low_, view.local[i].z());
+            high_ = std::max(high_, view.local[i].z());
+        }
+    }
+
+    /// `visit` gets each sample, the number of its slice, and its weight. Caps have none.
+    template <class Visit>
+    void each(Visit visit) const {
+        const double scale = count / (high_ - low_);
+        each_sample(body_, view_, [&](const Sample& s) {
+            const double slice = std::clamp((s.place.z() - low_) * scale, 0.0, count - 1.0);  // 0 for NaN
+            visit(s, static_cast<std::size_t>(slice), s.unrolled * s.upright);
+        });
+    }
+
+    static constexpr std::size_t count = 16;
+
+private:
+    const Body& body_;
+    const View& view_;
+    double low_ = std::numeric_limits<double>::infinity();
+    double high_ = -low_;
+};
+
+/// Sums over a slice, or over all.
+template <int size>
+struct Sums {
+    double weight = 0;
+    Eigen::Matrix<double, size, 1> first = decltype(first)::Zero();
+};
+
+/// Solves rho^2 = c + 2 (a + m z + n z^2) x + 2 (b + ..) y in least squares for (a, b, m, .., n, ..), with a
+/// c of its own in each slice: the circle of each section (Kasa 1976) with its centre on a parabola. Exact on
+/// a cylinder.
+Row regress(const Body& body, const Line& line) {
+    const View view(body, line);
+    Eigen::Matrix<double, 7, 7> products = decltype(products)::Zero();
+    std::array<Sums<7>, Slices::count> slices{};
+    Slices(body, view).each([&](const Sample& s, std::size_t slice, double weight) {
+        const double x = 2 * s.place.x(), y = 2 * s.place.y(), z = s.place.z();
+        Eigen::Matrix<double, 7, 1> row;
+        row << x, y, z * x, z * y, z * z * x, z * z * y, s.rho * s.rho;
+        products.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+        slices[slice].weight += weight;
+        slices[slice].first += weight * row;
+    });
+    for (const Sums<7>& own : slices) {
+        if (own.weight == 0) continue;
+        products.selfadjointView<Eigen::Lower>().rankUpdate(own.first, -1 / own.weight);
+    }
+    products = products.selfadjointView<Eigen::Lower>();
+    return products.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
+        products.topRightCorner<6, 1>());
+}
+
+/// Moves, tilts and bows the line until it is that of the sections' circles, or for `steps`.
+Line settle(const Body& body, const Line& start, int steps) {
+    constexpr double settled = 1e-6;
+    Line line = start;
+    for (int step = 0; step < steps; ++step) {
+        const Row by = regress(body, line);
+        const Matrix3d change = line.frame.leftCols<2>() * by.reshaped(2, 3);
+        line = line_through(line.point + change.col(0), (line.axis() + change.col(1)).normalized(),
+                            line.bow + 2 * change.col(2));
+        if (by.norm() < settled) break;
+    }
+    return line;
+}
+
+/// One below a full turn whose inner side has a length; false for NaN.
+bool possible(const Fitted& arc) {
+    const double angle = arc.angle(), radius = arc.section.radius;
+    const double length = arc.high - arc.low + angle * radius;  // of the outer line
+    return angle < 2 * std::numbers::pi && angle * 2 * radius < length;
+}
+
+std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {
+    const Line line = settle(body, start, steps);
+    if (!line.point.allFinite() || !line.frame.allFinite() || !line.bow.allFinite()) return std::nullopt;
+    const Fitted arc = measured(body, line);
+    return possible(arc) ? std::optional(arc) : std::nullopt;
+}
+
+/// How far the sections about a line are from circles about it: rms of rho's difference from its mean in a
+/// slice. However thick the body is here and there, this is 0 where all sections are circles about the line.
+double roughness(const Body& body, const Line& line) {
+    const View view(body, line);
+    std::array<Sums<2>, Slices::count> slices{};
+    Slices(body, view).each([&](const Sample& s, std::size_t slice, double weight) {
+        slices[slice].weight += weight;
+        slices[slice].first += weight * Eigen::Vector2d{s.rho, s.rho * s.rho};
+    });
+    double weight = 0, variance = 0;
+    for (const Sums<2>& own : slices) {
+        if (own.weight == 0) continue;
+        weight += own.weight;
+        variance += own.first[1] - own.first[0] * own.first[0] / own.weight;
+    }
+    return std::sqrt(std::max(0.0, variance) / weight);
+}
+
+/// Whether the arc is an arc, and better than the straight line by more than noise and reliefs would make it.
+/// `slack`: 1, or more where both are known roughly.
+bool convincing(const Body& body, const Fitted& arc, const Line& straight, double slack) {
+    constexpr double better = 0.8;      // of the straight line's roughness
+    constexpr double roughest = 0.2;    // of the radius: others are no tubes
+    constexpr double least_sag = 0.05;  // of the radius: what bends less is straight
+    const double rough = roughness(body, arc.line);
+    const double sag = (arc.high - arc.low) * arc.angle() / 8;
+    return rough < slack * roughest * arc.section.radius && slack * sag > least_sag * arc.section.radius &&
+           rough < slack * better * roughness(body, straight);
+}
+
+/// The best of arcs that bend this way and that.
+std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
+    constexpr double degree = std::numbers::pi / 180;
+    constexpr int few_steps = 5;
+    const Chord chord = chord_of(cloud, axis);
+    std::optional<Fitted> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double angle : {30., 90., 150.}) {
+        for (const Vector3d& bow : chord.bow) {
+            const std::optional<Fitted> arc = arc_from(cloud, arc_of(angle * degree, chord, bow), few_steps);
+            const double own = arc ? roughness(cloud, arc->line) : least;
+            if (!(own < least)) continue;
+            least = own;
+            best = arc;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::optional<Fitted> fit_arc(const Body& body, const Vector3d& axis, const Line& straight) {
+    constexpr std::size_t enough = 800;
+    constexpr int most_steps = 20;
+    constexpr double slack = 1.1;
+    std::vector<std::uint32_t> triangles;
+    const Body cloud = confetti(body, enough, triangles);
+    const std::optional<Fitted> rough = rough_arc(cloud, axis);
+    if (!rough || !convincing(cloud, *rough, straight, slack)) return std::nullopt;
+    const std::optional<Fitted> arc = arc_from(body, rough->line, most_steps);
+    return arc && convincing(body, *arc, straight, 1) ? arc : std::nullopt;
+}
+
+}  // namespace goffer::fit

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "sections.hpp"
+
+#include <Eigen/Dense>
+#include <limits>
+
+namespace goffer::fit {
+namespace {
+
+using Row = Eigen::Matrix<double, 5, 1>;
+
+/// Solves rho^2 = c + 2 (a + m z) x + 2 (b + n z) y in least squares for (c, a, b, m, n): the circle of each
+/// section (Kasa 1976) with its centre on a line. Exact on a cylinder, wherever its vertices are.
+Row regress(const Body& body, const Line& line, bool tilt) {
+    Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
+    Row right = Row::Zero();
+    each_sample(body, View(body, line), [&](const Sample& s) {
+        const Vector3d& p = s.place;
+        const double z = tilt ? p.z() : 0;
+        const Row row{1, 2 * p.x(), 2 * p.y(), 2 * p.x() * z, 2 * p.y() * z};
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(row, s.unrolled);
+        right += s.unrolled * s.rho * s.rho * row;
+    });
+    normal = normal.selfadjointView<Eigen::Lower>();
+    return normal.completeOrthogonalDecomposition().solve(right);
+}
+
+double sinc(double x) {
+    return x == 0 ? 1 : std::sin(x) / x;
+}
+
+}  // namespace
+
+int first_largest(const Vector3d& values) {
+    constexpr double tie = 1e-4;
+    int i = 0;
+    while (values[i] < values.maxCoeff() - tie) ++i;
+    return i;
+}
+
+Line line_through(const Vector3d& point, const Vector3d& axis, const Vector3d& bow) {
+    const Vector3d world = Vector3d::Unit(first_largest(-axis.cwiseAbs()));
+    Line line{point, Matrix3d{}, bow - axis.dot(bow) * axis};
+    line.frame.col(2) = axis;
+    line.frame.col(0) = (world - axis.dot(world) * axis).normalized();
+    line.frame.col(1) = line.frame.col(2).cross(line.frame.col(0));
+    return line;
+}
+
+Line moved_along(const Line& line, double distance) {
+    if (line.bow.isZero(0)) return {line.point + distance * line.axis(), line.frame};
+    const double phi = line.bow.norm() * distance;
+    const Vector3d axis = line.axis();
+    const Vector3d sagitta = distance * distance / 2 * std::pow(sinc(phi / 2), 2) * line.bow;
+    const Vector3d turned = std::cos(phi) * axis + distance * sinc(phi) * line.bow;
+    const Vector3d bow = std::cos(phi) * line.bow - line.bow.norm() * std::sin(phi) * axis;
+    return line_through(line.point + distance * sinc(phi) * axis + sagitta, turned.normalized(), bow);
+}
+
+Straightened::Straightened(const Line& line)
+    : turn_(line.frame.transpose()), point_(line.point), curvature_(line.bow.norm()) {
+    if (curvature_ == 0) return;
+    const Vector3d bow = turn_ * line.bow / curvature_;
+    c_ = bow.x();
+    s_ = bow.y();
+}
+
+// As paper::to_cylindrical, about a point amid the line.
+Vector3d Straightened::unbent(const Vector3d& local) const {
+    const double x = c_ * local.x() + s_ * local.y();
+    const double inwards = 1 - curvature_ * x, along = curvature_ * local.z();
+    const double squared = x * x + local.z() * local.z();
+    const double far = 1 + std::sqrt(inwards * inwards + along * along);
+    const double d = (2 * x - curvature_ * squared) / far;
+    const double shift = curvature_ * (x * d - squared) / far;
+    return {local.x() + c_ * shift, local.y() + s_ * shift, std::atan2(along, inwards) / curvature_};
+}
+
+View::View(const Body& body, const Line& line) {
+    const Straightened straightened(line);
+    local.reserve(body.points.size());
+    rho.reserve(body.points.size());
+    for (const Vector3d& p : body.points) {
+        local.push_back(straightened(p));
+        rho.push_back(local.back().head<2>().norm());
+    }
+}
+
+std::pair<double, double> extent(const Body& body, const Line& line) {
+    const View view(body, line);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const std::uint32_t i : body.triangles) {
+        low = std::min(low, view.local[i].z());
+        high = std::max(high, view.local[i].z());
+    }
+    return {low, high};
+}
+
+Section section(const Body& body, const Line& line) {
+    double flux = 0, unrolled = 0, area = 0;
+    double moment = 0;  // of rho^2 over the lateral area; that of rho is the flux
+    each_sample(body, View(body, line), [&](const Sample& s) {
+        flux += s.flux;
+        unrolled += s.unrolled;
+        area += s.lateral();
+        moment += s.flux * s.rho;
+    });
+    constexpr double no_flux = 1e-14;
+    if (flux < no_flux) {
+        throw Error("the mesh has no surface around the axis " + text(line.axis()) +
+                    "; name another with --axis");
+    }
+    const double r = std::sqrt(flux / unrolled);
+    return {r, std::sqrt(std::max(0.0, (moment - 2 * r * flux) / area + r * r)) / r};
+}
+
+Fitted measured(const Body& body, const Line& line) {
+    const auto [low, high] = extent(body, line);
+    return {line, low, high, section(body, line)};
+}
+
+Settled settle(const Body& body, const Line& start, bool tilt) {
+    constexpr int most_steps = 20;
+    constexpr double settled = 1e-7;
+    Settled now{start, 0};
+    for (int step = 0; step < most_steps; ++step) {
+        const Row by = regress(body, now.line, tilt);
+        const Vector3d shift = now.line.frame.leftCols<2>() * by.segment<2>(1);
+        const Vector3d turn = now.line.frame.leftCols<2>() * by.segment<2>(3);
+        now.line = line_through(now.line.point + shift, (now.line.axis() + turn).normalized());
+        now.radius = std::sqrt(by[0]);
+        if (by.tail<4>().norm() < settled) break;
+    }
+    return now;
+}
+
+}  // namespace goffer::fit

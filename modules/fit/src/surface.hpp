@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "text.hpp"
+
+#include <goffer/fit/geometry.hpp>
+
+#include <glm/vec3.hpp>
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The mesh as the fit sees it: a surface in double.
+
+namespace goffer::fit {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+inline Vector3d eigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+inline glm::dvec3 from_eigen(const Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+inline std::string text(const Vector3d& v) {
+    return text(v.x()) + "," + text(v.y()) + "," + text(v.z());
+}
+
+/// The mesh about its middle and in units of its size: nothing cancels, nothing overflows.
+struct Body {
+    std::vector<Vector3d> points;  // one per vertex
+    std::span<const std::uint32_t> triangles;
+    Vector3d middle;  // model space
+    double size;      // model units: the largest side of the box
+};
+
+[[nodiscard]] Body body_of(const Geometry& geometry);
+
+/// Centroid and long direction of the surface.
+struct Principal {
+    Vector3d centroid;
+    Vector3d axis;
+    double distinct;  // spread along the axis over the spread along the next
+};
+
+/// From the exact integrals of 1, x and x x^T over the triangles. Throws Error where all are without area.
+[[nodiscard]] Principal principal_axis(const Body& body);
+
+/// `count` small triangles of the same area and at places spread evenly over the surface, turned as it is
+/// there: the same body, roughly, to anything that integrates over it, at a cost that does not depend on the
+/// mesh. `triangles` is where its indices are kept and must outlive the result.
+[[nodiscard]] Body confetti(const Body& body, std::size_t count, std::vector<std::uint32_t>& triangles);
+
+}  // namespace goffer::fit

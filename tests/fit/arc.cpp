@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+#include "support/models.hpp"
+#include "synthetic.hpp"
+
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/mesh/mesh.hpp>
+#include <goffer/paper/closed_form.hpp>
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string>
+
+using namespace goffer;
+using fit::Cylinder;
+using test::Placing;
+using test::Recipe;
+using test::Solid;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Cylinder fit_to(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
+    return fit::fit_cylinder(solid.geometry(), axis, fit::Rest::automatic);
+}
+
+Solid warped(Solid solid, const std::function<glm::dvec3(glm::dvec3)>& map) {
+    for (glm::vec3& p : solid.positions) p = map(p);
+    return solid;
+}
+
+/// A recipe's cylinder, bent by the closed form.
+Solid bent(const Recipe& recipe, const paper::Pose& rest, std::mt19937& random) {
+    const paper::ClosedForm map({.length = recipe.length, .radius = 1}, rest);
+    return warped(test::cylinder(recipe, random),
+                  [&](glm::dvec3 p) { return map.position(paper::to_cylindrical(p)); });
+}
+
+double wrapped(double angle) {
+    return std::remainder(angle, 2 * std::numbers::pi);
+}
+
+/// How far a fit is from the truth: angles in radians, the line in radii, the others relative.
+struct Miss {
+    double angle, direction, axis, origin, length, radius;
+};
+
+/// The truth may have been found from its other end. There, what bends in the plane of theta to theta bends
+/// so too, so that the direction is compared in space: where the body bends to, at the base that was found.
+Miss miss(const Cylinder& fitted, const Recipe& recipe, const paper::Pose& rest, const Placing& placing) {
+    const paper::ClosedForm map({.length = recipe.length, .radius = 1}, rest);
+    const glm::dvec3 theta(std::cos(rest.direction), std::sin(rest.direction), 0), up(0, 0, 1);
+    const glm::dvec3 tip_axis = -(std::cos(rest.angle) * up + std::sin(rest.angle) * theta);
+    const glm::dvec3 tip_bow = std::cos(rest.angle) * theta - std::sin(rest.angle) * up;
+    const glm::dvec3 tip = placing(map.centre(recipe.length));
+    const bool turned = glm::length(fitted.origin - tip) < glm::length(fitted.origin - placing({0, 0, 0}));
+    const glm::dvec3 second = glm::cross(fitted.axis, fitted.zero);
+    const glm::dvec3 bow =
+        std::cos(fitted.rest_direction) * fitted.zero + std::sin(fitted.rest_direction) * second;
+    const glm::dvec3 true_bow = placing.turn * (turned ? tip_bow : theta);
+    const glm::dvec3 true_axis = placing.turn * (turned ? tip_axis : up);
+    const auto between = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    };
+    // The axis may be off within the plane of the arc, too; that is no fault of the direction.
+    const glm::dvec3 normal = glm::normalize(glm::cross(true_axis, true_bow));
+    const double off = std::asin(std::clamp(glm::dot(bow, normal), -1.0, 1.0));
+    return {std::abs(fitted.rest_angle - rest.angle),
+            glm::dot(bow, true_bow) > 0 ? std::abs(off) : std::numbers::pi,
+            between(fitted.axis, true_axis),
+            glm::length(fitted.origin - (turned ? tip : placing({0, 0, 0}))) / placing.scale,
+            std::abs(fitted.length / (placing.scale * recipe.length) - 1),
+            std::abs(fitted.radius / placing.scale - 1)};
+}
+
+/// All families of the requirement; `visit` gets a recipe of 5000 vertices without noise, and an angle.
+void each_arc(const std::function<void(Recipe, double)>& visit) {
+    for (const double angle : {10.0, 35.0, 60.0, 90.0, 120.0, 150.0}) {
+        for (const double length : {6.0, 9.0, 15.0, 30.0}) {
+            if (length < 2.2 * angle * degree) continue;
+            for (const int columns : {12, 40}) {
+                for (const bool closed : {false, true}) {
+                    Recipe recipe{
+                        .columns = columns, .rows = 5000 / columns, .length = length, .closed = closed};
+                    visit(recipe, angle * degree);
+                    recipe.jitter = 0.4;
+                    recipe.dense_beta = 3;
+                    recipe.dense = 5;
+                    visit(recipe, angle * degree);
+                }
+            }
+        }
+    }
+}
+
+std::string said(const Recipe& r, const paper::Pose& rest) {
+    return std::to_string(rest.angle / degree) + " degrees to " + std::to_string(rest.direction / degree) +
+           ", " + std::to_string(r.columns) + " x " + std::to_string(r.rows) +
+           ", L = " + std::to_string(r.length) + (r.closed ? ", closed" : ", open") + ", dense " +
+           std::to_string(r.dense);
+}
+
+/// rms of (rho - r) / r over the vertices, by the inverse that bind uses, and the range of z / L.
+struct About {
+    double residual, low, high;
+};
+
+About about(const Cylinder& c, const Solid& solid) {
+    const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
+    About result{0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const glm::vec3& p : solid.positions) {
+        const paper::Cylindrical v =
+            paper::to_cylindrical(glm::transpose(axes) * (glm::dvec3(p) - c.origin), c.length, c.radius,
+                                  {c.rest_angle, c.rest_direction});
+        result.residual += std::pow(v.rho / c.radius - 1, 2) / static_cast<double>(solid.positions.size());
+        result.low = std::min(result.low, v.z / c.length);
+        result.high = std::max(result.high, v.z / c.length);
+    }
+    result.residual = std::sqrt(result.residual);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("arcs: clean ones are found exactly, however tessellated, and the inverse unbends them") {
+    std::mt19937 random(61);
+    std::uniform_real_distribution<double> direction(-std::numbers::pi, std::numbers::pi);
+    each_arc([&](const Recipe& recipe, double angle) {
+        const paper::Pose rest{angle, direction(random)};
+        CAPTURE(said(recipe, rest));
+        const Placing placing = test::random_placing(10 * recipe.length, random);
+        const Solid solid = test::placed(bent(recipe, rest, random), placing);
+        const Cylinder fitted = fit_to(solid);
+        CHECK_NOTHROW(fit::check(fitted));
+        const Miss off = miss(fitted, recipe, rest, placing);
+        CHECK(off.angle < 2e-3);
+        CHECK(off.direction < 2e-3);
+        CHECK(off.axis < 2e-3);
+        CHECK(off.origin < 2e-3);
+        CHECK(off.length < 1e-3);
+        CHECK(off.radius < 1e-3);
+        const About unbent = about(fitted, solid);
+        CHECK(unbent.low > -1e-6);
+        CHECK(unbent.high < 1 + 1e-6);
+        if (!recipe.closed) CHECK(unbent.residual < 2e-3);
+    });
+}
+
+TEST_CASE("arcs: 1 % noise: angle within 1 degree, direction within 2, radius and length within 1 %") {
+    std::mt19937 random(62);
+    std::uniform_real_distribution<double> direction(-std::numbers::pi, std::numbers::pi);
+    Miss worst{};
+    each_arc([&](Recipe recipe, double angle) {
+        recipe.noise = 0.01;
+        const paper::Pose rest{angle, direction(random)};
+        CAPTURE(said(recipe, rest));
+        const Placing placing = test::random_placing(10 * recipe.length, random);
+        const Miss off =
+            miss(fit_to(test::placed(bent(recipe, rest, random), placing)), recipe, rest, placing);
+        CHECK(off.angle < 1 * degree);
+        CHECK(off.direction < 2 * degree);
+        CHECK(off.length < 0.01);
+        CHECK(off.radius < 0.01);
+        worst.angle = std::max(worst.angle, off.angle);
+        worst.direction = std::max(worst.direction, off.direction);
+        worst.length = std::max(worst.length, off.length);
+        worst.radius = std::max(worst.radius, off.radius);
+    });
+    MESSAGE("worst: angle ", worst.angle / degree, " degrees, direction ", worst.direction / degree,
+            " degrees, length ", 100 * worst.length, " %, radius ", 100 * worst.radius, " %");
+}
+
+TEST_CASE("arcs: a straight body stays straight, to the bit what Rest::straight says") {
+    std::mt19937 random(63);
+    const auto bumpy = [](glm::dvec3 p) {
+        const double rho = 1 + 0.08 * std::sin(3 * std::atan2(p.y, p.x) + 2 * p.z) * std::sin(1.3 * p.z);
+        return glm::dvec3(rho * p.x, rho * p.y, p.z);
+    };
+    const auto cone = [](glm::dvec3 p) { return glm::dvec3((1 - 0.07 * p.z) * glm::dvec2(p), p.z); };
+    const auto capsule = [](glm::dvec3 p) {
+        const double end = std::max({1 - p.z, p.z - 9, 0.0});
+        return glm::dvec3(std::sqrt(1 - end * end) * glm::dvec2(p), p.z);
+    };
+    const auto bottle = [](glm::dvec3 p) {
+        return glm::dvec3((p.z < 6 ? 1 : p.z < 7 ? 1 - 0.7 * (p.z - 6) : 0.3) * glm::dvec2(p), p.z);
+    };
+    const auto flat = [](glm::dvec3 p) { return glm::dvec3(1.5 * p.x, 0.6 * p.y, p.z); };
+    const auto plain = [](glm::dvec3 p) { return p; };
+    for (const double noise : {0.0, 0.02, 0.05}) {
+        for (const auto& shape :
+             {std::function<glm::dvec3(glm::dvec3)>(plain), {bumpy}, {cone}, {capsule}, {bottle}, {flat}}) {
+            for (const bool closed : {false, true}) {
+                const Recipe recipe{.columns = 24, .rows = 60, .closed = closed, .noise = noise};
+                const Placing placing = test::random_placing(30, random);
+                const Solid solid = test::placed(warped(test::cylinder(recipe, random), shape), placing);
+                const Cylinder fitted = fit_to(solid);
+                const Cylinder straight =
+                    fit::fit_cylinder(solid.geometry(), std::nullopt, fit::Rest::straight);
+                CHECK(fitted.rest_angle == 0);
+                CHECK(fitted.rest_direction == 0);
+                CHECK(fitted.axis == straight.axis);
+                CHECK(fitted.origin == straight.origin);
+                CHECK(fitted.length == straight.length);
+                CHECK(fitted.radius == straight.radius);
+                CHECK(fitted.residual == straight.residual);
+            }
+        }
+    }
+}
+
+TEST_CASE("arcs: a horn's centre line is found, though it tapers") {
+    std::mt19937 random(64);
+    const Recipe recipe{.columns = 32, .rows = 80, .length = 14, .noise = 0.01};
+    const paper::Pose rest{1.2, 0.7};
+    const paper::ClosedForm map({.length = 14, .radius = 1}, rest);
+    const Solid horn = warped(test::cylinder(recipe, random), [&](glm::dvec3 p) {
+        return map.position(paper::to_cylindrical({(1 - 0.05 * p.z) * glm::dvec2(p), p.z}));
+    });
+    const Cylinder fitted = fit_to(horn, glm::dvec3(map.centre(14)));
+    // The centre line keeps its curvature and its length; the outer line is that of the mean radius.
+    CHECK(fitted.rest_angle == doctest::Approx(1.2).epsilon(0.02));
+    CHECK(miss(fitted, recipe, rest, {}).direction < 2 * degree);
+    CHECK(fitted.length - fitted.rest_angle * fitted.radius == doctest::Approx(14 - 1.2).epsilon(0.01));
+}
+
+TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body round") {
+    std::mt19937 random(65);
+    const Recipe recipe{.columns = 32, .rows = 60, .length = 12};
+    const paper::Pose rest{1.4, -0.5};
+    const Solid solid = bent(recipe, rest, random);
+    const paper::ClosedForm map({.length = 12, .radius = 1}, rest);
+    const glm::dvec3 chord = map.centre(12), aside(0.3, 0.2, 0);
+    for (const glm::dvec3& axis : {chord, 5.0 * (glm::normalize(chord) + aside)}) {
+        const Cylinder there = fit_to(solid, axis), back = fit_to(solid, -axis);
+        CHECK(there.rest_angle == doctest::Approx(1.4).epsilon(1e-3));
+        CHECK(back.rest_angle == doctest::Approx(1.4).epsilon(1e-3));
+        CHECK(glm::length(there.origin) < 1e-2);
+        CHECK(glm::length(there.axis - glm::dvec3(0, 0, 1)) < 1e-2);
+        CHECK(std::abs(wrapped(there.rest_direction + 0.5)) < 1e-2);
+        CHECK(glm::length(back.origin - chord) < 1e-2);
+    }
+    // Across the body there is no arc; what is left is the straight fit along that axis.
+    const glm::dvec3 across(-std::sin(-0.5), std::cos(-0.5), 0);
+    CHECK(fit_to(solid, across).rest_angle == 0);
+    CHECK(glm::length(fit_to(solid, across).axis - across) < 1e-12);
+    // Nor has a straight body one, however far off the axis is that was given.
+    const Solid straight = test::cylinder(recipe, random);
+    const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.2, 0.1, 1));
+    CHECK(fit_to(straight, tilted).rest_angle == 0);
+    CHECK(glm::length(fit_to(straight, tilted).axis - tilted) < 1e-12);
+}
+
+TEST_CASE("arcs: the result does not depend on duplicated or unused vertices, winding or order") {
+    std::mt19937 random(66);
+    const Recipe recipe{.columns = 24, .rows = 40, .length = 9, .jitter = 0.3, .noise = 0.01};
+    const Solid solid = test::placed(bent(recipe, {1.8, 2}, random), test::random_placing(5, random));
+    const Cylinder expected = fit_to(solid);
+    CHECK(expected.rest_angle > 1.5);
+    Solid other;
+    other.positions.emplace_back(1e30f, -1e30f, 1e30f);
+    for (std::size_t t = solid.triangles.size(); t > 0; t -= 3) {
+        for (const std::size_t i : {t - 1, t - 3, t - 2}) {
+            other.triangles.push_back(static_cast<std::uint32_t>(other.positions.size()));
+            other.positions.push_back(solid.positions[solid.triangles[i]]);
+        }
+        if (t % 2 == 0) std::swap(other.triangles.back(), other.triangles[other.triangles.size() - 2]);
+    }
+    const Cylinder fitted = fit_to(other);
+    CHECK(fitted.rest_angle == doctest::Approx(expected.rest_angle).epsilon(1e-5));
+    CHECK(std::abs(wrapped(fitted.rest_direction - expected.rest_direction)) < 1e-5);
+    CHECK(glm::length(fitted.axis - expected.axis) < 1e-5);
+    CHECK(glm::length(fitted.origin - expected.origin) < 1e-5 * expected.length);
+    CHECK(fitted.length == doctest::Approx(expected.length).epsilon(1e-5));
+    CHECK(fitted.radius == doctest::Approx(expected.radius).epsilon(1e-5));
+}
+
+TEST_CASE("arcs: hostile but valid meshes end in an error or in a cylinder that passes check") {
+    std::mt19937 random(67);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    const std::vector<float> numbers{0.0f, 1.0f, -1.0f, 1e-20f, 1e-6f, 3e38f, -3e38f, 1e4f, 0.5f};
+    int fitted = 0;
+    for (int round = 0; round < 1000; ++round) {
+        const auto number = [&] { return round % 3 == 0 ? uniform(random) : numbers[random() % 9]; };
+        Solid solid;
+        for (int i = 0; i < 8; ++i) solid.positions.push_back(glm::vec3{number(), number(), number()});
+        for (int i = 0; i < 24; ++i) solid.triangles.push_back(static_cast<std::uint32_t>(random() % 8));
+        std::optional<glm::dvec3> axis;
+        if (round % 2 == 0) axis = glm::dvec3{number(), number(), number()};
+        try {
+            const Cylinder cylinder = fit_to(solid, axis);
+            REQUIRE_NOTHROW(fit::check(cylinder));
+            REQUIRE(2 * cylinder.rest_angle * cylinder.radius < cylinder.length * (1 + 1e-12));
+            ++fitted;
+        } catch (const fit::Error& error) {
+            REQUIRE(std::string(error.what()).find("nan") == std::string::npos);
+        }
+    }
+    CHECK(fitted > 100);
+}
+
+TEST_CASE("arcs: folds are counted along the arc") {
+    std::mt19937 random(68);
+    const Recipe recipe{.columns = 24, .rows = 97, .length = 15};
+    for (const double angle : {0.5, 1.5, 2.6}) {
+        const Solid solid = bent(recipe, {angle, 1}, random);
+        CHECK(fit::folds_capacity(solid.geometry(), fit_to(solid)) == 6);
+    }
+}
+
+TEST_CASE("arcs: real models") {
+    struct Known {
+        const char* name;
+        double low, high;  // degrees
+    };
+    for (const Known& known : {Known{"banana.obj", 85, 110},
+                               {"lh_trochanterfemur.stl", 25, 45},
+                               {"wine_bottle.glb", 0, 0},
+                               {"WaterBottle.gltf", 0, 0},
+                               {"log_01.glb", 0, 0},
+                               {"cushion_02.glb", 0, 0},
+                               {"fuze.ply", 0, 0},
+                               {"koala.obj", 0, 0},
+                               {"blub_open.obj", 0, 0},
+                               {"insect_leg.glb", 0, 0},
+                               {"l_arista.stl", 0, 0}}) {
+        CAPTURE(known.name);
+        const std::filesystem::path path = test::model(known.name);
+        if (path.empty()) continue;
+        const mesh::Records records = mesh::records(mesh::load(path));
+        const fit::Geometry geometry{records.positions, records.triangles};
+        const Cylinder fitted = fit::fit_cylinder(geometry, std::nullopt, fit::Rest::automatic);
+        CHECK(fitted.rest_angle >= known.low * degree);
+        CHECK(fitted.rest_angle <= known.high * degree);
+        if (known.high == 0) continue;
+        CHECK(fitted.residual <
+              fit::fit_cylinder(geometry, std::nullopt, fit::Rest::straight).residual * 0.85);
+    }
+}
+
+TEST_CASE("arcs: the time a fit takes") {
+    std::mt19937 random(69);
+    for (const int rows : {100, 1000}) {
+        const Recipe recipe{.columns = 100, .rows = rows, .length = 12, .noise = 0.01};
+        const Solid solid = bent(recipe, {1.5, 1}, random);
+        const auto start = std::chrono::steady_clock::now();
+        CHECK(fit_to(solid).rest_angle > 1);
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        MESSAGE(solid.positions.size(), " vertices: ", taken.count(), " ms");
+    }
+}
