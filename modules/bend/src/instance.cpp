@@ -123,24 +123,44 @@ struct MiddleFrame {
     Four n, b, t, origin;
 };
 
+/// The sine and cosine of a quarter of an arc's angle.
+struct Quarter {
+    float sine, cosine;
+    float sinc;  // sine / angle
+};
+
+float arc_polynomial(const float (&terms)[arc_terms], float x) noexcept {
+    float sum = terms[arc_terms - 1];
+    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = sum * x + terms[n];
+    return sum;
+}
+
+Quarter quarter_of(float alpha) noexcept {
+    const float angle = alpha / 4;
+    if (alpha <= pi) {  // the kernels' polynomials, in less than half the time of the library's functions
+        const float x = angle * angle;
+        const float sinc = arc_polynomial(quarter_terms.sinc, x);
+        return {angle * sinc, 1 - x * arc_polynomial(quarter_terms.versine, x), sinc};
+    }
+    const float sine = std::sin(angle);
+    return {sine, std::cos(angle), sine / angle};
+}
+
 /// Halves of an arc: its turn, and its chord.
 struct HalfArc {
     float sine, cosine;  // of alpha / 2
     float out, up;       // from the base to the middle, towards the bend and along the base's axis
-    float sinc;          // sin(alpha / 4) / (alpha / 4)
 };
 
 HalfArc half_arc(float length, float alpha, float one_minus_kappa) noexcept {
-    const float quarter = alpha / 4;
-    const float sin_quarter = std::sin(quarter);
-    const float cos_quarter = std::cos(quarter);
+    const Quarter quarter = quarter_of(alpha);
     HalfArc half;
-    half.sine = 2 * sin_quarter * cos_quarter;
-    half.cosine = 1 - 2 * sin_quarter * sin_quarter;
-    half.sinc = quarter > 0 ? sin_quarter / quarter : 1.0f;
+    half.sine = 2 * quarter.sine * quarter.cosine;
+    half.cosine = 1 - 2 * quarter.sine * quarter.sine;
     const float arc = one_minus_kappa * length / 2;
-    half.out = arc * sin_quarter * half.sinc;  // arc (1 - cos(alpha / 2)) / (alpha / 2), without cancelling
-    half.up = arc * half.sinc * cos_quarter;   // arc sin(alpha / 2) / (alpha / 2)
+    half.out =
+        arc * quarter.sine * quarter.sinc;  // arc (1 - cos(alpha / 2)) / (alpha / 2), without cancelling
+    half.up = arc * quarter.sinc * quarter.cosine;  // arc sin(alpha / 2) / (alpha / 2)
     return half;
 }
 

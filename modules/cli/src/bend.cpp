@@ -158,21 +158,23 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
     for (std::size_t r = 0; r < bound.regions.size(); ++r)
         used.push_back(used_angle(bound.body, r, request.pose.poses[r]));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
-    const double base_change = base_area_change(model, request.bind.options, used);
+    // Of the base of a body that is bent at rest, or has an onset, no closed form is known.
+    const bool known = model.cylinder.rest_angle == 0 && request.bind.options.onset.value_or(0) == 0;
+    const double base_change = known ? base_area_change(model, request.bind.options, used) : 0;
     nlohmann::ordered_json& json = report.json;
     report_poses(report, request.pose, bound);
     json["amplitude"] = options.bind.amplitude;
     json["profile"] = options.bind.profile;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
-    json["base_area_change"] = base_change;
+    json["base_area_change"] = known ? nlohmann::ordered_json(base_change) : nullptr;
     json["bind_ms"] = bound.milliseconds;
     json["deform_us"] = bent.microseconds;
     json["isa"] = name(resolve(request.isa));
     json["threads"] = request.threads;
 
-    report.line("area change", percent(area_after / area_before - 1) + " of the mesh, " +
-                                   percent(base_change) + " of its base");
+    report.line("area change", percent(area_after / area_before - 1) + " of the mesh" +
+                                   (known ? ", " + percent(base_change) + " of its base" : ""));
     report.line("time", number(bound.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");

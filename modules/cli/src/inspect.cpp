@@ -13,20 +13,17 @@ namespace {
 struct InspectOptions {
     std::filesystem::path model;
     std::string axis = "auto";
-    std::string rest = fit::default_rest == fit::Rest::automatic ? "auto" : "straight";
+    std::string rest = "auto";
     std::filesystem::path json;
 };
 
-/// The fit that --rest asks for; the model's own is straight.
-fit::Cylinder rest_fit(const InspectOptions& options, const BoundModel& model, const BindRequest& request) {
-    if (options.rest != "auto") return model.cylinder;
+/// The arc of the rest centre line, if there is one, beside the straight line that it replaces.
+void report_rest(Report& report, const InspectOptions& options, const BindRequest& request,
+                 const BoundModel& model) {
+    const fit::Cylinder& fitted = model.cylinder;
     const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
-    return in_file(options.model,
-                   [&] { return fit::fit_cylinder(geometry, request.axis, fit::Rest::automatic); });
-}
-
-/// The arc of the rest centre line beside the straight line that it replaces.
-void report_rest(Report& report, const fit::Cylinder& fitted, const fit::Cylinder& straight) {
+    const fit::Cylinder straight = in_file(
+        options.model, [&] { return fit::fit_cylinder(geometry, request.axis, fit::Rest::straight); });
     nlohmann::ordered_json& rest = report.json["rest"];
     const bool bent = fitted.rest_angle != 0;
     const double outer = bent ? fitted.length / fitted.rest_angle : 0;
@@ -35,17 +32,14 @@ void report_rest(Report& report, const fit::Cylinder& fitted, const fit::Cylinde
     rest["residual_straight"] = straight.residual;
     rest["residual"] = fitted.residual;
     if (!bent) return report.line("at rest", "straight");
-    report.line("at rest", "bent by " + number(degrees(fitted.rest_angle)) + " degrees towards " +
-                               number(degrees(fitted.rest_direction)) + ", arc of radius " +
-                               number(outer - fitted.radius));
     report.line("straight residual", number(straight.residual) + " of the radius");
-    report.warn(
-        "the largest angle is that of the body as if it were straight; bodies bent at rest are not "
-        "bound yet");
 }
 
 void run_inspect(const InspectOptions& options) {
-    const BindRequest request({.axis = options.axis});
+    BindWords words;
+    words.axis = options.axis;
+    words.rest = options.rest;
+    const BindRequest request(words);
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request);
@@ -53,9 +47,8 @@ void run_inspect(const InspectOptions& options) {
 
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));
-    const fit::Cylinder cylinder = rest_fit(options, model, request);
-    report_fit(report, cylinder);
-    if (options.rest == "auto") report_rest(report, cylinder, model.cylinder);
+    report_fit(report, model.cylinder);
+    if (options.rest == "auto") report_rest(report, options, request, model);
     const double max_angle = degrees(static_cast<double>(bound.body.max_angle()));
     report.json["max_angle"] = max_angle;
     report.json["folds_capacity"] = bound.folds_capacity();
@@ -75,10 +68,7 @@ void add_inspect(CLI::App& app, Action& action) {
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
     command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
-    command
-        ->add_option("--rest", options->rest, "Shape at rest: auto (an arc where it fits better), straight")
-        ->check(CLI::IsMember({"auto", "straight"}))
-        ->capture_default_str();
+    add_rest_word(*command, options->rest);
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_inspect(*options); }; });
 }

@@ -9,6 +9,12 @@
 
 namespace goffer::cli {
 
+void add_rest_word(CLI::App& command, std::string& word) {
+    command.add_option("--rest", word, "Shape at rest: auto (an arc where that fits better), straight")
+        ->check(CLI::IsMember({"auto", "straight"}))
+        ->capture_default_str();
+}
+
 void add_bind_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
                        "Folds per half length of a region, or a list of one number for each "
@@ -29,10 +35,11 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         ->check(number_within(0, 1, "a squeeze"));
     command.add_option("--axis", words.axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
+    add_rest_word(command, words.rest);
 }
 
 BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
-    : axis(parse_axis(words.axis)) {
+    : axis(parse_axis(words.axis)), rest(words.rest == "auto" ? fit::Rest::automatic : fit::Rest::straight) {
     options.folds = read_folds(words.folds, regions);
     options.regions = std::move(regions);
     options.onset = words.onset;
@@ -53,7 +60,7 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
         fit::check(geometry);
-        return given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis);
+        return given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis, request.rest);
     });
     std::optional<Growth> growth;
     if (request.refine) {

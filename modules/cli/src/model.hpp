@@ -24,16 +24,21 @@ struct BindWords {
     std::string amplitude = "paper";
     std::string profile = "damped";
     std::string axis = "auto";
+    std::string rest = "auto";
     std::optional<double> onset = {};
     bool refine = false;  ///< split edges until the mesh carries the folds
 };
 
-/// Adds --folds, --amplitude, --profile, --onset and --axis. `words` must outlive `command`.
+/// Adds --rest. `word` must outlive `command`.
+void add_rest_word(CLI::App& command, std::string& word);
+
+/// Adds --folds, --amplitude, --profile, --onset, --axis and --rest. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Such words, understood. Throws UsageError.
 struct BindRequest {
     std::optional<glm::dvec3> axis;
+    fit::Rest rest;
     fit::BindOptions options;
     bool refine = false;
 

@@ -23,6 +23,7 @@ struct RefineOptions {
     std::filesystem::path output;
     std::optional<int> folds;
     std::string axis = "auto";
+    std::string rest = "auto";
     std::filesystem::path fit;
     std::filesystem::path json;
 };
@@ -31,6 +32,7 @@ void run_refine(const RefineOptions& options) {
     BindWords words;
     if (options.folds) words.folds = std::to_string(*options.folds);
     words.axis = options.axis;
+    words.rest = options.rest;
     words.refine = true;
     const BindRequest request(words);
     if (!options.fit.empty() && request.axis)
@@ -112,6 +114,7 @@ void add_refine(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
     command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
+    add_rest_word(*command, options->rest);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");

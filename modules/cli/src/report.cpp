@@ -100,6 +100,10 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     report.line("zero direction", vector_text(cylinder.zero, 1));
     report.line("length, radius", number(cylinder.length) + ", " + number(cylinder.radius) + " (ratio " +
                                       number(cylinder.length / cylinder.radius) + ")");
+    if (cylinder.rest_angle != 0) {
+        report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees towards " +
+                                   number(degrees(cylinder.rest_direction)));
+    }
     report.line("fit residual", number(cylinder.residual) + " of the radius");
 }
 

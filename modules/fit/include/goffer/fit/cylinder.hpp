@@ -31,9 +31,6 @@ enum class Rest {
     straight    ///< a straight line, whatever the body
 };
 
-/// What the commands and fit_cylinder() do when nobody says. bind() takes straight bodies only.
-inline constexpr Rest default_rest = Rest::straight;
-
 /// Fits a base cylinder to any triangle mesh.
 ///
 /// `axis`: the direction from base to tip (any length, any sign is kept), or nothing to find the mesh's long
@@ -56,7 +53,7 @@ inline constexpr Rest default_rest = Rest::straight;
 /// zero, not finite, or along which the mesh has no extent; a body thinner than float can carry. Pure; may be
 /// called from any thread.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
-                                    Rest rest = default_rest);
+                                    Rest rest = Rest::automatic);
 
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or
 /// radius not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
