@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "files.hpp"
+#include "refined.hpp"
 
 #include <doctest/doctest.h>
 
@@ -53,8 +54,8 @@ std::string mutated(std::string bytes, std::mt19937& random) {
     return bytes;
 }
 
-/// Loads what a mutation made of `bytes`; what loads can also be written, and bent and written, in its own
-/// format. Returns how many loaded.
+/// Loads what a mutation made of `bytes`; what loads can also be written, bent and written, and refined and
+/// written, in its own format. Returns how many loaded.
 int survive(const std::string& name, const std::string& bytes, int rounds, const std::string& beside = {}) {
     const Folder folder;
     const auto out_file = folder / ("out-" + name);
@@ -75,6 +76,11 @@ int survive(const std::string& name, const std::string& bytes, int rounds, const
             const Mesh out = with_records(mesh, bent);
             save(out, out_file);
             CHECK(load(out_file).positions == out.positions);
+            std::filesystem::remove(out_file);
+            const Mesh cut = refined(mesh, halves(mesh).pieces());
+            save(cut, out_file);
+            CHECK(load(out_file).positions == cut.positions);
+            CHECK(load(out_file).corners == cut.corners);
             std::filesystem::remove(out_file);
         } catch (const Error& error) {
             const std::string what = error.what();

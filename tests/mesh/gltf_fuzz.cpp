@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_files.hpp"
+#include "refined.hpp"
 #include "support/models.hpp"
 
 #include <algorithm>
@@ -32,13 +33,15 @@ Document subject() {
     return document;
 }
 
-/// Reads what may be broken, and writes it, bent, where it could be read. Anything but Error or success is a
-/// failure.
+/// Reads what may be broken, and writes it, bent and then refined, where it could be read. Anything but Error
+/// or success is a failure.
 bool survives(const std::string& name, const std::string& bytes) {
     try {
         Mesh mesh = load_text(name, bytes);
         for (glm::vec3& p : mesh.positions) p.x = 0.5f * p.x + p.y;
         (void)saved(mesh, name);
+        const Mesh cut = refined(mesh, halves(mesh).pieces());
+        CHECK(reloaded(cut, name).corners == cut.corners);
         return true;
     } catch (const Error& error) {
         CHECK(std::string_view(error.what()).find('\n') == std::string_view::npos);

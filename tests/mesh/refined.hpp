@@ -44,6 +44,30 @@ inline mesh::Mesh refined_along(const mesh::Mesh& mesh, int axis, int folds = 1)
     return mesh::refined(mesh, recipe(mesh, axis, folds).pieces());
 }
 
+/// Cuts every edge in half, whatever the mesh; a triangle without three corners stays.
+inline MeshRecipe halves(const mesh::Mesh& mesh) {
+    MeshRecipe recipe;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+    const auto half = [&](std::uint32_t a, std::uint32_t b) {
+        const auto next = static_cast<std::uint32_t>(mesh.positions.size() + recipe.vertices.size());
+        const auto [entry, is_new] = known.try_emplace(std::minmax(a, b), next);
+        if (is_new) recipe.vertices.push_back({std::min(a, b), std::max(a, b), 0.5});
+        return entry->second;
+    };
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    for (std::uint32_t t = 0; t < triangles.size() / 3; ++t) {
+        const std::uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
+        std::vector<std::uint32_t> pieces{a, b, c};
+        if (a != b && b != c && c != a) {
+            const std::uint32_t ab = half(a, b), bc = half(b, c), ca = half(c, a);
+            pieces = {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca};
+        }
+        recipe.made.triangles.insert(recipe.made.triangles.end(), pieces.begin(), pieces.end());
+        recipe.made.parents.insert(recipe.made.parents.end(), pieces.size() / 3, t);
+    }
+    return recipe;
+}
+
 /// How many edges run more often one way than the other, duplicated vertices welded by the bits of their
 /// positions: 0 where the surface is closed.
 inline std::size_t open_edges(const mesh::Mesh& mesh) {
