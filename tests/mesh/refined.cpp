@@ -232,16 +232,18 @@ TEST_CASE("refined: STL keeps header, solids and attributes") {
 }
 
 TEST_CASE("refined: real models stay closed, and their files hold what is there") {
-    for (const auto& [name, axis] : {std::pair("banana.obj", 1),
-                                     {"blub_open.obj", 2},
-                                     {"koala.obj", 2},
-                                     {"fuze.ply", 2},
-                                     {"lh_trochanterfemur.stl", 2},
-                                     {"wine_bottle.glb", 1},
-                                     {"log_01.glb", 1},
-                                     {"cushion_02.glb", 0},
-                                     {"insect_leg.glb", 0},
-                                     {"WaterBottle.gltf", 1}}) {
+    for (const auto& known : {std::pair("banana.obj", 1),
+                              {"blub_open.obj", 2},
+                              {"koala.obj", 2},
+                              {"fuze.ply", 2},
+                              {"lh_trochanterfemur.stl", 2},
+                              {"wine_bottle.glb", 1},
+                              {"log_01.glb", 1},
+                              {"cushion_02.glb", 0},
+                              {"insect_leg.glb", 0},
+                              {"WaterBottle.gltf", 1}}) {
+        const char* const name = known.first;
+        const int axis = known.second;
         const auto file = model(name);
         if (file.empty()) continue;
         CAPTURE(name);
