@@ -59,7 +59,7 @@ struct RefineOptions {
 /// positions are so far from the origin that floats round them by a thousandth of a row, one less can come
 /// of it.) Heights are those along `cylinder`'s axis or rest arc. Throws Error: what check(geometry) and
 /// check(cylinder) throw; folds out of range; more triangles than allowed. Pure; may be called from any
-/// thread. About 30 ms per 100,000 triangles that come of it.
+/// thread. About 40 ms per 100,000 triangles that come of it.
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                                 const RefineOptions& options = {});
 
