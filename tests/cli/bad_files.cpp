@@ -84,7 +84,7 @@ TEST_CASE("bad files: fits with a field that cannot be") {
     place.refuse_field("axis", {1, 0, 0}, {"zero", "orthogonal"});
     place.refuse_field("zero", {0, 0, 0}, {"zero"});
     place.refuse_field("origin", {"a", "b", "c"}, {"not a fit"});
-    place.refuse_field("rest_angle", 30, {"rest_angle"});
+    place.refuse_field("rest_angle", 300, {"rest_angle"});
 }
 
 TEST_CASE("bad files: the fit of another mesh") {

@@ -155,7 +155,7 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
     CHECK(refused([](Subject&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
     CHECK(refused([](Subject&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") != std::string::npos);
-    CHECK(refused([](Subject& s, Options&) { s.cylinder.rest_angle = 1; }).find("rest_angle") !=
+    CHECK(refused([](Subject& s, Options&) { s.cylinder.rest_angle = 60; }).find("rest_angle") !=
           std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.cylinder.radius = -1; }).find("radius") != std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.normals.pop_back(); }).find("normals") != std::string::npos);

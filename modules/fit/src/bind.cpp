@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,6 +41,12 @@ void check(std::span<const RegionOptions> regions) {
 
 void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     if (!options.regions.empty()) check(options.regions);
+    const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
+    if (!(cylinder.rest_angle >= 0 && cylinder.rest_angle < most) ||
+        !std::isfinite(cylinder.rest_direction)) {
+        throw Error("rest_angle: " + text(cylinder.rest_angle) + " is outside 0.." + text(most) +
+                    ", what a body of that length and radius can have; or rest_direction is not finite");
+    }
     if (!(onset >= 0 && onset <= 1)) throw Error("onset: " + text(onset) + " is outside 0..1");
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0)) {
         throw Error(std::string("amplitude: area is not for a body ") +
@@ -84,13 +91,10 @@ bend::RegionInput region_input(const Cylinder& cylinder, const BindOptions& opti
     region.onset = rest.folds == 0 ? 0 : onset;
     region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
     region.rest_direction = cylinder.rest_direction;
-    region.max_angle = largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
-                                     cylinder.radius, largest_rho(vertices));
-    if (region.rest_angle > region.max_angle) {
-        throw Error(
-            "rest_angle: " + text(cylinder.rest_angle) +
-            " is beyond what a body this thick can be bent by; bind it as straight, or with fewer folds");
-    }
+    // At rest there is no wrinkle, and so room for the arc that the body has.
+    region.max_angle =
+        std::max(region.rest_angle, largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
+                                                  cylinder.radius, largest_rho(vertices)));
     region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length,
                                       cylinder.radius, region.max_angle, options.table_rows);
     return region;

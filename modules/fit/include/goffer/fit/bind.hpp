@@ -69,11 +69,11 @@ struct Bound {
 /// replaced (normals by made ones, tangents by a direction orthogonal to the normal).
 ///
 /// Throws Error: what check(geometry) and check(cylinder) throw; an option out of range; a vertex of a
-/// triangle below z = 0 or above z = length by more than a thousandth of it; a rest angle beyond the largest
-/// usable one; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A vertex that
-/// no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per 10,000
-/// vertices and 10 ms for each region's table; Amplitude::mesh deforms the mesh some hundred times, on all
-/// processors: a tenth of a second for 10,000 vertices.
+/// triangle below z = 0 or above z = length by more than a thousandth of it; a rest angle that no
+/// such body can have; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A
+/// vertex that no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per
+/// 10,000 vertices and 10 ms for each region's table; Amplitude::mesh deforms the mesh some hundred times, on
+/// all processors: a tenth of a second for 10,000 vertices.
 [[nodiscard]] Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options = {});
 
 /// The wrinkle table for a base cylinder: `rows` rows from angle 0 to `max_angle` (radians, > 0), made in
