@@ -18,7 +18,7 @@ from .outcome import Unmeasured
 from .trees import Tree
 
 FRAME = "goffer_counted_frame"  # the function of goffer_count that is counted
-SLOW = re.compile(r"^(v?(div|sqrt)[sp][sd]|i?div[bwlq]?)$")  # divisions and roots: one takes as long as many others
+SLOW = re.compile(r"^(v?(div|sqrt)[sp][sd]|i?div[bwlq]?|f(div|sqrt)|[su]div)$")  # divisions and roots: one takes as long as many others
 LIBRARIES = (("engine", "goffer_engine"), ("modules/bend", "goffer_bend"))
 
 

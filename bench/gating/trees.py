@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import os
 import pathlib
+import platform
 import re
 import shutil
 import subprocess
@@ -39,10 +40,10 @@ class Tree:
         return str(self.build / folder / f"lib{name}.a")
 
     def compiler(self) -> str:
-        """Name and version, as in "GNU 12.2.0"."""
+        """Name, version and what it makes code for, as in "GNU 12.2.0 x86_64"."""
         for file in self.build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake"):
             found = dict(re.findall(r'set\(CMAKE_CXX_COMPILER_(ID|VERSION) "(.*?)"\)', file.read_text()))
-            return f"{found.get('ID', 'unknown')} {found.get('VERSION', '')}".strip()
+            return f"{found.get('ID', 'unknown')} {found.get('VERSION', '')} {platform.machine()}"
         return "unknown"
 
 

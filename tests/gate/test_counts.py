@@ -38,7 +38,7 @@ class Profile(unittest.TestCase):
         self.assertEqual(counts.read_profile(DUMP, "/b/goffer_count", {0x24, 0x10}), Work(17, 5))
 
     def test_roots_and_divisions(self):
-        for name in ("vsqrtps", "sqrtss", "vdivpd", "divss", "idivl", "div", "divq"):
+        for name in ("vsqrtps", "sqrtss", "vdivpd", "divss", "fsqrt", "sdiv", "idivl", "div", "divq"):
             self.assertRegex(name, counts.SLOW)
         for name in ("vrsqrtps", "vrcpps", "vmulps", "mov"):
             self.assertNotRegex(name, counts.SLOW)
