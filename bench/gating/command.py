@@ -17,15 +17,16 @@ from .trees import Repository, Tree
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = ("counts", "ratios", "pairs")
 EPILOG = """
-Exit code 0: no regression; 1: a regression; 2: it could not be measured, and one line says why. bench/README.md says how
-to read the report, and how noise is handled.
+Exit code 0: no regression; 1: a regression; 2: it could not be measured, and one line says why. bench/README.md says
+how to read the report, and how noise is handled.
 """
 
 
 def parse(words: list[str] | None) -> argparse.Namespace:
     """The command line."""
-    parser = argparse.ArgumentParser(prog="bench/gate", epilog=EPILOG, description="Whether the files as they are (head) "
-                                     "are slower than a commit (base), or than bench/baseline.json says.")
+    parser = argparse.ArgumentParser(prog="bench/gate", epilog=EPILOG,
+                                     description="Whether the files as they are (head) are slower than a commit "
+                                                 "(base), or than bench/baseline.json says.")
     add = parser.add_argument
     folder = ROOT / "build/gate"
     add("--base", metavar="REF", help="the commit to compare with; by default where this branch left the main one, "
@@ -40,7 +41,8 @@ def parse(words: list[str] | None) -> argparse.Namespace:
     add("--baseline", metavar="FILE", type=pathlib.Path, default=ROOT / "bench/baseline.json", help="instead of "
         "bench/baseline.json")
     add("--update", action="store_true", help="write head's counts into the baseline, and do nothing else")
-    add("--json", metavar="FILE", type=pathlib.Path, default=folder / "report.json", help="default build/gate/report.json")
+    add("--json", metavar="FILE", type=pathlib.Path, default=folder / "report.json",
+        help="default build/gate/report.json")
     add("--markdown", metavar="FILE", type=pathlib.Path, default=folder / "report.md",
         help="default build/gate/report.md")
     add("--record", metavar="CSV", type=pathlib.Path, nargs="?", const=folder / "history.csv",

@@ -18,7 +18,8 @@ from .outcome import Unmeasured
 from .trees import Tree
 
 FRAME = "goffer_counted_frame"  # the function of goffer_count that is counted
-SLOW = re.compile(r"^(v?(div|sqrt)[sp][sd]|i?div[bwlq]?|f(div|sqrt)|[su]div)$")  # divisions and roots: one takes as long as many others
+# Divisions and roots: one takes as long as many others.
+SLOW = re.compile(r"^(v?(div|sqrt)[sp][sd]|i?div[bwlq]?|f(div|sqrt)|[su]div)$")
 LIBRARIES = (("engine", "goffer_engine"), ("modules/bend", "goffer_bend"))
 
 
@@ -51,7 +52,8 @@ def output_of(*command: str) -> str:
 
 def slow_addresses(program: str) -> set[int]:
     """Where a program has divisions and roots."""
-    lines = re.findall(r"^ *([0-9a-f]+):\t(\S+)", output_of("objdump", "-d", "--no-show-raw-insn", program), re.MULTILINE)
+    code = output_of("objdump", "-d", "--no-show-raw-insn", program)
+    lines = re.findall(r"^ *([0-9a-f]+):\t(\S+)", code, re.MULTILINE)
     return {int(address, 16) for address, name in lines if SLOW.match(name)}
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What pairs of times say about a case.
 
-A pair's figure is the logarithm of head / base. Of the pairs of a case there are the median, a bootstrap interval for it,
-and Wilcoxon's signed-rank test of no change. With m cases the interval is at the level 1 - alpha / m (Bonferroni), and the
-p values are Holm's: among all cases one is called changed by chance with a probability of alpha at most.
+A pair's figure is the logarithm of head / base. Of the pairs of a case there are the median, a bootstrap interval for
+it, and Wilcoxon's signed-rank test of no change. With m cases the interval is at the level 1 - alpha / m (Bonferroni),
+and the p values are Holm's: among all cases one is called changed by chance with a probability of alpha at most.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Estimate:
         return self.high < 0 and self.p < alpha
 
     def unclear(self, threshold: float) -> bool:
-        """Whether both no change and one beyond the threshold are still in an interval that is wider than the threshold."""
+        """Whether the interval is wider than the threshold, and holds both no change and one above the threshold."""
         return self.low <= 0 and self.high > threshold and self.high - self.low > threshold
 
 

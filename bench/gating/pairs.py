@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Base and head side by side.
 
-The two programs of a pair run one case at the same time, on the same core: the system's scheduler gives them turns of some
-milliseconds, base, head, base, head, and each is timed by its own processor time. A slow spell of the machine, a change of
-frequency, another process: they hit both alike. Which of the two is started first alternates from pair to pair.
+The two programs of a pair run one case at the same time, on the same core: the system's scheduler gives them turns of
+some milliseconds, base, head, base, head, and each is timed by its own processor time. A slow spell of the machine, a
+change of frequency, another process: they hit both alike. Which of the two is started first alternates from pair to pair.
 """
 
 from __future__ import annotations

@@ -61,7 +61,8 @@ class Repository:
         except OSError as error:
             raise Unmeasured(f"git does not run: {error}") from error
         except subprocess.CalledProcessError as error:
-            raise Unmeasured(f"git {' '.join(words)}: {(error.stderr.strip().splitlines() or ['failed'])[0]}") from error
+            said = (error.stderr.strip().splitlines() or ["failed"])[0]
+            raise Unmeasured(f"git {' '.join(words)}: {said}") from error
         return done.stdout.strip()
 
     def commit(self, reference: str) -> str:

@@ -51,7 +51,7 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def fake(self, name, times=None, *, factor=1.0, spread=0.01, swing=0, fault="", change_after=None):
-        """A program in the folder that pretends to take so long: with noise, by turns longer and shorter, from some run on longer."""
+        """A program in the folder that pretends to take so long: with noise, by turns more and less, from some run on more."""
         path = self.folder / name
         times = {case: value * factor for case, value in (times or CASES).items()}
         path.write_text(textwrap.dedent(FAKE).lstrip().format(times=times, spread=spread, swing=swing,

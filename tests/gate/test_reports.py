@@ -25,7 +25,8 @@ class Report(support.Case):
     def test_markdown(self):
         text = report.markdown(parts(), {"head": "abc", "base": ""})
         self.assertTrue(text.startswith("# Benchmark gate: REGRESSION\n\nhead abc. "))
-        self.assertIn("| `setup/x` | 10 | 11.2 | +12.0 % | +5.0 % .. +20.0 % | 0.001 | 40 | **REGRESSION**: seen |", text)
+        self.assertIn("| `setup/x` | 10 | 11.2 | +12.0 % | +5.0 % .. +20.0 % | 0.001 | 40 | **REGRESSION**: seen |",
+                      text)
         self.assertIn("| `allocations` | 0 | 3 | from 0 to 3 | **REGRESSION** |", text)
         self.assertIn("| `b` | 10 | 9 | -10.0 % | better: keep it |", text)
         self.assertEqual(text.count("| `a` |"), 1)
@@ -87,7 +88,8 @@ class BenchReport(support.Case):
             return {"name": name, "run_name": name, "run_type": "iteration", "family_index": family, **counters}
         case = "deform/positions/cache/avx2"
         runs = [run("naive/positions", 0, ns_per_vertex=40.0),
-                *(run(f"{case}/1", 1, ns_per_vertex=value, of_floor=0.25, bytes_per_second=12e9) for value in (1, 2, 6)),
+                *(run(f"{case}/1", 1, ns_per_vertex=value, of_floor=0.25, bytes_per_second=12e9)
+                  for value in (1, 2, 6)),
                 run(f"{case}/2", 2, ns_per_vertex=1.0),
                 run("setup/instance", 3, ns_per_instance=60.0)]
         context = {"date": "today", "num_cpus": 2, "load_avg": [1, 2, 3],
