@@ -8,6 +8,7 @@ import filecmp
 import json
 import os
 import pathlib
+import re
 import sys
 
 from . import baseline, cases, counts, history, machine, ratios, report
@@ -53,6 +54,12 @@ def parse(words: list[str] | None) -> argparse.Namespace:
     given.only = set(filter(None, given.only.split(",")))
     if unknown := given.only - set(PARTS):
         parser.error(f"no such part: {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}")
+    if not given.only:
+        parser.error(f"--only: one or more of {', '.join(PARTS)}")
+    try:
+        re.compile(given.cases)
+    except re.error as fault:
+        parser.error(f"--cases: no regular expression: {fault}")
     if given.pairs < 15:
         parser.error("--pairs: 15 or more")
     if given.programs:
@@ -173,9 +180,12 @@ def main(words: list[str] | None = None) -> int:
     """bench/gate."""
     try:
         return run(parse(words))
-    except Unmeasured as reason:
+    except (Unmeasured, OSError) as reason:
         progress("")
         print(f"bench/gate: {reason}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("\nbench/gate: interrupted", file=sys.stderr)
         return 2
     except ImportError as error:
         print(f"bench/gate: {error}: bash .ci/setup bench installs it", file=sys.stderr)

@@ -111,7 +111,15 @@ class Gate(support.Case):
 
     def test_wrong_usage(self):
         self.assertEqual(self.gate("a", "b", "--pairs", "3"), 2)
-        self.assertEqual(self.gate("a", "b", "--only", "paris"), 2)
+        for words in (["--only", "paris"], ["--only", ""], ["--cases", "("]):
+            self.assertEqual(self.gate("a", "b", *words), 2)
+            self.assertIn("usage: bench/gate", self.err)
+
+    def test_a_report_that_cannot_be_written(self):
+        (self.folder / "file").write_text("")
+        code = self.gate(self.fake("base", ONE), self.fake("head", ONE), "--json", str(self.folder / "file" / "r.json"))
+        self.assertEqual(code, 2)
+        self.assertEqual(len(self.err.splitlines()), 1)
 
     def test_record(self):
         history = self.folder / "h.csv"
