@@ -11,7 +11,9 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <string_view>
 #include <vector>
 
 /// Amplitude mode `mesh`: a mesh keeps its own area, whichever way and however far it is bent.
@@ -80,7 +82,11 @@ TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own
         if (path.empty()) continue;
         const mesh::Records records = mesh::records(mesh::load(path));
         const Soup read{records.positions, records.triangles};
-        const fit::Cylinder cylinder = fit::fit_cylinder(read.geometry());
+        // Bodies that are bent at rest are bound as straight: straightening stretches them, which no wrinkle
+        // mends.
+        const bool ball = std::string_view(name) == "softball.obj";  // has no long axis
+        const fit::Cylinder cylinder = fit::fit_cylinder(
+            read.geometry(), ball ? std::optional(glm::dvec3(0, 1, 0)) : std::nullopt, fit::Rest::straight);
         const Soup soup = refined(read, cylinder);
         fit::BindOptions options;
         options.folds = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);

@@ -55,7 +55,7 @@ TEST_CASE("real models: the long axis is found and the body is somewhat thinner 
         CAPTURE(model.name);
         const mesh::Records records = read(model.name);
         if (records.positions.empty()) continue;
-        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records));
+        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         CHECK_NOTHROW(fit::check(fitted));
         CHECK(test::angle_between(fitted.axis, model.axis) < 2 * std::numbers::pi / 180);
         const double slender = fitted.length / fitted.radius;
@@ -75,7 +75,7 @@ TEST_CASE("real models, straight and round: L / r within 30 % of the box's") {
         CAPTURE(model.name);
         const mesh::Records records = read(model.name);
         if (records.positions.empty()) continue;
-        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records));
+        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         CHECK(fitted.length / fitted.radius < 1.3 * model.slender);
     }
 }
@@ -86,7 +86,7 @@ TEST_CASE("real models, closed: pi r^2 L is the enclosed volume within 15 %") {
         CAPTURE(name);
         const mesh::Records records = read(name);
         if (records.positions.empty()) continue;
-        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records));
+        const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         const double base = std::numbers::pi * fitted.radius * fitted.radius * fitted.length;
         CHECK(base == doctest::Approx(volume(records)).epsilon(0.15));
     }
@@ -95,8 +95,9 @@ TEST_CASE("real models, closed: pi r^2 L is the enclosed volume within 15 %") {
 TEST_CASE("the softball has no long axis, and is fitted along any that is given") {
     const mesh::Records records = read("softball.obj");
     if (records.positions.empty()) return;
-    CHECK_THROWS_WITH_AS(static_cast<void>(fit::fit_cylinder(geometry(records))),
-                         doctest::Contains("--axis x|y|z|X,Y,Z"), fit::Error);
+    CHECK_THROWS_WITH_AS(
+        static_cast<void>(fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight)),
+        doctest::Contains("--axis x|y|z|X,Y,Z"), fit::Error);
     for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 1, 1)}) {
         const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), axis);
         CHECK(fitted.length / fitted.radius == doctest::Approx(2 / std::sqrt(2.0 / 3)).epsilon(0.02));

@@ -83,21 +83,40 @@ double largest_rho(std::span<const bend::RestVertex> vertices) {
     return largest;
 }
 
-bend::RegionInput region_input(const Cylinder& cylinder, const BindOptions& options, double onset,
-                               const RestRegion& rest, std::span<const bend::RestVertex> vertices) {
+/// A region as it is bound, and what its largest angle depends on.
+struct Plan {
+    const Cylinder& cylinder;
+    const BindOptions& options;
+    const RestRegion& rest;
+    double largest_rho;
+
+    /// With the wrinkle `factor` times as deep. At rest there is no wrinkle, and so room for the arc that the
+    /// body has.
+    [[nodiscard]] double max_angle(double factor) const {
+        return std::max(cylinder.rest_angle * rest.length / cylinder.length,
+                        largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
+                                      cylinder.radius, largest_rho, factor));
+    }
+};
+
+bend::RegionInput region_input(const Plan& plan, double onset, std::size_t vertex_count) {
+    const auto& [cylinder, options, rest, rho] = plan;
     bend::RegionInput region;
     region.length = rest.length;
-    region.vertex_count = vertices.size();
+    region.vertex_count = vertex_count;
     region.onset = rest.folds == 0 ? 0 : onset;
     region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
     region.rest_direction = cylinder.rest_direction;
-    // At rest there is no wrinkle, and so room for the arc that the body has.
-    region.max_angle =
-        std::max(region.rest_angle, largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
-                                                  cylinder.radius, largest_rho(vertices)));
+    region.max_angle = plan.max_angle(1);
     region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length,
                                       cylinder.radius, region.max_angle, options.table_rows);
     return region;
+}
+
+double largest_factor(const bend::FactorTable& factors) {
+    float largest = 1;
+    for (const auto& row : factors.rows) largest = std::max(largest, *std::ranges::max_element(row));
+    return static_cast<double>(largest);
 }
 
 bend::Body make(const bend::BodyInput& input) {
@@ -120,12 +139,14 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
     std::vector<BoundRegion> found = plan(geometry, cylinder, options, places);
     RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
 
+    std::vector<Plan> plans;
     std::vector<bend::RegionInput> regions;
     std::size_t first = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
-        regions.push_back(region_input(cylinder, options, onset, places[i], own));
-        first += mesh.counts[i];
+        plans.push_back({cylinder, options, places[i], largest_rho(own)});
+        regions.push_back(region_input(plans[i], onset, own.size()));
+        first += own.size();
     }
     bend::BodyInput input;
     input.origin = cylinder.origin;
@@ -139,6 +160,9 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
     bend::Body body = make(input);
     if (options.amplitude == paper::Amplitude::mesh) {
         solve_factors(body, geometry, mesh.order, regions);
+        for (std::size_t i = 0; i < regions.size(); ++i)
+            regions[i].max_angle =
+                std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
         body = make(input);
     }
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;

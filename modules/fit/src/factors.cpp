@@ -19,7 +19,7 @@ namespace goffer::fit {
 namespace {
 
 constexpr std::size_t rows = 17;         // of a table of factors
-constexpr double most = 1.5;             // factor
+constexpr double most = 2;               // factor
 constexpr double area_tolerance = 2e-5;  // of the region's area
 constexpr int most_steps = 6;            // of Newton's method, which needs two or three
 

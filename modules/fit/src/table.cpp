@@ -78,30 +78,30 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
 }
 
 double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int folds, double length,
-                     double radius, double rho_max) {
+                     double radius, double rho_max, double factor) {
     check_shape(folds, length, radius);
     if (!(rho_max >= 0) || !std::isfinite(rho_max)) {
         throw Error("rho_max: " + text(rho_max) + " is not a distance");
     }
     const double outermost = std::max(rho_max, radius);
-    const auto search = [&](double factor) {
+    const auto search = [&](double own) {
         double low = 0;
         double high = length / (2 * radius);
         for (int step = 0; step < 60; ++step) {
             const double alpha = (low + high) / 2;
             const double squeeze = std::min(2 * alpha * radius / length, 1 - 1e-9);
             const double lift =
-                wrinkles(amplitude, folds) ? factor * paper::amplitude(profile, folds, length, squeeze) : 0;
+                wrinkles(amplitude, folds) ? own * paper::amplitude(profile, folds, length, squeeze) : 0;
             (length / alpha - radius > outermost + lift ? low : high) = alpha;
         }
         return low;
     };
     constexpr double inside = 0.999;  // so that a pose at the limit still has room for rounding
-    const double angle = inside * search(1.0);
+    const double angle = inside * search(factor);
     if (amplitude != paper::Amplitude::area || !wrinkles(amplitude, folds)) return angle;
     // m grows with the angle, so the factor at the plain limit is no smaller than the one at the limit that
     // it gives.
-    return inside * search(paper::area_factor(profile, folds, length, radius, angle));
+    return inside * search(factor * paper::area_factor(profile, folds, length, radius, angle));
 }
 
 }  // namespace goffer::fit

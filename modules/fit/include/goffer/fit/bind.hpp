@@ -87,8 +87,9 @@ struct Bound {
 
 /// The largest usable |angle| (radians): just below where L / alpha - r = rho_max + A(alpha), that is where
 /// the outermost vertex, lifted by the wrinkle, would reach the arc's centre and the body fold through
-/// itself. `rho_max`: largest distance of a vertex from the axis. Thread-safe; errors as above.
+/// itself. `rho_max`: largest distance of a vertex from the axis; `factor`: on the amplitude, beside that of
+/// Amplitude::area. Thread-safe; errors as above.
 [[nodiscard]] double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int folds,
-                                   double length, double radius, double rho_max);
+                                   double length, double radius, double rho_max, double factor = 1);
 
 }  // namespace goffer::fit
