@@ -147,6 +147,7 @@ Region region_of(const RegionInput& input, const Columns& columns, std::size_t f
     region.max_angle = static_cast<float>(input.max_angle);
     region.onset = static_cast<float>(input.onset);
     region.rest = {static_cast<float>(input.rest_angle), static_cast<float>(input.rest_direction)};
+    region.compares_with_rest = input.rest_angle != 0 || input.onset != 0;
     region.table = input.table;
     region.factors = input.factors;
     region.bands = bands_of(columns, first, input.vertex_count);
@@ -246,6 +247,7 @@ std::optional<Body> Body::make(const BodyInput& input) {
         body.regions_.push_back(region_of(region, body.columns_, first));
         return true;
     });
+    body.region_count_ = body.regions_.size();
     write_vectors(body.columns_, normal_rho, input.normals);
     write_vectors(body.columns_, tangent_rho, input.tangents);
     if (body.has_tangents()) {

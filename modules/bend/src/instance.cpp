@@ -103,12 +103,14 @@ void set_squeeze(Coefficients& k, const Region& region, float per_kappa_angle, f
 /// The angle below which a table's row would be scaled by more than float holds.
 constexpr float least_kappa = 1e-4f;
 
-void set_wrinkle(Coefficients& k, const Body& body, const Region& region, float alpha, float direction,
+void set_wrinkle(Coefficients& k, const Body& body, const Region& region, const Pose& pose, float alpha,
                  HalfDirection half) noexcept {
     const float per_kappa_angle = body.frame().radius * region.per_length;
     const float kappa = alpha * per_kappa_angle;
-    const float factor = region.factors.empty() ? 1.0f : region.factors.at(alpha, direction);
-    if (!region.compares_with_rest()) {
+    float factor = 1;
+    if (!region.factors.empty())
+        factor = region.factors.at(alpha, pose.direction + (pose.angle < 0 ? pi : 0.0f));
+    if (!region.compares_with_rest) {
         k.wrinkling = Squeeze::plain;
         return set_plain_amplitude(k, region.table.at(alpha), factor * std::sqrt(kappa));
     }
@@ -246,10 +248,7 @@ void prepare_region(const Posed& posed, std::size_t index, const Joint& from, Co
     k.half_radius = posed.body->frame().radius / 2;
     set_arc(k, region, alpha);
     k.wrinkling = Squeeze::none;
-    if (posed.wrinkles && !region.table.empty()) {
-        const float direction = pose.direction + (pose.angle < 0 ? pi : 0.0f);
-        set_wrinkle(k, *posed.body, region, alpha, direction, half);
-    }
+    if (posed.wrinkles && !region.table.empty()) set_wrinkle(k, *posed.body, region, pose, alpha, half);
     const HalfArc arc = half_arc(region.length, alpha, k.one_minus_kappa);
     const float sin_theta = sine(half), cos_theta = cosine(half);
     const MiddleFrame middle = middle_frame(from, arc, sin_theta, cos_theta);

@@ -85,6 +85,10 @@ void by_region(PreparedPass* passes, std::size_t count, std::size_t first, std::
                const Run& run) noexcept {
     if (count == 0) return;
     const std::span<const Region> regions = passes[0].job->body->regions();
+    if (regions.size() == 1) {
+        if (first < last) run(first, last);
+        return;
+    }
     for (std::size_t r = 0;;) {
         const std::size_t begin = first > regions[r].first ? first : regions[r].first;
         const std::size_t end = last < regions[r].last ? last : regions[r].last;

@@ -118,8 +118,10 @@ public:
     [[nodiscard]] std::size_t vertex_count() const noexcept { return columns_.count(); }
     [[nodiscard]] bool has_tangents() const noexcept { return has_tangents_; }
     /// From base to tip; at least one.
-    [[nodiscard]] std::span<const Region> regions() const noexcept { return regions_; }
-    [[nodiscard]] std::size_t region_count() const noexcept { return regions_.size(); }
+    [[nodiscard]] std::span<const Region> regions() const noexcept {
+        return {regions_.data(), region_count_};
+    }
+    [[nodiscard]] std::size_t region_count() const noexcept { return region_count_; }
     /// Of all regions together.
     [[nodiscard]] double length() const noexcept { return length_; }
     [[nodiscard]] double radius() const noexcept { return radius_; }
@@ -138,7 +140,7 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept;
 
     /// A column, aligned and padded as Columns says. Tangent columns exist only where has_tangents(),
-    /// per_rest_scale only where a region compares_with_rest().
+    /// per_rest_scale only where a region compares_with_rest.
     [[nodiscard]] std::span<const float> column(Column column) const noexcept {
         return columns_[column == per_rest_scale ? columns_.columns() - 1 : column];
     }
@@ -148,6 +150,7 @@ private:
 
     Columns columns_;
     std::vector<Region> regions_;
+    std::size_t region_count_ = 0;  // the vector would divide to know
     BodyFrame frame_;
     glm::dvec3 origin_{0};
     glm::dmat3 axes_{1};

@@ -49,13 +49,12 @@ struct Region {
     float max_angle = 0;   ///< radians
     float onset = 0;
     Pose rest;  ///< the pose that returns the rest mesh
+    /// Whether wrinkles follow the squeeze relative to the rest arc, or begin gently: if not, a cheaper
+    /// kernel serves.
+    bool compares_with_rest = false;
     WrinkleTable table;
     FactorTable factors;
     Bands bands;
-
-    /// Whether wrinkles follow the squeeze relative to the rest arc, or begin gently: if not, a cheaper
-    /// kernel serves.
-    [[nodiscard]] bool compares_with_rest() const noexcept { return rest.angle != 0 || onset != 0; }
 };
 
 }  // namespace goffer::bend
