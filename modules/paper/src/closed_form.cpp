@@ -28,7 +28,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
 }
 
 void require_rest(const Body& body) {
-    bend_of(body, {body.rest_angle, body.rest_direction});
+    static_cast<void>(bend_of(body, {body.rest_angle, body.rest_direction}));  // throws where it cannot be
     if (!(body.rest_angle >= 0))
         throw std::invalid_argument("rest_angle is negative: turn rest_direction by pi");
     if (!(body.onset >= 0)) throw std::invalid_argument("onset is negative: it must be 0 or more");
