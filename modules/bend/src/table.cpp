@@ -43,8 +43,8 @@ float FactorTable::at(float angle, float direction) const noexcept {
     const auto j = static_cast<std::size_t>(around) % directions;
     const std::size_t next = (j + 1) % directions;
     const float across = around - std::floor(around);
-    const auto along = [&](std::size_t d) {
-        return rows[low][d] + weight * (rows[low + 1][d] - rows[low][d]);
+    const auto along = [&from = rows[low], &to = rows[low + 1], share = weight](std::size_t d) {
+        return from[d] + share * (to[d] - from[d]);
     };
     return along(j) + across * (along(next) - along(j));
 }
