@@ -75,7 +75,7 @@ std::optional<Fitted> arc_instead(const Body& body, const Principal& principal, 
                                   const std::optional<glm::dvec3>& axis) {
     constexpr double within = 0.7;  // cosine of 45 degrees
     const bool round_about = principal.distinct < long_enough;
-    const std::optional<Fitted> arc =
+    std::optional<Fitted> arc =
         fit_arc(body, axis && round_about ? given_axis(*axis) : principal.axis, straight);
     if (!arc || !axis) return arc;
     const Vector3d chord = moved_along(arc->line, (arc->low + arc->high) / 2).axis();
