@@ -82,6 +82,11 @@ std::filesystem::path place_of(const std::filesystem::path& file) {
     return error ? file : place;
 }
 
+[[noreturn]] void refuse_number(const std::string& option, const std::string& part, const std::string& text) {
+    throw UsageError(option + ": '" + part + "' in '" + text +
+                     "' is not a number; give numbers with commas between them");
+}
+
 }  // namespace
 
 std::optional<glm::dvec3> parse_axis(const std::string& text) {
@@ -114,8 +119,7 @@ std::vector<double> read_numbers(const std::string& option, const std::string& t
     for (std::string part; std::getline(parts, part, ',');) {
         const std::optional<double> value = one_number(part);
         if (!value || !std::isfinite(*value)) {
-            throw UsageError(option + ": '" + part + "' in '" + text +
-                             "' is not a number; give numbers with commas between them");
+            refuse_number(option, part, text);
         }
         numbers.push_back(*value);
     }

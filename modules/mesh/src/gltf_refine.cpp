@@ -238,15 +238,13 @@ void SceneRefiner::refine_indices(std::size_t block, const Part& part, const Val
     }
     if (indices.empty()) return;  // a part without a whole triangle
     if (faces) primitive.erase("mode");
-    Replacement made;
     const bool wide = in.count + blocks_[block].vertices.size() > std::numeric_limits<std::uint16_t>::max();
-    made.fields = {
-        {"componentType", wide ? u32_type : u16_type}, {"count", indices.size()}, {"type", "SCALAR"}};
-    made.bytes =
-        wide ? bytes_of(indices) : bytes_of(std::vector<std::uint16_t>(indices.begin(), indices.end()));
-    made.target = Replacement::indices;
-    if (was.has("indices")) made.origin = was["indices"].whole();
-    primitive["indices"] = edit_.replace(std::move(made));
+    const std::size_t origin = was.has("indices") ? was["indices"].whole() : Replacement::none;
+    primitive["indices"] = edit_.replace(
+        {origin,
+         {{"componentType", wide ? u32_type : u16_type}, {"count", indices.size()}, {"type", "SCALAR"}},
+         wide ? bytes_of(indices) : bytes_of(std::vector<std::uint16_t>(indices.begin(), indices.end())),
+         Replacement::indices});
 }
 
 void SceneRefiner::refine_block(std::size_t block, std::size_t first_part, Json& primitives) {

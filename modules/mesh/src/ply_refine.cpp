@@ -154,7 +154,7 @@ private:
         const std::size_t face = face_number_++, first = first_piece_[face];
         if (first == whole) return false;
         end_line();
-        for (std::uint32_t piece = 0; piece < rows_[face]; ++piece) append_piece(first + 3 * piece);
+        for (std::size_t piece = 0; piece < rows_[face]; ++piece) append_piece(first + 3 * piece);
         return true;
     }
 
