@@ -13,23 +13,25 @@ double sinc(double x) {
     return x == 0 ? 1 : std::sin(x) / x;
 }
 
-void require(const Body& body, const Pose& pose) {
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
     std::ostringstream text;
-    if (!(body.length > 0 && std::isfinite(body.length))) {
-        text << "length is " << body.length << ": it must be a positive number";
-    } else if (!(body.radius > 0 && std::isfinite(body.radius))) {
-        text << "radius is " << body.radius << ": it must be a positive number";
-    } else if (body.folds < 0) {
-        text << "folds is " << body.folds << ": it must be 0 (no wrinkle) or more";
-    } else if (!(std::abs(pose.angle) < body.length / (2 * body.radius))) {
-        text << "angle is " << pose.angle
-             << " rad: it must be below length / (2 radius) = " << body.length / (2 * body.radius);
-    } else if (!std::isfinite(pose.direction)) {
-        text << "direction is " << pose.direction << ": it must be a finite number of radians";
-    } else {
-        return;
-    }
+    (text << ... << parts);
     throw std::invalid_argument(text.str());
+}
+
+void require(const Body& body, const Pose& pose) {
+    if (!(body.length > 0 && std::isfinite(body.length)))
+        refuse("length is ", body.length, ": it must be a positive number");
+    if (!(body.radius > 0 && std::isfinite(body.radius)))
+        refuse("radius is ", body.radius, ": it must be a positive number");
+    if (body.folds < 0) refuse("folds is ", body.folds, ": it must be 0 (no wrinkle) or more");
+    if (!(std::abs(pose.angle) < body.length / (2 * body.radius))) {
+        refuse("angle is ", pose.angle,
+               " rad: it must be below length / (2 radius) = ", body.length / (2 * body.radius));
+    }
+    if (!std::isfinite(pose.direction))
+        refuse("direction is ", pose.direction, ": it must be a finite number of radians");
 }
 
 }  // namespace
