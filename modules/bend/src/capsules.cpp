@@ -74,13 +74,9 @@ void region_capsules(const Region& region, const Coefficients& k, float scale, s
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept {
     const Posed posed = {job.body, poses_of(job), &job.transform, job.wrinkles};
     const float scale = largest_scale(job.transform);
-    const std::span<const Region> regions = job.body->regions();
-    Coefficients k;
-    Joint from = job.body->frame().base, to;
-    for (std::size_t r = 0; r < regions.size(); ++r, from = to) {
-        prepare_region(posed, r, from, k, to);
-        region_capsules(regions[r], k, scale, result.subspan(r * pieces, pieces));
-    }
+    each_region(posed, [&](std::size_t r, const Coefficients& k) {
+        region_capsules(job.body->regions()[r], k, scale, result.subspan(r * pieces, pieces));
+    });
 }
 
 }  // namespace goffer::bend

@@ -23,14 +23,8 @@ struct CentreLine {
 
 inline CentreLine centre_line(const Coefficients& k, Four v) noexcept {
     const Four vv = v * v;
-    Four rise = all(k.rise[arc_terms - 1]);
-    Four reach = all(k.reach[arc_terms - 1]);
-    for (std::size_t n = arc_terms - 1; n-- > 0;) {
-        rise = rise * vv + all(k.rise[n]);
-        reach = reach * vv + all(k.reach[n]);
-    }
-    rise *= vv;
-    reach *= v;
+    Four rise = polynomial(k.rise, vv) * vv;
+    Four reach = polynomial(k.reach, vv) * v;
     float curvature = k.first_curvature;
     for (int n = 0; n < k.doublings; ++n, curvature += curvature) {
         const Four cosine = all(1) - all(curvature) * rise;
@@ -59,9 +53,7 @@ inline float relative_amplitude(const Coefficients& k) noexcept {
     float largest = 0;
     for (const float part : {0.25f, 0.5f, 0.75f, 1.0f}) {
         const float x = part * q * part * q / (part * q + k.onset);
-        float sum = k.amplitude[amplitude_terms - 1];
-        for (std::size_t n = amplitude_terms - 1; n-- > 0;) sum = sum * x + k.amplitude[n];
-        largest = std::max(largest, std::fabs(sum) * std::sqrt(x));
+        largest = std::max(largest, std::fabs(polynomial(k.amplitude, x)) * std::sqrt(x));
     }
     return 1.001f * largest;
 }
@@ -72,9 +64,7 @@ inline Four amplitudes(const Coefficients& k) noexcept {
     if (k.wrinkling == Squeeze::none) return all(0);
     if (k.wrinkling == Squeeze::relative) return all(relative_amplitude(k));
     constexpr Four t = {0.5f, 1.0f, 1.5f, 2.0f};
-    Four sum = all(k.amplitude[amplitude_terms - 1]);
-    for (std::size_t n = amplitude_terms - 1; n-- > 0;) sum = sum * t + all(k.amplitude[n]);
-    Four largest = absolute(sum) * root(t);
+    Four largest = absolute(polynomial(k.amplitude, t)) * root(t);
     for (int i = 1; i < sectors; ++i) largest[i] = std::max(largest[i], largest[i - 1]);
     return largest;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "instance.hpp"
 
+#include "streams_wanted.hpp"
+
 #include <goffer/simd/four.hpp>
 
 #include <algorithm>
@@ -100,7 +102,7 @@ void set_squeeze(Coefficients& k, const Region& region, float per_kappa_angle, f
     k.onset = std::max(region.onset, 1e-12f);
 }
 
-/// The angle below which a table's row would be scaled by more than float holds.
+/// The kappa below which a table's row would be scaled by more than float holds.
 constexpr float least_kappa = 1e-4f;
 
 void set_wrinkle(Coefficients& k, const Body& body, const Region& region, const Pose& pose, float alpha,
@@ -131,18 +133,12 @@ struct Quarter {
     float sinc;  // sine / angle
 };
 
-float arc_polynomial(const float (&terms)[arc_terms], float x) noexcept {
-    float sum = terms[arc_terms - 1];
-    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = sum * x + terms[n];
-    return sum;
-}
-
 Quarter quarter_of(float alpha) noexcept {
     const float angle = alpha / 4;
     if (alpha <= pi) {  // the kernels' polynomials, in less than half the time of the library's functions
         const float x = angle * angle;
-        const float sinc = arc_polynomial(quarter_terms.sinc, x);
-        return {angle * sinc, 1 - x * arc_polynomial(quarter_terms.versine, x), sinc};
+        const float sinc = polynomial(quarter_terms.sinc, x);
+        return {angle * sinc, 1 - x * polynomial(quarter_terms.versine, x), sinc};
     }
     const float sine = std::sin(angle);
     return {sine, std::cos(angle), sine / angle};
@@ -228,12 +224,6 @@ void quantise(Coefficients& k, const glm::vec3& low, const glm::vec3& high) noex
     }
 }
 
-bool wants(const DeformJob& job, Pass pass) noexcept {
-    if (pass == Pass::previous) return !job.previous_positions.empty();
-    if (pass == Pass::packed) return !job.packed.empty();
-    return !job.positions.empty() || !job.normals.empty() || !job.tangents.empty();
-}
-
 }  // namespace
 
 void prepare_region(const Posed& posed, std::size_t index, const Joint& from, Coefficients& k,
@@ -275,13 +265,13 @@ PreparedJob prepare(const DeformJob& job, PreparedPass* passes, bool leave_bound
                        prepared_pass.next);
         return prepared_pass;
     };
-    if (wants(job, Pass::previous)) {
+    if (!job.previous_positions.empty()) {
         begin(Pass::previous);
         ++prepared.passes;
     }
-    const bool packed = wants(job, Pass::packed);
+    const bool packed = !job.packed.empty();
     const bool bounded = job.bounds != nullptr && leave_bounds;
-    const bool current = wants(job, Pass::current);
+    const bool current = streams_wanted(job) != 0;
     if (!current && !packed && !bounded) return prepared;
     const PreparedPass& now = begin(Pass::current);
     if (current) ++prepared.passes;

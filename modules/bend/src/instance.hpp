@@ -33,6 +33,17 @@ struct Posed {
 void prepare_region(const Posed& posed, std::size_t region, const Joint& from, Coefficients& k,
                     Joint& to) noexcept;
 
+/// Calls visit(region, k) for each region of `posed`, from base to tip, with its coefficients.
+template <class Visit>
+void each_region(const Posed& posed, const Visit& visit) noexcept {
+    Coefficients k;
+    Joint from = posed.body->frame().base, to;
+    for (std::size_t r = 0; r < posed.body->region_count(); ++r, from = to) {
+        prepare_region(posed, r, from, k, to);
+        visit(r, k);
+    }
+}
+
 /// Whether an angle is beyond its region's limit, and will be cut to it.
 [[nodiscard]] inline bool is_clamped(const Body& body, const Pose* poses) noexcept {
     for (const Region& region : body.regions()) {

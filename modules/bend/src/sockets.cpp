@@ -28,25 +28,21 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
     const Posed posed = {&body_, poses_of(job), &job.transform, job.wrinkles};
     const KernelSet& set = kernels(job.isa);
     alignas(64) float planes[9][chunk];
-    Coefficients k;
-    Joint from = body_.frame().base, to;
-    for (std::size_t r = 0; r < body_.region_count(); ++r, from = to) {
-        prepare_region(posed, r, from, k, to);
+    const auto vector = [&](std::size_t plane, std::size_t i) {
+        return glm::vec3(planes[plane][i], planes[plane + 1][i], planes[plane + 2][i]);
+    };
+    each_region(posed, [&](std::size_t r, const Coefficients& k) {
         const Region& region = body_.regions()[r];
         for (std::size_t first = region.first; first < region.last; first += chunk) {
             const std::size_t count = std::min(chunk, region.last - first);
             run_block(body_, k, set, first, count, planes[0], chunk);
             for (std::size_t i = 0; i < count; ++i) {
-                const auto vector = [&](std::size_t plane) {
-                    return glm::vec3(planes[plane][i], planes[plane + 1][i], planes[plane + 2][i]);
-                };
-                const glm::vec3 normal = vector(3);
-                const glm::vec3 tangent = vector(6);
-                frames[place_[first + i]] = {vector(0),
+                const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
+                frames[place_[first + i]] = {vector(0, i),
                                              glm::mat3(tangent, glm::cross(normal, tangent), normal)};
             }
         }
-    }
+    });
 }
 
 }  // namespace goffer::bend

@@ -52,6 +52,20 @@ inline void store_first(float* to, Four four, std::size_t count) noexcept {
     return Four{value, value, value, value};
 }
 
+/// Horner's scheme for sum of coefficients[n] x^n, of one value or of four.
+template <std::size_t N>
+[[nodiscard]] inline float polynomial(const float (&coefficients)[N], float x) noexcept {
+    float sum = coefficients[N - 1];
+    for (std::size_t n = N - 1; n-- > 0;) sum = sum * x + coefficients[n];
+    return sum;
+}
+template <std::size_t N>
+[[nodiscard]] inline Four polynomial(const float (&coefficients)[N], Four x) noexcept {
+    Four sum = all(coefficients[N - 1]);
+    for (std::size_t n = N - 1; n-- > 0;) sum = sum * x + all(coefficients[n]);
+    return sum;
+}
+
 [[nodiscard]] inline Four smaller(Four a, Four b) noexcept {
     return a < b ? a : b;
 }
