@@ -130,8 +130,7 @@ double base_area_change(const BoundModel& model, const fit::BindOptions& options
                         std::span<const double> angles) {
     double change = 0;
     for (std::size_t r = 0; r < angles.size(); ++r) {
-        fit::Cylinder stretch = model.cylinder;
-        stretch.length = model.bound.regions[r].length;
+        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, model.bound.regions[r].length);
         change += stretch.length / model.cylinder.length *
                   base_area_change(stretch, options, model.bound.folds(r), angles[r]);
     }

@@ -21,18 +21,22 @@ struct InspectOptions {
 void report_rest(Report& report, const InspectOptions& options, const BindRequest& request,
                  const BoundModel& model) {
     const fit::Cylinder& fitted = model.cylinder;
-    const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
-    const fit::Cylinder straight = in_file(
-        options.model, [&] { return fit::fit_cylinder(geometry, request.axis, fit::Rest::straight); });
-    nlohmann::ordered_json& rest = report.json["rest"];
     const bool bent = fitted.rest_angle != 0;
+    const auto straight_residual = [&] {
+        const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
+        return in_file(options.model, [&] {
+            return fit::fit_cylinder(geometry, request.axis, fit::Rest::straight).residual;
+        });
+    };
+    const double straight = bent ? straight_residual() : fitted.residual;
     const double outer = bent ? fitted.length / fitted.rest_angle : 0;
+    nlohmann::ordered_json& rest = report.json["rest"];
     rest["bent"] = bent;
     rest["arc_radius"] = bent ? nlohmann::ordered_json(outer - fitted.radius) : nullptr;
-    rest["residual_straight"] = straight.residual;
+    rest["residual_straight"] = straight;
     rest["residual"] = fitted.residual;
     if (!bent) return report.line("at rest", "straight");
-    report.line("straight residual", number(straight.residual) + " of the radius");
+    report.line("straight residual", number(straight) + " of the radius");
 }
 
 void run_inspect(const InspectOptions& options) {
@@ -66,9 +70,7 @@ void add_inspect(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("inspect", "Fit the base cylinder to a model and say what was found");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
-    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
-        ->capture_default_str();
-    add_rest_word(*command, options->rest);
+    add_fit_words(*command, options->axis, options->rest);
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_inspect(*options); }; });
 }

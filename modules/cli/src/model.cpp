@@ -9,8 +9,10 @@
 
 namespace goffer::cli {
 
-void add_rest_word(CLI::App& command, std::string& word) {
-    command.add_option("--rest", word, "Shape at rest: auto (an arc where that fits better), straight")
+void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
+    command.add_option("--axis", axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+        ->capture_default_str();
+    command.add_option("--rest", rest, "Shape at rest: auto (an arc where that fits better), straight")
         ->check(CLI::IsMember({"auto", "straight"}))
         ->capture_default_str();
 }
@@ -33,9 +35,7 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         .add_option("--onset", words.onset,
                     "Squeeze below which wrinkles begin gently, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
-    command.add_option("--axis", words.axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
-        ->capture_default_str();
-    add_rest_word(command, words.rest);
+    add_fit_words(command, words.axis, words.rest);
 }
 
 BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
@@ -77,10 +77,8 @@ void warn_of_folds(Report& report, const BindWords& words, const BoundModel& mod
                    std::span<const double> angles, const std::string& where) {
     const fit::Bound& bound = model.bound;
     for (std::size_t r = 0; r < angles.size(); ++r) {
-        fit::Cylinder stretch = model.cylinder;
-        stretch.length = bound.regions[r].length;
-        const std::string which =
-            where + (angles.size() == 1 ? "" : "region " + std::to_string(r + 1) + ": ");
+        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, bound.regions[r].length);
+        const std::string which = where + region_words(r, angles.size());
         const int wanted = fit::sensible_folds(stretch, fit::BindOptions::max_folds);
         const auto capacity = static_cast<std::size_t>(bound.folds_capacity(r));
         if (bound.folds(r) > bound.folds_capacity(r)) {

@@ -29,8 +29,8 @@ struct BindWords {
     bool refine = false;  ///< split edges until the mesh carries the folds
 };
 
-/// Adds --rest. `word` must outlive `command`.
-void add_rest_word(CLI::App& command, std::string& word);
+/// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
+void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
 /// Adds --folds, --amplitude, --profile, --onset, --axis and --rest. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);

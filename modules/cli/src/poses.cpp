@@ -18,21 +18,11 @@ constexpr double most_degrees = 36000;
 
 std::vector<fit::RegionOptions> read_regions(const std::string& text) {
     std::vector<fit::RegionOptions> regions;
-    double sum = 0;
-    for (const double share : read_numbers("--regions", text)) {
-        if (!(share > 0)) {
-            throw UsageError("--regions: " + number(share) +
-                             " is not a share of the length; each must be above 0");
-        }
-        regions.push_back({share, std::nullopt});
-        sum += share;
-    }
-    if (regions.size() > bend::max_regions) {
-        throw UsageError("--regions: " + std::to_string(regions.size()) + " of them; a body has at most " +
-                         std::to_string(bend::max_regions));
-    }
-    if (std::fabs(sum - 1) > 1e-6) {
-        throw UsageError("--regions: " + text + " adds up to " + number(sum) + " of the length; make it 1");
+    for (const double share : read_numbers("--regions", text)) regions.push_back({share, std::nullopt});
+    try {
+        fit::check(regions);
+    } catch (const fit::Error& error) {
+        throw UsageError("--" + std::string(error.what()));
     }
     return regions;
 }
@@ -104,6 +94,10 @@ std::optional<int> read_folds(const std::optional<std::string>& text,
     return std::nullopt;
 }
 
+std::string region_words(std::size_t region, std::size_t count) {
+    return count == 1 ? "" : "region " + std::to_string(region + 1) + ": ";
+}
+
 double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose) {
     return static_cast<double>(std::min(std::fabs(pose.angle), body.max_angle(region)));
 }
@@ -124,7 +118,7 @@ void report_poses(Report& report, const PoseRequest& request, const fit::Bound& 
                            {"folds_capacity", bound.folds_capacity(i)},
                            {"max_angle", limit},
                            {"clamped", beyond}});
-        const std::string which = request.poses.size() == 1 ? "" : "region " + std::to_string(i + 1) + ": ";
+        const std::string which = region_words(i, request.poses.size());
         report.line(i == 0 ? "bend" : "", which + number(used) + " degrees towards " +
                                               number(request.directions[i]) + ", at most " + number(limit));
         report.line(i == 0 ? "folds" : "", which + std::to_string(bound.folds(i)) + " of " +

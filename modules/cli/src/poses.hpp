@@ -44,6 +44,9 @@ struct PoseRequest {
 [[nodiscard]] std::optional<int> read_folds(const std::optional<std::string>& text,
                                             std::vector<fit::RegionOptions>& regions);
 
+/// What begins a line about one of `count` regions: nothing where there is one alone.
+[[nodiscard]] std::string region_words(std::size_t region, std::size_t count);
+
 /// The angle of a pose that a run uses, radians, >= 0: clamped to the region's largest.
 [[nodiscard]] double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose);
 

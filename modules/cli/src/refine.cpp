@@ -30,11 +30,11 @@ struct RefineOptions {
 
 void run_refine(const RefineOptions& options) {
     BindWords words;
-    if (options.folds) words.folds = std::to_string(*options.folds);
     words.axis = options.axis;
     words.rest = options.rest;
     words.refine = true;
-    const BindRequest request(words);
+    BindRequest request(words);
+    request.options.folds = options.folds;
     if (!options.fit.empty() && request.axis)
         throw UsageError("--axis: the axis is in the file of --fit; give one of them");
     check_places({{"MODEL", options.model}, {"--fit", options.fit}},
@@ -55,15 +55,11 @@ void run_refine(const RefineOptions& options) {
 
 /// The folds that are asked for, or suit the body.
 std::vector<fit::Stretch> stretches(const fit::Cylinder& cylinder, const fit::BindOptions& options) {
-    std::vector<fit::RegionOptions> regions = options.regions;
-    if (regions.empty()) regions.emplace_back();
     std::vector<fit::Stretch> result;
-    for (const fit::RegionOptions& region : regions) {
-        fit::Cylinder own = cylinder;
-        own.length = region.share * cylinder.length;
-        const std::optional<int> folds = region.folds ? region.folds : options.folds;
+    for (const fit::RegionOptions& region : fit::regions_of(options)) {
+        const fit::Cylinder own = fit::stretch_of(cylinder, region.share * cylinder.length);
         const int sensible = fit::sensible_folds(own, fit::BindOptions::max_folds);
-        result.push_back({own.length, folds.value_or(sensible)});
+        result.push_back({own.length, region.folds.value_or(sensible)});
     }
     return result;
 }
@@ -112,9 +108,7 @@ void add_refine(CLI::App& app, Action& action) {
         ->required();
     command->add_option("--folds", options->folds, "Folds per half length (default: what suits the body)")
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
-    command->add_option("--axis", options->axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
-        ->capture_default_str();
-    add_rest_word(*command, options->rest);
+    add_fit_words(*command, options->axis, options->rest);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");

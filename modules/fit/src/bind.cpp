@@ -17,30 +17,8 @@
 namespace goffer::fit {
 namespace {
 
-std::string of_region(std::size_t region) {
-    return "region " + std::to_string(region + 1) + ": ";
-}
-
-void check(std::span<const RegionOptions> regions) {
-    if (regions.size() > bend::max_regions) {
-        throw Error("regions: " + std::to_string(regions.size()) + " of them, and a body has at most " +
-                    std::to_string(bend::max_regions));
-    }
-    double sum = 0;
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        const double share = regions[i].share;
-        if (!(share > 0) || !std::isfinite(share)) {
-            throw Error(of_region(i) + "share: " + text(share) + " of the length is not a positive number");
-        }
-        sum += share;
-    }
-    if (std::fabs(sum - 1) > 1e-6) {
-        throw Error("regions: their shares add up to " + text(sum) + " of the length; make it 1");
-    }
-}
-
 void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
-    if (!options.regions.empty()) check(options.regions);
+    if (!options.regions.empty()) fit::check(options.regions);
     const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
     if (!(cylinder.rest_angle >= 0 && cylinder.rest_angle < most) ||
         !std::isfinite(cylinder.rest_direction)) {
@@ -56,25 +34,19 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
 
 /// The regions' places on the axis, and what each can carry.
 std::vector<BoundRegion> plan(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options,
-                              std::span<RestRegion> rest) {
-    std::vector<BoundRegion> regions;
+                              std::vector<RestRegion>& rest) {
+    std::vector<BoundRegion> found;
     const Rows rows(geometry, cylinder);
-    double start = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        const RegionOptions own = options.regions.empty() ? RegionOptions{} : options.regions[i];
-        Cylinder stretch = cylinder;
-        stretch.length = own.share * cylinder.length;
-        BoundRegion region;
-        region.length = stretch.length;
-        region.folds_capacity = rows.folds(stretch.length);
-        const std::optional<int> folds = own.folds ? own.folds : options.folds;
-        const bool none = options.amplitude == paper::Amplitude::none;
-        region.folds = none ? 0 : folds.value_or(sensible_folds(stretch, region.folds_capacity));
-        rest[i] = {start, region.length, region.folds};
-        start += region.length;
-        regions.push_back(region);
+    const bool none = options.amplitude == paper::Amplitude::none;
+    for (const RegionOptions& region : regions_of(options)) {
+        const Cylinder stretch = stretch_of(cylinder, region.share * cylinder.length);
+        const int capacity = rows.folds(stretch.length);
+        const int folds = none ? 0 : region.folds.value_or(sensible_folds(stretch, capacity));
+        const double start = rest.empty() ? 0 : rest.back().start + rest.back().length;
+        rest.push_back({start, stretch.length, folds});
+        found.push_back({stretch.length, folds, capacity});
     }
-    return regions;
+    return found;
 }
 
 double largest_rho(std::span<const bend::RestVertex> vertices) {
@@ -127,6 +99,33 @@ bend::Body make(const bend::BodyInput& input) {
 
 }  // namespace
 
+void check(std::span<const RegionOptions> regions) {
+    if (regions.size() > bend::max_regions) {
+        throw Error("regions: " + std::to_string(regions.size()) + " of them, and a body has at most " +
+                    std::to_string(bend::max_regions));
+    }
+    double sum = 0;
+    for (const RegionOptions& region : regions) {
+        if (!(region.share > 0) || !std::isfinite(region.share)) {
+            throw Error("regions: " + text(region.share) +
+                        " is not a share of the length; each must be above 0");
+        }
+        sum += region.share;
+    }
+    if (std::fabs(sum - 1) > 1e-6) {
+        throw Error("regions: the sum of their shares adds up to " + text(sum) + " of the length; make it 1");
+    }
+}
+
+std::vector<RegionOptions> regions_of(const BindOptions& options) {
+    std::vector<RegionOptions> regions = options.regions;
+    if (regions.empty()) regions.emplace_back();
+    for (RegionOptions& region : regions) {
+        if (!region.folds) region.folds = options.folds;
+    }
+    return regions;
+}
+
 Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
@@ -135,7 +134,7 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
     const double onset = options.onset.value_or(gentle);
     check(options, cylinder, onset);
 
-    std::vector<RestRegion> places(std::max<std::size_t>(options.regions.size(), 1));
+    std::vector<RestRegion> places;
     std::vector<BoundRegion> found = plan(geometry, cylinder, options, places);
     RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
 

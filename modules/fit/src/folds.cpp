@@ -2,10 +2,8 @@
 #include "rest.hpp"
 
 #include <goffer/fit/cylinder.hpp>
-#include <goffer/paper/closed_form.hpp>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,13 +51,8 @@ double reach_beyond(std::vector<Reach> all, double share) {
 std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder) {
     std::vector<double> z;
     z.reserve(positions.size());
-    const glm::dmat3 to_body = glm::transpose(axes_of(cylinder));
-    const paper::Pose rest{cylinder.rest_angle, cylinder.rest_direction};
-    for (const glm::vec3& position : positions) {
-        const glm::dvec3 local = to_body * (glm::dvec3(position) - cylinder.origin);
-        z.push_back(rest.angle == 0 ? local.z
-                                    : paper::to_cylindrical(local, cylinder.length, cylinder.radius, rest).z);
-    }
+    const Straightening straightening(cylinder);
+    for (const glm::vec3& position : positions) z.push_back(straightening.height(position));
     return z;
 }
 

@@ -37,37 +37,6 @@ private:
     std::vector<bool> used_;  // made when first asked for
 };
 
-/// From model space to the base's coordinates.
-class Straightening {
-public:
-    explicit Straightening(const Cylinder& cylinder)
-        : cylinder_(cylinder),
-          to_body_(glm::transpose(axes_of(cylinder))),
-          rest_{cylinder.rest_angle, cylinder.rest_direction} {}
-
-    [[nodiscard]] paper::Cylindrical vertex(const glm::vec3& position) const {
-        const glm::dvec3 local = to_body_ * (glm::dvec3(position) - cylinder_.origin);
-        return paper::to_cylindrical(local, cylinder_.length, cylinder_.radius, rest_);
-    }
-    [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const {
-        return components(
-            paper::straightened_normal(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_));
-    }
-    [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const {
-        return components(
-            paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_));
-    }
-
-private:
-    [[nodiscard]] static bend::RestVector components(const paper::CylindricalVector& v) {
-        return {v.rho, v.beta, v.z};
-    }
-
-    const Cylinder& cylinder_;
-    glm::dmat3 to_body_;
-    paper::Pose rest_;
-};
-
 std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cylinder& cylinder,
                                              const Straightening& straightening) {
     std::vector<paper::Cylindrical> vertices;
@@ -131,6 +100,35 @@ private:
 };
 
 }  // namespace
+
+Straightening::Straightening(const Cylinder& cylinder)
+    : cylinder_(cylinder),
+      to_body_(glm::transpose(axes_of(cylinder))),
+      rest_{cylinder.rest_angle, cylinder.rest_direction} {}
+
+paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
+    return paper::to_cylindrical(in_body(position), cylinder_.length, cylinder_.radius, rest_);
+}
+
+double Straightening::height(const glm::dvec3& position) const {
+    return rest_.angle == 0 ? in_body(position).z : vertex(position).z;
+}
+
+bend::RestVector Straightening::normal(const glm::dvec3& vector, const paper::Cylindrical& at) const {
+    const auto [rho, beta, z] =
+        paper::straightened_normal(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_);
+    return {rho, beta, z};
+}
+
+bend::RestVector Straightening::tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const {
+    const auto [rho, beta, z] =
+        paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_);
+    return {rho, beta, z};
+}
+
+glm::dvec3 Straightening::in_body(const glm::dvec3& position) const {
+    return to_body_ * (position - cylinder_.origin);
+}
 
 glm::dmat3 axes_of(const Cylinder& cylinder) {
     glm::dmat3 axes(1);

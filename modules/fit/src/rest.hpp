@@ -27,6 +27,26 @@ struct RestRegion {
 /// The base's axes in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
 
+/// From model space to the base's coordinates: those of the straightened body. `cylinder` must outlive it.
+class Straightening {
+public:
+    explicit Straightening(const Cylinder& cylinder);
+
+    [[nodiscard]] paper::Cylindrical vertex(const glm::dvec3& position) const;
+    /// vertex(position).z, at less cost where the body is straight anyway.
+    [[nodiscard]] double height(const glm::dvec3& position) const;
+    /// A normal, or a tangent, at the vertex `at`; of unit length.
+    [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const;
+    [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const;
+
+private:
+    [[nodiscard]] glm::dvec3 in_body(const glm::dvec3& position) const;
+
+    const Cylinder& cylinder_;
+    glm::dmat3 to_body_;
+    paper::Pose rest_;
+};
+
 /// The vertex at `at`, which lies in `region`: z from where that begins, with its wrinkle.
 [[nodiscard]] bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& region,
                                            double radius, paper::Profile profile);

@@ -5,7 +5,6 @@
 #include <goffer/fit/sockets.hpp>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +53,6 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3
     return nearest;
 }
 
-bend::RestVector rest_vector(const paper::CylindricalVector& v) {
-    return {v.rho, v.beta, v.z};
-}
-
 }  // namespace
 
 bend::Socket socket_at(const Bound& bound, double z, double beta, double rho) {
@@ -84,19 +79,14 @@ bend::Socket socket_near(const Bound& bound, const Geometry& geometry, const glm
         nearest = on;
         normal = glm::normalize(own);
     }
-    const Cylinder& base = bound.cylinder;
-    const glm::dmat3 to_body = glm::transpose(axes_of(base));
-    const paper::Pose rest{base.rest_angle, base.rest_direction};
-    paper::Cylindrical at =
-        paper::to_cylindrical(to_body * (nearest - base.origin), base.length, base.radius, rest);
-    at.z = std::clamp(at.z, 0.0, base.length);
+    const Straightening straightening(bound.cylinder);
+    paper::Cylindrical at = straightening.vertex(nearest);
+    at.z = std::clamp(at.z, 0.0, bound.cylinder.length);
     bend::Socket socket = placed(bound, at);
-    const paper::CylindricalVector n =
-        paper::straightened_normal(to_body * normal, at, base.length, base.radius, rest);
-    socket.normal = rest_vector(n);
+    socket.normal = straightening.normal(normal, at);
     // Towards the tip, in the plane; on a cap, whose plane has no such direction, away from the axis.
-    const glm::dvec3 across(n.rho, n.beta, n.z);
-    const glm::dvec3 wished = std::fabs(n.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across(socket.normal.rho, socket.normal.beta, socket.normal.z);
+    const glm::dvec3 wished = std::fabs(across.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 tangent = glm::normalize(wished - glm::dot(wished, across) * across);
     socket.tangent = {tangent.x, tangent.y, tangent.z};
     return socket;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 /// Binds a mesh to its base cylinder: the offline step that makes a body (may allocate, may throw).
@@ -40,6 +41,14 @@ struct BindOptions {
     static constexpr int default_table_rows = 256;
     static constexpr double gentle_onset = 1e-3;
 };
+
+/// Throws Error, which begins with "regions: ", if a body cannot be cut into `regions`: more than
+/// bend::max_regions, a share that is not above 0, shares that do not add up to 1. Thread-safe.
+void check(std::span<const RegionOptions> regions);
+
+/// The regions that `options` ask for: one of all the length where none are named; those without folds of
+/// their own get BindOptions::folds. Thread-safe.
+[[nodiscard]] std::vector<RegionOptions> regions_of(const BindOptions& options);
 
 /// What was found of a region.
 struct BoundRegion {

@@ -59,6 +59,12 @@ enum class Rest {
 /// radius not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
 void check(const Cylinder& cylinder);
 
+/// A stretch of `cylinder` as a cylinder of its own: `length` long, and else the same. Thread-safe.
+[[nodiscard]] inline Cylinder stretch_of(Cylinder cylinder, double length) {
+    cylinder.length = length;
+    return cylinder;
+}
+
 /// z of each position (model space): its height along the axis, or along the rest arc where there is one.
 /// `cylinder` as `check` accepts it, its rest angle as bind does. Pure; may be called from any thread.
 [[nodiscard]] std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder);
