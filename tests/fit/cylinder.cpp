@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/sanitized.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/cylinder.hpp>
@@ -407,8 +408,9 @@ TEST_CASE("hostile but valid meshes end in an error or in finite numbers") {
                                      1e-6f, 3e38f, -3e38f, 1e30f,      1e4f,   -0.0f,   0.5f};
     std::mt19937 random(42);
     std::uniform_real_distribution<float> uniform(-1, 1);
+    const int rounds = test::sanitized ? 80 : 2000;
     int fitted = 0;
-    for (int round = 0; round < 4000; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         const std::size_t kinds = round % 2 == 0 ? numbers.size() : 4;
         const auto number = [&] { return round % 5 == 0 ? uniform(random) : numbers[random() % kinds]; };
         Solid solid;
@@ -425,7 +427,7 @@ TEST_CASE("hostile but valid meshes end in an error or in finite numbers") {
             REQUIRE(std::string(error.what()).find("nan") == std::string::npos);
         }
     }
-    CHECK(fitted > 500);
+    CHECK(fitted > rounds / 8);
 }
 
 TEST_CASE("check of a cylinder names the field at fault") {

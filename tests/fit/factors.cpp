@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/models.hpp"
+#include "support/sanitized.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -25,11 +26,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 // Sanitizers make minutes of the largest meshes.
-#ifdef GOFFER_SANITIZED
-constexpr std::size_t most_vertices = 10'000;
-#else
-constexpr std::size_t most_vertices = 1'000'000;
-#endif
+constexpr std::size_t most_vertices = test::sanitized ? 10'000 : 1'000'000;
 
 struct Soup {
     std::vector<glm::vec3> positions;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace goffer::test {
+
+/// Whether sanitizers watch: what takes seconds without them takes minutes then, so some tests run a part.
+#ifdef GOFFER_SANITIZED
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+}  // namespace goffer::test
