@@ -229,8 +229,8 @@ std::optional<Body> Body::make(const BodyInput& input) {
     body.has_tangents_ = !input.tangents.empty();
     const bool compares = std::ranges::any_of(
         input.regions, [](const RegionInput& region) { return region.rest_angle != 0 || region.onset != 0; });
-    const std::size_t columns = body.has_tangents_ ? per_rest_scale : tangent_rho;
-    body.columns_ = Columns(columns + (compares ? 1 : 0), input.vertices.size());
+    const std::size_t columns = body.has_tangents_ ? cos_beta : tangent_rho;
+    body.columns_ = Columns(columns + (compares ? 4 : 0), input.vertices.size());
     body.origin_ = input.origin;
     body.axes_ = input.axes;
     body.radius_ = input.radius;
@@ -241,8 +241,12 @@ std::optional<Body> Body::make(const BodyInput& input) {
         body.length_ += region.length;
         write_vertices(body.columns_, region, input.radius, first, input.vertices);
         for (std::size_t i = first; compares && i < first + region.vertex_count; ++i) {
-            body.columns_[columns][i] =
-                static_cast<float>(1 / rest_scale(region, input.radius, input.vertices[i].beta));
+            const double beta = input.vertices[i].beta;
+            body.columns_[columns][i] = static_cast<float>(std::cos(beta));
+            body.columns_[columns + 1][i] = static_cast<float>(std::sin(beta));
+            const double scale = rest_scale(region, input.radius, beta);
+            body.columns_[columns + 2][i] = static_cast<float>(std::cos(beta) / scale);
+            body.columns_[columns + 3][i] = static_cast<float>(std::sin(beta) / scale);
         }
         body.regions_.push_back(region_of(region, body.columns_, first));
         return true;

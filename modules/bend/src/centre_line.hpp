@@ -42,10 +42,11 @@ constexpr int sectors = 4;
 /// The largest amplitude of all columns where the squeeze is relative. q = (d + e . u) / (1 - kappa_0 - f .
 /// u) over unit vectors u: its maximum is the larger root of |e + q f| = q (1 - kappa_0) - d.
 inline float relative_amplitude(const Coefficients& k) noexcept {
-    const float d = k.squeeze[0], e1 = k.squeeze[1], e2 = k.squeeze[2];
-    const float f1 = k.rest_slope[1], f2 = -k.rest_slope[0];
+    const float e1 = k.curl_change[0], e2 = k.curl_change[1];
+    const float f1 = k.rest_curl[0], f2 = k.rest_curl[1];
     const float kappa = std::sqrt(f1 * f1 + f2 * f2);
     const float scale = 1 - kappa;
+    const float d = k.squeeze[0] * scale;
     const float a = 1 - 2 * kappa;  // of a q^2 - 2 b q - c = 0
     const float b = e1 * f1 + e2 * f2 + scale * d;
     const float c = e1 * e1 + e2 * e2 - d * d;

@@ -84,21 +84,22 @@ void set_relative_amplitude(Coefficients& k, const WrinkleRow& row, float kappa,
     }
 }
 
-/// The scale of a column is S = 1 - kappa - curl . u, where u is its direction and curl = kappa (cos theta,
-/// sin theta). The differences vanish exactly at the rest pose.
+/// The scale of a column is S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa (cos
+/// theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), which makes q linear
+/// in p. The differences vanish exactly at the rest pose.
 void set_squeeze(Coefficients& k, const Region& region, float per_kappa_angle, float kappa,
                  HalfDirection half) noexcept {
     const HalfDirection rest_half = half_direction(region.rest);
     const float rest_kappa = region.rest.angle * per_kappa_angle;
-    const float c = cosine(half), s = sine(half);
-    const float rest_x = rest_kappa * cosine(rest_half), rest_y = rest_kappa * sine(rest_half);
-    const float x = kappa * c - rest_x, y = kappa * s - rest_y;
-    k.squeeze[0] = kappa - rest_kappa;
-    k.squeeze[1] = x * c + y * s;
-    k.squeeze[2] = y * c - x * s;
-    const float towards = rest_x * c + rest_y * s, across = rest_y * c - rest_x * s;
-    k.rest_slope[0] = -across;
-    k.rest_slope[1] = towards;
+    k.cos_direction = cosine(half);
+    k.sin_direction = sine(half);
+    k.rest_curl[0] = rest_kappa * cosine(rest_half);
+    k.rest_curl[1] = rest_kappa * sine(rest_half);
+    k.curl_change[0] = kappa * k.cos_direction - k.rest_curl[0];
+    k.curl_change[1] = kappa * k.sin_direction - k.rest_curl[1];
+    k.squeeze[0] = (kappa - rest_kappa) / (1 - rest_kappa);
+    k.squeeze[1] = k.curl_change[0] + k.squeeze[0] * k.rest_curl[0];
+    k.squeeze[2] = k.curl_change[1] + k.squeeze[0] * k.rest_curl[1];
     k.onset = std::max(region.onset, 1e-12f);
 }
 

@@ -35,8 +35,10 @@ struct Coefficients {
     /// x = q^2 / (q + onset): A / S_0 = sqrt(x) sum amplitude[n] x^n, its slope over sqrt(x) likewise.
     float amplitude[amplitude_terms];
     float amplitude_slope[amplitude_terms];
-    float squeeze[3];        ///< relative: q S_0 = squeeze[0] + squeeze[1] c + squeeze[2] s, where above 0
-    float rest_slope[2];     ///< relative: dS_0/dbeta = rest_slope[0] c + rest_slope[1] s
+    float cos_direction, sin_direction;  ///< relative: of theta
+    /// Relative, with u = (cos beta, sin beta): S_0 = 1 - kappa_0 - rest_curl . u, and at this pose S = S_0 -
+    /// (kappa - kappa_0) - curl_change . u; so q = 1 - S / S_0 is squeeze[0] + squeeze[1, 2] . u / S_0.
+    float rest_curl[2], curl_change[2], squeeze[3];
     float onset;             ///< relative: > 0
     float rise[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum rise[n] v^(2n), v = z / L - 1/2
     float reach[arc_terms];  ///< L sin delta / alpha = v sum reach[n] v^(2n)
@@ -56,7 +58,7 @@ struct Coefficients {
 struct KernelArgs {
     const Coefficients* coefficients;
     const float *cos_half_beta, *sin_half_beta, *rho, *lift, *height, *wrinkle, *slope;
-    const float* per_rest_scale;  ///< for relative squeezes only
+    const float *cos_beta, *sin_beta, *rest_cosine, *rest_sine;  ///< for relative squeezes only
     const float* normal[3];
     const float* tangent[3];
     float* position_out[3];

@@ -21,7 +21,12 @@ KernelArgs rest_columns(const Body& body, const Coefficients& coefficients, std:
     args.height = column(Body::height);
     args.wrinkle = column(Body::wrinkle);
     args.slope = column(Body::slope);
-    if (coefficients.wrinkling == Squeeze::relative) args.per_rest_scale = column(Body::per_rest_scale);
+    if (coefficients.wrinkling == Squeeze::relative) {
+        args.cos_beta = column(Body::cos_beta);
+        args.sin_beta = column(Body::sin_beta);
+        args.rest_cosine = column(Body::rest_cosine);
+        args.rest_sine = column(Body::rest_sine);
+    }
     for (std::size_t c = 0; c < 3; ++c) {
         args.normal[c] = column(Body::normal_rho + c);
         args.tangent[c] = body.has_tangents() ? column(Body::tangent_rho + c) : nullptr;

@@ -74,7 +74,7 @@ struct XsimdLanes {
     /// The processor's estimate and Newton's steps.
     static Vec rsqrt(Vec a) {
         Vec y = xsimd::rsqrt(a);
-        for (int step = 0; step < estimate_steps; ++step) y = y * madd(Vec(-0.5f) * a * y, y, Vec(1.5f));
+        for (int step = 0; step < estimate_steps; ++step) y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f));
         return y;
     }
 

@@ -106,7 +106,10 @@ public:
         tangent_beta,
         tangent_z,
         tangent_sign,
-        per_rest_scale,  ///< 1 / S of the column at rest
+        cos_beta,        ///< cos(beta)
+        sin_beta,        ///< sin(beta)
+        rest_cosine,  ///< cos(beta) / S
+        rest_sine,    ///< sin(beta) / S
     };
 
     /// Checks `input`; BodyFault::none if a body can be made from it. Does not allocate.
@@ -140,9 +143,9 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept;
 
     /// A column, aligned and padded as Columns says. Tangent columns exist only where has_tangents(),
-    /// per_rest_scale only where a region compares_with_rest.
+    /// those from cos_beta on only where a region compares_with_rest.
     [[nodiscard]] std::span<const float> column(Column column) const noexcept {
-        return columns_[column == per_rest_scale ? columns_.columns() - 1 : column];
+        return columns_[column < cos_beta || has_tangents_ ? column : column - (cos_beta - tangent_rho)];
     }
 
 private:
