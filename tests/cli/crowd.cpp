@@ -47,7 +47,7 @@ TEST_CASE("crowd: every field, with its type") {
     CHECK(all["streams"] == "planar");
     CHECK(all["normals"] == false);
     CHECK(all["stores"] == "automatic");
-    CHECK(all["angle"] == 90.0);
+    CHECK(all["angles"] == json{90.0});
     CHECK(all["ms_median"].get<double>() > 0);
     CHECK(all["ms_p99"] >= all["ms_median"]);
     CHECK(all["clamped"] == 0);
@@ -57,6 +57,8 @@ TEST_CASE("crowd: every field, with its type") {
     CHECK(all["models"][0]["vertices"] == vertices);
     CHECK(all["models"][0]["folds"] == 5);
     CHECK(all["models"][0]["max_angle"].get<double>() > 180);
+    REQUIRE(all["models"][0]["regions"].size() == 1);
+    CHECK(all["models"][0]["regions"][0]["folds"] == 5);
     const std::string bits = all["hash"];
     CHECK(bits.size() == 16);
     CHECK(bits.find_first_not_of("0123456789abcdef") == bits.npos);
@@ -110,6 +112,8 @@ TEST_CASE("crowd: the bytes depend on everything else") {
                             {"--streams", "packed"},
                             {"--angle", "91"},
                             {"--angle", "-90"},
+                            {"--regions", "0.5,0.5"},
+                            {"--regions", "0.5,0.5", "--angles", "60,-60"},
                             {"--folds", "4"},
                             {"--profile", "smooth"},
                             {"--axis", "-z"}};
@@ -152,6 +156,30 @@ TEST_CASE("crowd: beyond the largest angle it swings as far as it can, and says 
     REQUIRE(all["warnings"].size() == 1);
     CHECK(all["warnings"][0].get<std::string>().find("beyond the largest") != std::string::npos);
     CHECK(hash(folder, {"--angle", "3000"}) == all["hash"]);
+}
+
+TEST_CASE("crowd: regions bend on their own, each with its folds") {
+    const Folder folder;
+    small_base(folder);
+    const Words words{"--regions", "0.3,0.4,0.3", "--angles", "40,-60,20", "--folds", "1,2,1"};
+    const json all = crowd(folder, words + Words{"--threads", "1"});
+    CHECK(all["angles"] == json{40.0, -60.0, 20.0});
+    CHECK(all["models"][0]["folds"] == 4);
+    REQUIRE(all["models"][0]["regions"].size() == 3);
+    CHECK(all["models"][0]["regions"][1]["folds"] == 2);
+    CHECK(hash(folder, words + Words{"--threads", "2"}) == all["hash"]);
+    const json beyond = crowd(folder, {"--regions", "0.5,0.5", "--angles", "40,2000"});
+    REQUIRE(beyond["warnings"].size() == 1);
+    CHECK(beyond["warnings"][0].get<std::string>().starts_with("region 2: the angle of 2000 degrees"));
+}
+
+TEST_CASE("crowd: a coarse model is given the vertices of its folds") {
+    const Folder folder;
+    base(folder, "base.ply", {"--columns", "24", "--rows", "9"});
+    const json all = crowd(folder, {"--refine"});
+    CHECK(all["warnings"] == json::array());
+    CHECK(all["models"][0]["vertices"].get<int>() > 24 * 9);
+    CHECK(all["models"][0]["folds"] == 5);
 }
 
 TEST_CASE("crowd: a warning says which of several models is meant") {
@@ -215,6 +243,9 @@ TEST_CASE("crowd: bad words") {
     for (const std::string word : {"0", "-1", "1025", "x"}) refuse({"--threads", word}, {"--threads"});
     for (const std::string word : {"nan", "1e9", "", "90deg"})
         refuse({"--angle", word}, {"--angle", "36000"});
+    refuse({"--regions", "0.5,0.6"}, {"--regions", "1.1", "make it 1"});
+    refuse({"--regions", "0.5,0.5", "--angles", "40"}, {"--angles", "1 for 2 regions"});
+    refuse({"--angles", "40"}, {"--angles", "--regions"});
     refuse({"--streams", "soa"}, {"--streams", "soa", "planar", "interleaved", "packed"});
     refuse({"--stores", "nt"}, {"--stores", "nt", "automatic", "cached", "streaming"});
     refuse({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});

@@ -80,15 +80,6 @@ double median_microseconds(Run&& run) {
     return times[4];
 }
 
-/// Values in the body's order, put into the model's.
-template <class T>
-void reorder(std::vector<T>& values, std::span<const std::uint32_t> order) {
-    if (order.empty() || values.empty()) return;
-    std::vector<T> sorted(values.size());
-    for (std::size_t i = 0; i < order.size(); ++i) sorted[order[i]] = values[i];
-    values = std::move(sorted);
-}
-
 Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Request& request) {
     Deformed result;
     const bend::Body& body = bound.body;
@@ -107,9 +98,9 @@ Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Reques
     }
     tbb::task_arena arena(request.threads);
     result.microseconds = median_microseconds([&] { arena.execute([&] { bend::run_parallel(job); }); });
-    reorder(result.records.positions, bound.order);
-    reorder(result.records.normals, bound.order);
-    reorder(result.records.tangents, bound.order);
+    put_in_model_order(result.records.positions, bound);
+    put_in_model_order(result.records.normals, bound);
+    put_in_model_order(result.records.tangents, bound);
     return result;
 }
 
@@ -215,8 +206,7 @@ void add_bend(CLI::App& app, Action& action) {
         ->required();
     add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
-    command->add_flag("--refine", options->bind.refine,
-                      "Add vertices along the body until its mesh carries the folds");
+    add_refine_word(*command, options->bind);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")

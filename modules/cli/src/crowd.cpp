@@ -4,6 +4,7 @@
 #include "crowd_picture.hpp"
 #include "crowd_scene.hpp"
 #include "model.hpp"
+#include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -19,7 +20,7 @@ struct CrowdOptions {
     std::vector<std::filesystem::path> models;
     std::size_t instances = 1000;
     std::size_t frames = 100;
-    double angle = 90;
+    PoseWords pose;
     BindWords bind;
     std::string streams = "planar";
     bool normals = false;
@@ -42,14 +43,16 @@ bend::Stores parse_stores(const std::string& text) {
 
 /// Everything that can be refused by looking at the words alone.
 struct CrowdRequest {
+    PoseRequest pose;
     BindRequest bind;
     CrowdPlan plan;
     int threads;
 
     explicit CrowdRequest(const CrowdOptions& options)
-        : bind(options.bind),
+        : pose(options.pose),
+          bind(options.bind, pose.regions),
           plan{.instances = options.instances,
-               .angle = radians(options.angle),
+               .poses = pose.poses,
                .layout = parse_layout(options.streams),
                .normals = options.normals || options.streams == "packed",
                .isa = parse_isa_option(options.isa),
@@ -72,26 +75,45 @@ std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindReque
     return models;
 }
 
-void report_models(Report& report, const CrowdOptions& options, std::span<const BoundModel> models) {
+/// What a model's regions can do, and warnings of those that are asked for more.
+nlohmann::ordered_json report_regions(Report& report, const CrowdOptions& options, const PoseRequest& pose,
+                                      const BoundModel& model, const std::string& where) {
+    nlohmann::ordered_json regions;
+    std::vector<double> used;
+    for (std::size_t r = 0; r < pose.angles.size(); ++r) {
+        const double limit = degrees(static_cast<double>(model.bound.body.max_angle(r)));
+        regions.push_back({{"folds", model.bound.folds(r)}, {"max_angle", limit}});
+        used.push_back(radians(std::min(std::fabs(pose.angles[r]), limit)));
+        if (std::fabs(pose.angles[r]) <= limit) continue;
+        report.warn(where + region_words(r, pose.angles.size()) + "the angle of " + number(pose.angles[r]) +
+                    " degrees is beyond the largest, " + number(limit) +
+                    ", where the body would fold through itself; it is bent so far at most");
+    }
+    warn_of_folds(report, options.bind, model, used, where);
+    return regions;
+}
+
+void report_models(Report& report, const CrowdOptions& options, const PoseRequest& pose,
+                   std::span<const BoundModel> models) {
     for (const BoundModel& model : models) {
         const bend::Body& body = model.bound.body;
-        const double limit = degrees(static_cast<double>(body.max_angle()));
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
+        for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
+        const nlohmann::ordered_json regions = report_regions(report, options, pose, model, where);
+        std::size_t folds = 0;
+        double limit = 0;
+        for (const auto& region : regions) {
+            folds += region["folds"].get<std::size_t>();
+            limit += region["max_angle"].get<double>();
+        }
         report.json["models"].push_back({{"file", model.file.string()},
                                          {"vertices", body.vertex_count()},
-                                         {"folds", model.bound.folds()},
-                                         {"max_angle", limit}});
+                                         {"folds", folds},
+                                         {"max_angle", limit},
+                                         {"regions", regions}});
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
-                                 " vertices, " +
-                                 counted(static_cast<std::size_t>(model.bound.folds()), "fold"));
-        for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
-        if (std::fabs(options.angle) > limit) {
-            report.warn(where + "the angle of " + number(options.angle) + " degrees is beyond the largest, " +
-                        number(limit) +
-                        ", where the body would fold through itself; it is bent so far at most");
-        }
-        const double used = radians(std::min(std::fabs(options.angle), limit));
-        warn_of_folds(report, options.bind, model, {&used, 1}, where);
+                                 " vertices, " + counted(folds, "fold"));
+        if (model.growth) report_growth(report, *model.growth);
     }
 }
 
@@ -122,7 +144,7 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
     json["streams"] = options.streams;
     json["normals"] = request.plan.normals;
     json["stores"] = options.stores;
-    json["angle"] = options.angle;
+    json["angles"] = request.pose.angles;
     json["ms_median"] = timing.frame_median;
     json["ms_p99"] = timing.frame_p99;
     json["ns_per_vertex"] = per_vertex;
@@ -157,7 +179,7 @@ void run_crowd(const CrowdOptions& options) {
     const Timing timing = measure(crowd, options.frames, request.threads);
     progress.reset();
     report_crowd(report, options, request, crowd, timing);
-    report_models(report, options, models);
+    report_models(report, options, request.pose, models);
     if (!options.png.empty()) {
         const Progress rendering("rendering " + options.png.string());
         const std::size_t shown = write_crowd_picture(crowd, models, options.png);
@@ -185,12 +207,10 @@ void add_crowd(CLI::App& app, Action& action) {
     command->add_option("--frames", options->frames, "Frames to measure")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command
-        ->add_option("--angle", options->angle,
-                     "Instances swing between straight and this, degrees; negative: the other way")
-        ->check(number_within(-36000, 36000, "an angle in degrees"))
-        ->capture_default_str();
+    add_angle_words(*command, options->pose,
+                    "Instances swing between straight and this, degrees; negative: the other way");
     add_bind_words(*command, options->bind);
+    add_refine_word(*command, options->bind);
     command
         ->add_option(
             "--streams", options->streams,

@@ -118,7 +118,9 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     vertices.reserve(chosen.size());
     for (const std::size_t i : chosen) {
         const BoundModel& model = models[crowd.model(i)];
-        const Vertices& own = vertices.emplace_back(vertices_of(crowd.job().instances[i]));
+        Vertices& own = vertices.emplace_back(vertices_of(crowd.job().instances[i]));
+        put_in_model_order(own.positions, model.bound);
+        put_in_model_order(own.normals, model.bound);
         const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);
         const view::Model all{
             .positions = own.positions, .triangles = model.rest.triangles, .normals = own.normals};

@@ -17,6 +17,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double frames_per_swing = 120;
 constexpr double frames_per_turn = 600;
+constexpr double lag_per_length = 0.25;  // of the tip's swing behind the base's, in turns
 
 /// Evenly spread over 0..1 for any run of `index`, and without a pattern on a grid.
 double scattered(std::size_t index, double ratio) {
@@ -58,8 +59,9 @@ std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instanc
 
 /// Looks first: a system that hands out more than it has ends the program later, without a word.
 CrowdMemory memory_for(const CrowdPlan& plan, std::size_t vertices) {
-    const std::uint64_t bytes = vertices * CrowdMemory::vertex_bytes(plan.layout, plan.normals) +
-                                plan.instances * sizeof(bend::DeformJob);
+    const std::uint64_t bytes =
+        vertices * CrowdMemory::vertex_bytes(plan.layout, plan.normals) +
+        plan.instances * (sizeof(bend::DeformJob) + plan.poses.size() * sizeof(bend::Pose));
     if (const auto free = free_memory(); free && bytes > *free) {
         refuse(plan.instances, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
     }
@@ -86,7 +88,9 @@ Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
     : columns_(columns_for(plan.instances, models.size())),
       spacing_(spacing_for(models)),
       vertices_(vertices_for(models, plan.instances)),
-      memory_(memory_for(plan, vertices_)) {
+      memory_(memory_for(plan, vertices_)),
+      farthest_(plan.poses),
+      poses_(plan.instances * plan.poses.size()) {
     members_.reserve(plan.instances);
     jobs_.reserve(plan.instances);
     std::size_t first = 0;
@@ -105,7 +109,6 @@ Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
 
 void Crowd::add(const BoundModel& model, const CrowdPlan& plan, const Member& member) {
     const bend::Body& body = model.bound.body;
-    const auto limit = static_cast<double>(body.max_angle());
     const auto [column, row] = spot_of(member.place);
     const double x = spacing_ * static_cast<double>(column);
     const double y = spacing_ * static_cast<double>(row);
@@ -113,21 +116,31 @@ void Crowd::add(const BoundModel& model, const CrowdPlan& plan, const Member& me
     const double own = scattered(member.place, 0.569840291);
     members_.push_back({.model = member.model,
                         .place = member.place,
-                        .angle = std::clamp(plan.angle, -limit, limit),
                         .phase = 0.11 * x + 0.17 * y + 0.12 * own,
                         .direction = 0.05 * x - 0.04 * y + 0.10 * own - yaw});
     bend::DeformJob job{.body = &body, .isa = plan.isa};
     job.transform = transform_to(body, x, y, yaw);
+    job.poses = std::span(poses_).subspan(jobs_.size() * farthest_.size(), farthest_.size());
     jobs_.push_back(job);
 }
 
 void Crowd::set_poses(std::size_t frame) noexcept {
     const auto time = static_cast<double>(frame);
+    auto pose = poses_.begin();
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
         const Member& member = members_[i];
-        const double swing = 0.5 - 0.5 * std::cos(turn * (time / frames_per_swing + member.phase));
-        jobs_[i].pose = {static_cast<float>(member.angle * swing),
-                         static_cast<float>(turn * (time / frames_per_turn + member.direction))};
+        const bend::Body& body = *jobs_[i].body;
+        double start = 0;
+        for (std::size_t r = 0; r < farthest_.size(); ++r, ++pose) {
+            const double phase =
+                time / frames_per_swing + member.phase - lag_per_length * start / body.length();
+            const double swing = 0.5 - 0.5 * std::cos(turn * phase);
+            const double direction = turn * (time / frames_per_turn + member.direction);
+            const float limit = body.max_angle(r);
+            const float angle = std::clamp(farthest_[r].angle, -limit, limit);
+            *pose = {static_cast<float>(static_cast<double>(angle) * swing), static_cast<float>(direction)};
+            start += static_cast<double>(body.regions()[r].length);
+        }
     }
 }
 

@@ -15,7 +15,8 @@ namespace goffer::cli {
 /// What a crowd is made of, besides its models.
 struct CrowdPlan {
     std::size_t instances = 0;
-    double angle = 0;  ///< the largest, radians; a body that cannot be bent so far goes as far as it can
+    /// The farthest, one per region; a region that cannot be bent so far goes as far as it can.
+    std::vector<bend::Pose> poses;
     Layout layout = Layout::planar;
     bool normals = false;
     Isa isa = Isa::automatic;
@@ -30,10 +31,11 @@ struct Spot {
 
 /// A crowd that moves like grass in the wind: instances of all models, about as many of each, on a grid.
 /// Every one stands with its base end on the ground (z = 0) and its axis up, is scaled to a length of 1, and
-/// is turned its own way.
+/// is turned its own way. Of several regions each follows the one below it, as a wave does.
 class Crowd {
 public:
-    /// `models` must outlive the crowd. Throws InputError where the crowd is more than memory holds.
+    /// `models`, each bound with as many regions as the plan has poses, must outlive the crowd. Throws
+    /// InputError where the crowd is more than memory holds.
     Crowd(std::span<const BoundModel> models, const CrowdPlan& plan);
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
@@ -57,7 +59,6 @@ private:
     struct Member {
         std::size_t model = 0;
         std::size_t place = 0;  // on the grid, row after row
-        double angle = 0;       // the largest
         double phase = 0;       // of the swing, in turns
         double direction = 0;   // at frame 0, about the body's axis, in turns
     };
@@ -70,6 +71,8 @@ private:
     std::size_t vertices_;
     CrowdMemory memory_;
     std::vector<Member> members_;
+    std::vector<bend::Pose> farthest_;  // of a body's regions
+    std::vector<bend::Pose> poses_;     // of this frame, of each instance's regions
     std::vector<bend::DeformJob> jobs_;
     bend::CrowdJob job_;
 };

@@ -38,6 +38,11 @@ void add_bind_words(CLI::App& command, BindWords& words) {
     add_fit_words(command, words.axis, words.rest);
 }
 
+void add_refine_word(CLI::App& command, BindWords& words) {
+    command.add_flag("--refine", words.refine,
+                     "Add vertices along the body until its mesh carries the folds");
+}
+
 BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
     : axis(parse_axis(words.axis)), rest(words.rest == "auto" ? fit::Rest::automatic : fit::Rest::straight) {
     options.folds = read_folds(words.folds, regions);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// From a file to a body: what every command does with its models first.
@@ -34,6 +35,9 @@ void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
 /// Adds --folds, --amplitude, --profile, --onset, --axis and --rest. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
+
+/// Adds --refine. `words` must outlive `command`.
+void add_refine_word(CLI::App& command, BindWords& words);
 
 /// Such words, understood. Throws UsageError.
 struct BindRequest {
@@ -61,6 +65,15 @@ struct BoundModel {
 /// the cylinder is taken from, or empty. Throws an error that names the file at fault.
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
+
+/// Values in the body's order, put into the model's.
+template <class T>
+void put_in_model_order(std::vector<T>& values, const fit::Bound& bound) {
+    if (bound.order.empty() || values.empty()) return;
+    std::vector<T> sorted(values.size());
+    for (std::size_t i = 0; i < bound.order.size(); ++i) sorted[bound.order[i]] = values[i];
+    values = std::move(sorted);
+}
 
 /// Warns of folds that the mesh cannot carry and of those that reach past the axis when regions are bent by
 /// `angles` (radians, >= 0; one per region). `where` begins each warning: empty, or which of several models

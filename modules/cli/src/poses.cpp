@@ -39,20 +39,18 @@ std::vector<double> read_degrees(const std::string& option, const std::string& t
     return degrees;
 }
 
+CLI::Validator angle_in_degrees() {
+    return number_within(-most_degrees, most_degrees, "an angle in degrees");
+}
+
 }  // namespace
 
-void add_pose_words(CLI::App& command, PoseWords& words) {
-    const CLI::Validator angle = number_within(-most_degrees, most_degrees, "an angle in degrees");
+void add_angle_words(CLI::App& command, PoseWords& words, const std::string& angle) {
     CLI::Option* const one =
         command
             .add_option("--angle", words.angle,
-                        "How far the tip turns, degrees; negative: the other way. Of several regions: all "
-                        "together, each by its share of the length")
-            ->check(angle)
-            ->capture_default_str();
-    CLI::Option* const towards =
-        command.add_option("--direction", words.direction, "Towards where, degrees about the axis")
-            ->check(angle)
+                        angle + ". Of several regions: all together, each by its share of the length")
+            ->check(angle_in_degrees())
             ->capture_default_str();
     CLI::Option* const regions =
         command.add_option("--regions", words.regions,
@@ -60,8 +58,16 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
     command.add_option("--angles", words.angles, "How far each region turns, as 40,-60,20")
         ->needs(regions)
         ->excludes(one);
+}
+
+void add_pose_words(CLI::App& command, PoseWords& words) {
+    add_angle_words(command, words, "How far the tip turns, degrees; negative: the other way");
+    CLI::Option* const towards =
+        command.add_option("--direction", words.direction, "Towards where, degrees about the axis")
+            ->check(angle_in_degrees())
+            ->capture_default_str();
     command.add_option("--directions", words.directions, "Towards where each region turns, as 0,0,90")
-        ->needs(regions)
+        ->needs("--regions")
         ->excludes(towards);
 }
 

@@ -26,7 +26,10 @@ struct PoseWords {
     std::optional<std::string> directions;
 };
 
-/// Adds --angle, --direction, --regions, --angles and --directions. `words` must outlive `command`.
+/// Adds --angle, --regions and --angles. `angle` says what --angle is; `words` must outlive `command`.
+void add_angle_words(CLI::App& command, PoseWords& words, const std::string& angle);
+
+/// Adds these, --direction and --directions.
 void add_pose_words(CLI::App& command, PoseWords& words);
 
 /// Such words, understood: one pose per region. Throws UsageError.
