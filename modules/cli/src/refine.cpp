@@ -74,7 +74,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     growth.triangles_before = mesh::triangle_count(mesh);
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     const fit::Geometry geometry{mesh.positions, triangles};
-    const fit::Refinement made = fit::refine(geometry, fit::heights(mesh.positions, cylinder), wanted);
+    const fit::Refinement made = fit::refine(geometry, cylinder, wanted);
     std::vector<mesh::Between> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});

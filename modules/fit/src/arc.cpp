@@ -164,8 +164,10 @@ double roughness(const Body& body, const Line& line) {
 /// `slack`: 1, or more where both are known roughly.
 bool convincing(const Body& body, const Fitted& arc, const Line& straight, double slack) {
     constexpr double better = 0.8;      // of the straight line's roughness
-    constexpr double roughest = 0.2;    // of the radius: others are no tubes
     constexpr double least_sag = 0.05;  // of the radius: what bends less is straight
+    // Of the radius: others are no tubes. Few are bent by more than a half turn, but such an arc finds
+    // something about most that are not.
+    const double roughest = arc.angle() < std::numbers::pi ? 0.3 : 0.2;
     const double rough = roughness(body, arc.line);
     const double sag = (arc.high - arc.low) * arc.angle() / 8;
     return rough < slack * roughest * arc.section.radius && slack * sag > least_sag * arc.section.radius &&

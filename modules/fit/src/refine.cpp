@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "rest.hpp"
 #include "text.hpp"
 
 #include <goffer/fit/refine.hpp>
@@ -70,9 +71,13 @@ struct Upright {
 
 class Refiner {
 public:
-    Refiner(const Geometry& geometry, std::span<const double> heights, const RowScale& scale)
+    /// `arc`: from model space to the coordinates that heights are of, where edges are not straight in them;
+    /// else null.
+    Refiner(const Geometry& geometry, std::span<const double> heights, const RowScale& scale,
+            const Straightening* arc)
         : triangles_(geometry.triangles),
           scale_(scale),
+          arc_(arc),
           points_(geometry.positions.begin(), geometry.positions.end()),
           heights_(heights.begin(), heights.end()) {
         for (const double z : heights_) rows_.push_back(scale_.row(z));
@@ -100,10 +105,12 @@ private:
     [[nodiscard]] Upright upright(std::size_t triangle) const;
     void append_inner(std::vector<std::uint32_t>& chain, Edge upwards);
     std::uint32_t first_between(Edge edge, std::uint32_t count);
+    [[nodiscard]] double place(Edge edge, double height) const;
     [[nodiscard]] bool left_next(std::size_t i, std::size_t j) const;
 
     std::span<const std::uint32_t> triangles_;
     const RowScale& scale_;
+    const Straightening* arc_;
     std::vector<glm::dvec3> points_;  // the three below: of the mesh's vertices, then of the new ones
     std::vector<double> heights_, rows_;
     std::unordered_map<std::uint64_t, std::uint32_t> first_between_;
@@ -146,17 +153,42 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     const std::uint64_t key = (std::uint64_t{edge.a} << 32) | edge.b;
     const auto [entry, is_new] = first_between_.try_emplace(key, next);
     if (!is_new) return entry->second;
-    const double from = heights_[edge.a], to = heights_[edge.b];
     for (std::uint32_t i = 1; i <= count; ++i) {
         const double share = i / (count + 1.0);
         const double row = rows_[edge.a] + share * (rows_[edge.b] - rows_[edge.a]);
-        const double t = (scale_.height(row) - from) / (to - from);
+        const double height = scale_.height(row);
+        const double t = place(edge, height);
         out_.vertices.push_back({edge.a, edge.b, t});
         points_.push_back(points_[edge.a] + t * (points_[edge.b] - points_[edge.a]));
-        heights_.push_back(from + t * (to - from));
+        heights_.push_back(height);
         rows_.push_back(row);
     }
     return entry->second;
+}
+
+/// Where an edge, from a up to b, is at a height, as a share. About an arc's centre a straight edge turns one
+/// way, but not evenly: by false position (the Illinois way), which brackets it whatever comes.
+double Refiner::place(Edge edge, double height) const {
+    constexpr int most_steps = 60;
+    double low = 0, high = 1;
+    double below = heights_[edge.a] - height, above = heights_[edge.b] - height;
+    const double close = 1e-12 * (above - below);
+    double t = below / (below - above);
+    for (int step = 0, side = 0; arc_ != nullptr && step < most_steps; ++step) {
+        const double off = arc_->height(points_[edge.a] + t * (points_[edge.b] - points_[edge.a])) - height;
+        if (!(std::fabs(off) > close)) break;
+        const int now = off < 0 ? -1 : 1;
+        if (now < 0) {
+            low = t, below = off;
+            if (side == now) above /= 2;
+        } else {
+            high = t, above = off;
+            if (side == now) below /= 2;
+        }
+        side = now;
+        t = low + (high - low) * (below / (below - above));
+    }
+    return t;
 }
 
 void Refiner::append_inner(std::vector<std::uint32_t>& chain, Edge upwards) {
@@ -239,15 +271,25 @@ Refinement refine(const Geometry& geometry, std::span<const double> heights,
     check_stretches(stretches);
     check_heights(heights, geometry.positions.size());
     const RowScale scale(stretches);
-    return Refiner(geometry, heights, scale).run(options.most_triangles);
+    return Refiner(geometry, heights, scale, nullptr).run(options.most_triangles);
+}
+
+Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<const Stretch> stretches,
+                  const RefineOptions& options) {
+    check(geometry);
+    check(cylinder);
+    check_stretches(stretches);
+    const RowScale scale(stretches);
+    const Straightening arc(cylinder);
+    return Refiner(geometry, heights(geometry.positions, cylinder), scale,
+                   cylinder.rest_angle != 0 ? &arc : nullptr)
+        .run(options.most_triangles);
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                   const RefineOptions& options) {
-    check(geometry);
-    check(cylinder);
     const Stretch whole{cylinder.length, folds};
-    return refine(geometry, heights(geometry.positions, cylinder), {&whole, 1}, options);
+    return refine(geometry, cylinder, {&whole, 1}, options);
 }
 
 std::vector<glm::vec3> refined_positions(std::span<const glm::vec3> positions, const Refinement& refinement) {

@@ -63,9 +63,13 @@ struct RefineOptions {
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                                 const RefineOptions& options = {});
 
-/// The same for a body of several stretches, from z = 0 upwards, and heights given: `heights` holds z of each
-/// vertex, the same for vertices at one place; what lies below or above all stretches counts to the first or
-/// last. Throws Error: what check(geometry) throws; no stretches, or one out of range; another number of
+/// The same for a body of several stretches, from z = 0 upwards; what lies below or above all of them counts
+/// to the first or last. Throws Error: the same; no stretches, or one out of range.
+[[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder,
+                                std::span<const Stretch> stretches, const RefineOptions& options = {});
+
+/// The same with heights given: `heights` holds z of each vertex, the same for vertices at one place; along
+/// an edge it is taken to grow evenly, as on a straight body. Throws Error: what check(geometry) throws; no stretches, or one out of range; another number of
 /// heights than vertices, or one that is not finite; more triangles than allowed. Pure; may be called from
 /// any thread.
 [[nodiscard]] Refinement refine(const Geometry& geometry, std::span<const double> heights,

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Draws the pictures of samples/gallery; needs ImageMagick, to make them small. The banana and the bottle are not bundled:
+# they are drawn where MODELS has banana.obj and wine_bottle.glb.
+#   bash samples/gallery.sh [MODELS]
+set -euo pipefail
+models=$(realpath "${1:-.}")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+bash .ci/setup build
+cmake --preset release --log-level=WARNING >/dev/null
+cmake --build --preset release --target goffer
+export PATH=$PWD/build/release/bin:$PATH
+to=$PWD/samples/gallery work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+goffer base --length 30 --radius 1 --columns 32 --rows 481 --caps -o worm.ply
+goffer bend worm.ply --regions 0.5,0.5 --angles 120,-120 -o s.glb --png s.png
+
+goffer base --length 60 --radius 1 --columns 40 --rows 1201 --caps -o tentacle.ply
+goffer bend tentacle.ply --regions 0.25,0.2,0.17,0.15,0.13,0.1 --angles 60,70,80,95,110,115 -o spiral.glb --png spiral.png
+
+if [[ -f $models/banana.obj && -f $models/wine_bottle.glb ]]; then
+    goffer bend "$models/banana.obj" --angle 0 -o straight.obj --png banana.png --ghost
+    goffer bend "$models/wine_bottle.glb" --refine --folds 6 --angle 90 -o bottle.glb --png bottle.png
+else
+    echo "gallery: no banana.obj and wine_bottle.glb in $models: their pictures stay as they are"
+fi
+for picture in *.png; do convert "$picture" -strip -resize 50% +dither -colors 255 "$to/$picture"; done
