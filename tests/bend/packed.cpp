@@ -126,17 +126,10 @@ TEST_CASE("normals along axes and edges of the octahedron are packed as well") {
         normals.push_back({unit.x, unit.y, unit.z});
         vertices.push_back({0, 0.5, 0.1, 0, 0});
     }
-    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
-    bend::BodyInput input;
-    input.radius = 0.1;
-    input.regions = {&region, 1};
-    input.vertices = vertices;
-    input.normals = normals;
-    const std::optional<bend::Body> body = bend::Body::make(input);
-    REQUIRE(body);
+    const bend::Body body = bare_body(vertices, normals);
     Output out(vertices.size());
     for (const Isa isa : isas_here()) {
-        const Worst worst = run(make_job(*body, {}, isa, out), out, bend::Stores::cached);
+        const Worst worst = run(make_job(body, {}, isa, out), out, bend::Stores::cached);
         CHECK(worst.position <= 1e-6);
         CHECK(worst.normal <= 0.004);
         for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -151,20 +144,13 @@ TEST_CASE("bodies that are flat, or flattened, keep their places") {
     const std::vector<bend::RestVector> normals(100, {0, 0, 1});
     for (bend::RestVertex& v : vertices)
         v = {uniform(random, -4, 4), 0.5 + 1e-6 * uniform(random, 0, 1), uniform(random, 0, 0.1), 0, 0};
-    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
-    bend::BodyInput input;
-    input.radius = 0.1;
-    input.regions = {&region, 1};
-    input.vertices = vertices;
-    input.normals = normals;
-    const std::optional<bend::Body> flat = bend::Body::make(input);
-    REQUIRE(flat);
+    const bend::Body flat = bare_body(vertices, normals);
     const bend::Body round = loose_body(random, 100);
     Output out(100);
     for (const Isa isa : isas_here()) {
         for (const float depth : {1.0f, 1e-3f, 1e-7f, 0.0f}) {
             const glm::mat4x3 transform(1, 0, 0, 0, depth, 0, 0, 0, 1, 0, 0, 0);
-            bend::DeformJob job = make_job(*flat, {}, isa, out);
+            bend::DeformJob job = make_job(flat, {}, isa, out);
             job.transform = transform;
             CHECK(run(job, out, bend::Stores::cached).position <= 1e-6);
             job = make_job(round, {1.5f, 0.5f}, isa, out);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 /// Bodies whose axis, length and radius are known, as a mesh and as the truth about it.
@@ -106,6 +107,21 @@ inline Solid placed(Solid solid, const Placing& placing) {
 /// Angle between two lines, whatever their signs.
 inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
+}
+
+/// The same surface of vertices that no two triangles share, in another order, some triangles turned round,
+/// with one vertex that none uses.
+inline Solid scrambled(const Solid& solid) {
+    Solid other;
+    other.positions.emplace_back(1e30f, -1e30f, 1e30f);
+    for (std::size_t t = solid.triangles.size(); t > 0; t -= 3) {
+        for (const std::size_t i : {t - 1, t - 3, t - 2}) {
+            other.triangles.push_back(static_cast<std::uint32_t>(other.positions.size()));
+            other.positions.push_back(solid.positions[solid.triangles[i]]);
+        }
+        if (t % 2 == 0) std::swap(other.triangles.back(), other.triangles[other.triangles.size() - 2]);
+    }
+    return other;
 }
 
 }  // namespace goffer::test

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <numbers>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -120,6 +121,18 @@ inline bend::Body loose_body(Random& random, std::size_t count, double widest = 
     input.normals = normals;
     input.tangents = tangents;
     input.tangent_signs = signs;
+    return std::move(bend::Body::make(input).value());
+}
+
+/// A body of these vertices, without wrinkles. Length 1, radius 0.1.
+inline bend::Body bare_body(std::span<const bend::RestVertex> vertices,
+                            std::span<const bend::RestVector> normals) {
+    const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
+    bend::BodyInput input;
+    input.radius = 0.1;
+    input.regions = {&region, 1};
+    input.vertices = vertices;
+    input.normals = normals;
     return std::move(bend::Body::make(input).value());
 }
 
