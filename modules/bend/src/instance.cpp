@@ -76,11 +76,12 @@ void set_plain_amplitude(Coefficients& k, const WrinkleRow& row, float factor) n
 
 /// From rows in q / kappa to polynomials in q.
 void set_relative_amplitude(Coefficients& k, const WrinkleRow& row, float kappa, float factor) noexcept {
+    const float per_kappa = 1 / kappa;
     float scale = factor;
     for (std::size_t n = 0; n < amplitude_terms; ++n) {
         k.amplitude[n] = scale * row[n];
         k.amplitude_slope[n] = (1 + 2 * static_cast<float>(n)) * k.amplitude[n];
-        scale /= kappa;
+        scale *= per_kappa;
     }
 }
 
