@@ -106,8 +106,8 @@ public:
         tangent_beta,
         tangent_z,
         tangent_sign,
-        cos_beta,        ///< cos(beta)
-        sin_beta,        ///< sin(beta)
+        cos_beta,     ///< cos(beta)
+        sin_beta,     ///< sin(beta)
         rest_cosine,  ///< cos(beta) / S
         rest_sine,    ///< sin(beta) / S
     };

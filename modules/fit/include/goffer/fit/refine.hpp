@@ -69,9 +69,9 @@ struct RefineOptions {
                                 std::span<const Stretch> stretches, const RefineOptions& options = {});
 
 /// The same with heights given: `heights` holds z of each vertex, the same for vertices at one place; along
-/// an edge it is taken to grow evenly, as on a straight body. Throws Error: what check(geometry) throws; no stretches, or one out of range; another number of
-/// heights than vertices, or one that is not finite; more triangles than allowed. Pure; may be called from
-/// any thread.
+/// an edge it is taken to grow evenly, as on a straight body. Throws Error: what check(geometry) throws; no
+/// stretches, or one out of range; another number of heights than vertices, or one that is not finite; more
+/// triangles than allowed. Pure; may be called from any thread.
 [[nodiscard]] Refinement refine(const Geometry& geometry, std::span<const double> heights,
                                 std::span<const Stretch> stretches, const RefineOptions& options = {});
 
