@@ -300,34 +300,43 @@ TEST_CASE("P3: squeezed columns keep the lengths that they have at rest, region 
 TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
     Random random(67);
     for (const bool bent : {false, true}) {
-        const Case one = random_case(random, 5, bent);
-        const std::size_t count = one.subject.positions.size();
-        Output whole(count), parts(count);
-        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
-        for (const Isa isa : isas_here()) {
-            const auto same = [&] {
-                for (std::size_t c = 0; c < 10; ++c)
-                    if (!std::ranges::equal(whole.columns[c], parts.columns[c])) return false;
-                return true;
-            };
-            bend::run(make_job(one.bound.body, poses, isa, whole));
-            bend::DeformJob job = make_job(one.bound.body, poses, isa, parts);
-            for (std::size_t first = 0; first < count;) {
-                const std::size_t last = std::min(count, first + 1 + random() % 200);
-                bend::run_range(job, first, last);
-                first = last;
-            }
-            CHECK(same());
-            for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
-                parts = Output(count);
-                job = make_job(one.bound.body, poses, isa, parts);
-                bend::run_parallel(bend::CrowdJob{.instances = {&job, 1}, .stores = stores});
-                CHECK(same());
-                parts = Output(count);
-                job = make_job(one.bound.body, poses, isa, parts);
-                for (std::size_t piece = 0; piece < 3; ++piece)
-                    bend::run_piece(bend::CrowdJob{.instances = {&job, 1}, .stores = stores}, piece, 3);
-                CHECK(same());
+        for (const std::size_t regions : {std::size_t{5}, std::size_t{1}}) {
+            const Case one = random_case(random, regions, bent);
+            const std::size_t count = one.subject.positions.size();
+            const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+            for (const Isa isa : isas_here()) {
+                for (const bool directions : {true, false}) {
+                    const auto job_to = [&](Output& out) {
+                        bend::DeformJob job = make_job(one.bound.body, poses, isa, out);
+                        if (!directions) job.normals = {}, job.tangents = {};
+                        return job;
+                    };
+                    Output whole(count), parts(count);
+                    const auto same = [&] {
+                        for (std::size_t c = 0; c < 10; ++c)
+                            if (!std::ranges::equal(whole.columns[c], parts.columns[c])) return false;
+                        return true;
+                    };
+                    bend::run(job_to(whole));
+                    for (std::size_t first = 0; first < count;) {
+                        const std::size_t last = std::min(count, first + 1 + random() % 400);
+                        bend::run_range(job_to(parts), first, last);
+                        first = last;
+                    }
+                    CHECK(same());
+                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
+                        parts = Output(count);
+                        bend::DeformJob job = job_to(parts);
+                        bend::run_parallel(bend::CrowdJob{.instances = {&job, 1}, .stores = stores});
+                        CHECK(same());
+                        parts = Output(count);
+                        job = job_to(parts);
+                        for (std::size_t piece = 0; piece < 3; ++piece)
+                            bend::run_piece(bend::CrowdJob{.instances = {&job, 1}, .stores = stores}, piece,
+                                            3);
+                        CHECK(same());
+                    }
+                }
             }
         }
     }
