@@ -112,6 +112,33 @@ TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own
     }
 }
 
+TEST_CASE("amplitude mesh: a body bent at rest keeps its area when it is bent further") {
+    const std::filesystem::path path = test::model("banana.obj");
+    if (path.empty()) return;
+    const mesh::Records records = mesh::records(mesh::load(path));
+    const Soup soup{records.positions, records.triangles};
+    const fit::Cylinder cylinder = fit::fit_cylinder(soup.geometry());
+    REQUIRE(cylinder.rest_angle > 1.5);
+    fit::BindOptions options;
+    options.amplitude = paper::Amplitude::mesh;
+    const fit::Bound bound = fit::bind(soup.geometry(), cylinder, options);
+    const double rest = fit::surface_area(soup.positions, soup.triangles);
+    const double most = 0.9 * static_cast<double>(bound.body.max_angle());
+    for (int step = 1; step <= 20; ++step) {
+        const double angle = cylinder.rest_angle + (most - cylinder.rest_angle) * step / 20;
+        const auto change = [&](double turned) {
+            return std::abs(
+                bent_area(bound, soup,
+                          {static_cast<float>(angle), static_cast<float>(cylinder.rest_direction + turned)}) /
+                    rest -
+                1);
+        };
+        CAPTURE(angle);
+        CHECK(change(0) < 5e-4);
+        for (const double turned : {0.2, 1.0, 2.5, 4.0}) CHECK(change(turned) < 3e-3);
+    }
+}
+
 TEST_CASE("amplitude mesh: regions keep the area of each") {
     std::mt19937 random(7);
     const test::Solid solid = test::cylinder({.columns = 48, .rows = 160}, random);

@@ -113,7 +113,8 @@ void set_wrinkle(Coefficients& k, const Body& body, const Region& region, const 
     const float kappa = alpha * per_kappa_angle;
     float factor = 1;
     if (!region.factors.empty())
-        factor = region.factors.at(alpha, pose.direction + (pose.angle < 0 ? pi : 0.0f));
+        factor =
+            region.factors.at(alpha, pose.direction - region.rest.direction + (pose.angle < 0 ? pi : 0.0f));
     if (!region.compares_with_rest) {
         k.wrinkling = Squeeze::plain;
         return set_plain_amplitude(k, region.table.at(alpha), factor * std::sqrt(kappa));

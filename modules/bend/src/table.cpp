@@ -46,7 +46,7 @@ float FactorTable::at(float angle, float direction) const noexcept {
     const auto along = [&from = rows[low], &to = rows[low + 1], share = weight](std::size_t d) {
         return from[d] + share * (to[d] - from[d]);
     };
-    return along(j) + across * (along(next) - along(j));
+    return std::sqrt(std::max(along(j) + across * (along(next) - along(j)), 0.0f));
 }
 
 }  // namespace goffer::bend

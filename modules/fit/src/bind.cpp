@@ -86,9 +86,9 @@ bend::RegionInput region_input(const Plan& plan, double onset, std::size_t verte
 }
 
 double largest_factor(const bend::FactorTable& factors) {
-    float largest = 1;
-    for (const auto& row : factors.rows) largest = std::max(largest, *std::ranges::max_element(row));
-    return static_cast<double>(largest);
+    float square = 1;
+    for (const auto& row : factors.rows) square = std::max(square, *std::ranges::max_element(row));
+    return std::sqrt(static_cast<double>(square));
 }
 
 bend::Body make(const bend::BodyInput& input) {

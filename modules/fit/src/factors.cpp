@@ -74,6 +74,19 @@ double solve(const Surface& surface, std::span<const std::uint32_t> triangles, d
     return best;
 }
 
+/// The square of that factor; below 0, as if area grew evenly with it, where even the bare bend has more than
+/// is wanted. What lies between is then interpolated well up to where wrinkles begin. Where there is nothing
+/// to wrinkle, the guess.
+double solve_square(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted,
+                    double guess) {
+    constexpr double least = -4;
+    const double factor = solve(surface, triangles, wanted, guess);
+    if (factor > 0) return factor * factor;
+    const double bare = area_of(surface, triangles, 0).area;
+    const double gain = area_of(surface, triangles, 1).area - bare;
+    return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
+}
+
 /// Triangles of which two corners or more are the region's, as vertices of the body.
 std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> place) {
@@ -130,15 +143,15 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
                      std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table) {
     Poser poser(body);
     Surface surface;
-    double factor = 1;
+    double square = 1;
     for (std::size_t row = rows - 1; row > 0; --row) {  // from where it is best determined
         const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
-        const bend::Pose pose = {root * root * table.max_angle,
-                                 2 * std::numbers::pi_v<float> * static_cast<float>(direction) /
-                                     static_cast<float>(bend::FactorTable::directions)};
-        poser.bend(region, pose, surface);
-        factor = solve(surface, triangles, wanted, factor);
-        table.rows[row][direction] = static_cast<float>(factor);
+        const float turned = 2 * std::numbers::pi_v<float> * static_cast<float>(direction) /
+                             static_cast<float>(bend::FactorTable::directions);
+        const float towards = body.rest_pose(region).direction + turned;
+        poser.bend(region, {root * root * table.max_angle, towards}, surface);
+        square = solve_square(surface, triangles, wanted, square > 0 ? std::sqrt(square) : 1);
+        table.rows[row][direction] = static_cast<float>(square);
     }
     table.rows[0][direction] = table.rows[1][direction];
 }

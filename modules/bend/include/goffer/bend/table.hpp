@@ -39,8 +39,9 @@ struct WrinkleTable {
 };
 
 /// Factors on the amplitude by angle and direction (mode `mesh`: with them the bound mesh keeps its own
-/// area). Rows at angles as those of WrinkleTable; value j of a row is for direction 2 pi j / directions,
-/// from e1 to e2. A plain value; empty where all factors are 1.
+/// area). Rows at angles as those of WrinkleTable; value j of a row is for the direction 2 pi j / directions
+/// from that of the region's rest arc, towards e2. Squares of factors, in which area is nearly linear; below
+/// 0 where even no wrinkle is too much. A plain value; empty where all factors are 1.
 struct FactorTable {
     static constexpr std::size_t directions = 16;
     float max_angle = 0;  ///< angle of the last row, radians; > 0 where there are rows
@@ -48,8 +49,8 @@ struct FactorTable {
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
-    /// The factor at `angle` >= 0 and any finite `direction`: linear between its four neighbours, clamped to
-    /// the table's angles; 1 where there are no rows. Does not allocate. Thread-safe.
+    /// The factor at `angle` >= 0 and any finite `direction`: its square linear between its four neighbours,
+    /// the angle clamped to the table's; 1 where there are no rows. Does not allocate. Thread-safe.
     [[nodiscard]] float at(float angle, float direction) const noexcept;
 };
 
