@@ -138,7 +138,7 @@ void set_arc(const KernelArgs& args, const Coefficients& k, Bent<L>& b, std::siz
 
 /// What positions need of batches that were turned ahead. A relative squeeze's operations are a longer chain
 /// than processors look ahead over, and too many numbers for their registers; in a loop of their own they
-/// take 1.17 times a plain squeeze's time, in one loop with the rest 1.3 times. (Plain squeezes, and normals,
+/// take 1.2 times a plain squeeze's time, in one loop with the rest 1.3 times. (Plain squeezes, and normals,
 /// lose by it.)
 template <class L>
 struct Ahead {
