@@ -322,7 +322,8 @@ TEST_CASE("arcs: rows that refining adds lie evenly along the arc") {
 TEST_CASE("arcs: real models") {
     struct Known {
         const char* name;
-        double low, high;  // degrees
+        double low, high;        // degrees
+        double residual = 0.85;  // at most, of the straight one's
     };
     for (const Known& known : {Known{"banana.obj", 85, 110},
                                {"lh_trochanterfemur.stl", 25, 45},
@@ -333,7 +334,7 @@ TEST_CASE("arcs: real models") {
                                {"fuze.ply", 0, 0},
                                {"koala.obj", 0, 0},
                                {"blub_open.obj", 0, 0},
-                               {"insect_leg.glb", 120, 150},
+                               {"insect_leg.glb", 120, 150, 0.95},
                                {"l_arista.stl", 0, 0}}) {
         CAPTURE(known.name);
         const std::filesystem::path path = test::model(known.name);
@@ -345,7 +346,7 @@ TEST_CASE("arcs: real models") {
         CHECK(fitted.rest_angle <= known.high * degree);
         if (known.high == 0) continue;
         CHECK(fitted.residual <
-              fit::fit_cylinder(geometry, std::nullopt, fit::Rest::straight).residual * 0.95);
+              fit::fit_cylinder(geometry, std::nullopt, fit::Rest::straight).residual * known.residual);
     }
 }
 
