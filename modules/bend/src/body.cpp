@@ -230,7 +230,7 @@ std::optional<Body> Body::make(const BodyInput& input) {
     const bool compares = std::ranges::any_of(
         input.regions, [](const RegionInput& region) { return region.rest_angle != 0 || region.onset != 0; });
     const std::size_t columns = body.has_tangents_ ? cos_beta : tangent_rho;
-    body.columns_ = Columns(columns + (compares ? 4 : 0), input.vertices.size());
+    body.columns_ = Columns(columns + (compares ? rest_sine + 1 - cos_beta : 0), input.vertices.size());
     body.origin_ = input.origin;
     body.axes_ = input.axes;
     body.radius_ = input.radius;
@@ -241,12 +241,11 @@ std::optional<Body> Body::make(const BodyInput& input) {
         body.length_ += region.length;
         write_vertices(body.columns_, region, input.radius, first, input.vertices);
         for (std::size_t i = first; compares && i < first + region.vertex_count; ++i) {
-            const double beta = input.vertices[i].beta;
-            body.columns_[columns][i] = static_cast<float>(std::cos(beta));
-            body.columns_[columns + 1][i] = static_cast<float>(std::sin(beta));
+            const double beta = input.vertices[i].beta, cosine = std::cos(beta), sine = std::sin(beta);
             const double scale = rest_scale(region, input.radius, beta);
-            body.columns_[columns + 2][i] = static_cast<float>(std::cos(beta) / scale);
-            body.columns_[columns + 3][i] = static_cast<float>(std::sin(beta) / scale);
+            std::size_t column = columns;
+            for (const double value : {cosine, sine, cosine / scale, sine / scale})  // from cos_beta on
+                body.columns_[column++][i] = static_cast<float>(value);
         }
         body.regions_.push_back(region_of(region, body.columns_, first));
         return true;

@@ -46,16 +46,27 @@ struct Bent {
     Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
 };
 
+/// Cosine and sine of an angle.
+template <class L>
+struct Turn {
+    typename L::Vec cosine, sine;
+};
+
+/// The columns' angles less the instance's. Of half angles times the root of two: the half difference, times
+/// that root.
+template <class L>
+Turn<L> turned_by(Turn<L> columns, float cos_direction, float sin_direction) {
+    const typename L::Vec ct = L::set(cos_direction);
+    const typename L::Vec st = L::set(sin_direction);
+    return {L::madd(columns.sine, st, columns.cosine * ct), L::nmadd(columns.cosine, st, columns.sine * ct)};
+}
+
 /// The directions of columns, and the wrinkle of those that are squeezed by q = kappa T, if by any.
 template <class L, Squeeze squeeze, bool slope>
 void set_plain_wrinkle(const KernelArgs& args, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec cos_half = L::load(args.cos_half_beta + i);
-    const Vec sin_half = L::load(args.sin_half_beta + i);
-    const Vec ct = L::set(k.cos_half_direction);
-    const Vec st = L::set(k.sin_half_direction);
-    const Vec h = L::madd(sin_half, st, cos_half * ct);
-    const Vec h_prime = L::nmadd(cos_half, st, sin_half * ct);
+    const auto [h, h_prime] = turned_by<L>({L::load(args.cos_half_beta + i), L::load(args.sin_half_beta + i)},
+                                           k.cos_half_direction, k.sin_half_direction);
     const Vec t = h * h;
     b.c = t - L::set(1.0f);
     b.s = h * h_prime;
@@ -73,12 +84,10 @@ void set_plain_wrinkle(const KernelArgs& args, const Coefficients& k, Bent<L>& b
 template <class L, bool slope>
 void set_relative_wrinkle(const KernelArgs& args, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec cosine = L::load(args.cos_beta + i);
-    const Vec sine = L::load(args.sin_beta + i);
-    const Vec ct = L::set(k.cos_direction);
-    const Vec st = L::set(k.sin_direction);
-    b.c = L::madd(sine, st, cosine * ct);
-    b.s = L::nmadd(cosine, st, sine * ct);
+    const Turn<L> turn = turned_by<L>({L::load(args.cos_beta + i), L::load(args.sin_beta + i)},
+                                      k.cos_direction, k.sin_direction);
+    b.c = turn.cosine;
+    b.s = turn.sine;
     const Vec rest_cosine = L::load(args.rest_cosine + i);
     const Vec rest_sine = L::load(args.rest_sine + i);
     const Vec zero = L::set(0.0f);
