@@ -263,27 +263,31 @@ void check_heights(std::span<const double> heights, std::size_t vertices) {
                     " is NaN or infinite; give z in model units");
 }
 
+/// `arc` as Refiner's.
+Refinement refined(const Geometry& geometry, std::span<const double> heights,
+                   std::span<const Stretch> stretches, const Straightening* arc,
+                   const RefineOptions& options) {
+    check_stretches(stretches);
+    check_heights(heights, geometry.positions.size());
+    const RowScale scale(stretches);
+    return Refiner(geometry, heights, scale, arc).run(options.most_triangles);
+}
+
 }  // namespace
 
 Refinement refine(const Geometry& geometry, std::span<const double> heights,
                   std::span<const Stretch> stretches, const RefineOptions& options) {
     check(geometry);
-    check_stretches(stretches);
-    check_heights(heights, geometry.positions.size());
-    const RowScale scale(stretches);
-    return Refiner(geometry, heights, scale, nullptr).run(options.most_triangles);
+    return refined(geometry, heights, stretches, nullptr, options);
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<const Stretch> stretches,
                   const RefineOptions& options) {
     check(geometry);
     check(cylinder);
-    check_stretches(stretches);
-    const RowScale scale(stretches);
     const Straightening arc(cylinder);
-    return Refiner(geometry, heights(geometry.positions, cylinder), scale,
-                   cylinder.rest_angle != 0 ? &arc : nullptr)
-        .run(options.most_triangles);
+    return refined(geometry, heights(geometry.positions, cylinder), stretches,
+                   cylinder.rest_angle != 0 ? &arc : nullptr, options);
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
