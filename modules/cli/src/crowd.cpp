@@ -75,22 +75,18 @@ std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindReque
     return models;
 }
 
-/// What a model's regions can do, and warnings of those that are asked for more.
-nlohmann::ordered_json report_regions(Report& report, const CrowdOptions& options, const PoseRequest& pose,
-                                      const BoundModel& model, const std::string& where) {
-    nlohmann::ordered_json regions;
+/// Of what a model's regions are asked for and cannot do.
+void warn_of_regions(Report& report, const CrowdOptions& options, const PoseRequest& pose,
+                     const BoundModel& model, const std::string& where) {
+    const bend::Body& body = model.bound.body;
     std::vector<double> used;
-    for (std::size_t r = 0; r < pose.angles.size(); ++r) {
-        const double limit = degrees(static_cast<double>(model.bound.body.max_angle(r)));
-        regions.push_back({{"folds", model.bound.folds(r)}, {"max_angle", limit}});
-        used.push_back(radians(std::min(std::fabs(pose.angles[r]), limit)));
-        if (std::fabs(pose.angles[r]) <= limit) continue;
-        report.warn(where + region_words(r, pose.angles.size()) + "the angle of " + number(pose.angles[r]) +
-                    " degrees is beyond the largest, " + number(limit) +
-                    ", where the body would fold through itself; it is bent so far at most");
+    for (std::size_t r = 0; r < pose.poses.size(); ++r) {
+        used.push_back(used_angle(body, r, pose.poses[r]));
+        if (std::fabs(pose.poses[r].angle) <= body.max_angle(r)) continue;
+        warn_of_angle(report, where + region_words(r, pose.poses.size()), pose.angles[r],
+                      degrees(static_cast<double>(body.max_angle(r))), "it is bent so far at most");
     }
     warn_of_folds(report, options.bind, model, used, where);
-    return regions;
 }
 
 void report_models(Report& report, const CrowdOptions& options, const PoseRequest& pose,
@@ -99,12 +95,15 @@ void report_models(Report& report, const CrowdOptions& options, const PoseReques
         const bend::Body& body = model.bound.body;
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
-        const nlohmann::ordered_json regions = report_regions(report, options, pose, model, where);
-        std::size_t folds = 0;
+        warn_of_regions(report, options, pose, model, where);
+        nlohmann::ordered_json regions;
+        int folds = 0;
         double limit = 0;
-        for (const auto& region : regions) {
-            folds += region["folds"].get<std::size_t>();
-            limit += region["max_angle"].get<double>();
+        for (std::size_t r = 0; r < body.region_count(); ++r) {
+            const double own = degrees(static_cast<double>(body.max_angle(r)));
+            regions.push_back({{"folds", model.bound.folds(r)}, {"max_angle", own}});
+            folds += model.bound.folds(r);
+            limit += own;
         }
         report.json["models"].push_back({{"file", model.file.string()},
                                          {"vertices", body.vertex_count()},
@@ -112,7 +111,7 @@ void report_models(Report& report, const CrowdOptions& options, const PoseReques
                                          {"max_angle", limit},
                                          {"regions", regions}});
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
-                                 " vertices, " + counted(folds, "fold"));
+                                 " vertices, " + counted(static_cast<std::size_t>(folds), "fold"));
         if (model.growth) report_growth(report, *model.growth);
     }
 }

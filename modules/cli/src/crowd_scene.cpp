@@ -130,15 +130,15 @@ void Crowd::set_poses(std::size_t frame) noexcept {
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
         const Member& member = members_[i];
         const bend::Body& body = *jobs_[i].body;
+        const auto direction = static_cast<float>(turn * (time / frames_per_turn + member.direction));
         double start = 0;
         for (std::size_t r = 0; r < farthest_.size(); ++r, ++pose) {
             const double phase =
                 time / frames_per_swing + member.phase - lag_per_length * start / body.length();
             const double swing = 0.5 - 0.5 * std::cos(turn * phase);
-            const double direction = turn * (time / frames_per_turn + member.direction);
             const float limit = body.max_angle(r);
             const float angle = std::clamp(farthest_[r].angle, -limit, limit);
-            *pose = {static_cast<float>(static_cast<double>(angle) * swing), static_cast<float>(direction)};
+            *pose = {static_cast<float>(static_cast<double>(angle) * swing), direction};
             start += static_cast<double>(body.regions()[r].length);
         }
     }

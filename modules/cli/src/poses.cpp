@@ -108,6 +108,12 @@ double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& 
     return static_cast<double>(std::min(std::fabs(pose.angle), body.max_angle(region)));
 }
 
+void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
+                   const std::string& then) {
+    report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " + number(limit) +
+                ", where the body would fold through itself; " + then);
+}
+
 void report_poses(Report& report, const PoseRequest& request, const fit::Bound& bound) {
     const bend::Body& body = bound.body;
     nlohmann::ordered_json poses, regions;
@@ -130,10 +136,7 @@ void report_poses(Report& report, const PoseRequest& request, const fit::Bound& 
         report.line(i == 0 ? "folds" : "", which + std::to_string(bound.folds(i)) + " of " +
                                                std::to_string(bound.folds_capacity(i)) +
                                                " that the mesh carries");
-        if (beyond) {
-            report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " +
-                        number(limit) + ", where the body would fold through itself; clamped to it");
-        }
+        if (beyond) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = bound.folds_capacity();

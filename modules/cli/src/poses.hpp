@@ -53,6 +53,11 @@ struct PoseRequest {
 /// The angle of a pose that a run uses, radians, >= 0: clamped to the region's largest.
 [[nodiscard]] double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose);
 
+/// Warns that an angle is beyond the largest, both in degrees. `which` begins the line; `then` ends it: what
+/// is done.
+void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
+                   const std::string& then);
+
 /// Says what each region was bent by, and warns of those that were clamped.
 void report_poses(Report& report, const PoseRequest& request, const fit::Bound& bound);
 
