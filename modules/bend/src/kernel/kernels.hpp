@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel_args.hpp"
+#include "kernel/kernel_args.hpp"
 
 #include <goffer/engine/isa.hpp>
 

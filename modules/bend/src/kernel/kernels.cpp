@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "kernels.hpp"
+#include "kernel/kernels.hpp"
 
 namespace goffer::bend {
 

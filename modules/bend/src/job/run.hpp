@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "instance.hpp"
-#include "kernels.hpp"
+#include "pose/instance.hpp"
+#include "kernel/kernels.hpp"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "instance.hpp"
+#include "pose/instance.hpp"
 
-#include "streams_wanted.hpp"
+#include "job/streams_wanted.hpp"
 
 #include <goffer/simd/four.hpp>
 

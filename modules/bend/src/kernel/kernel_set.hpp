@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel.hpp"
+#include "kernel/kernel.hpp"
 
 namespace goffer::bend {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "run.hpp"
+#include "job/run.hpp"
 
-#include "outputs.hpp"
+#include "output/outputs.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "kernel_set.hpp"
+#include "kernel/kernel_set.hpp"
 
 #include <goffer/simd/scalar_lanes.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "interleave.hpp"
-#include "kernel_args.hpp"
+#include "kernel/interleave.hpp"
+#include "kernel/kernel_args.hpp"
 
 /// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
 /// XsimdLanes<Arch>, or two of them in step.

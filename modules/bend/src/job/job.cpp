@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "instance.hpp"
-#include "run.hpp"
-#include "streams_wanted.hpp"
+#include "pose/instance.hpp"
+#include "job/run.hpp"
+#include "job/streams_wanted.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/engine/parallel.hpp>

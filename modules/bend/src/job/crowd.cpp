@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "instance.hpp"
-#include "run.hpp"
+#include "pose/instance.hpp"
+#include "job/run.hpp"
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/engine/parallel.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "centre_line.hpp"
-#include "instance.hpp"
+#include "pose/centre_line.hpp"
+#include "pose/instance.hpp"
 
 #include <goffer/bend/bounds.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "outputs.hpp"
+#include "output/outputs.hpp"
 
-#include "streams_wanted.hpp"
+#include "job/streams_wanted.hpp"
 
 #include <goffer/simd/four.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "instance.hpp"
-#include "kernels.hpp"
-#include "run.hpp"
+#include "pose/instance.hpp"
+#include "kernel/kernels.hpp"
+#include "job/run.hpp"
 
 #include <goffer/bend/sockets.hpp>
 
