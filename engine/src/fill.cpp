@@ -2,63 +2,99 @@
 #include <goffer/engine/columns.hpp>
 #include <goffer/engine/fill.hpp>
 
-#include <algorithm>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
-#if defined(__SSE2__)
+#if defined(__SSE2__) || defined(_M_X64)
+#define GOFFER_STREAMS
 #include <emmintrin.h>
 #endif
 
 namespace goffer {
 namespace {
 
-#if defined(__SSE2__)
-
 constexpr std::size_t line_floats = column_alignment / sizeof(float);
 
-std::size_t floats_before_line(const float* at) noexcept {
-    const std::size_t past = reinterpret_cast<std::uintptr_t>(at) % column_alignment;
-    return past == 0 ? 0 : (column_alignment - past) / sizeof(float);
+bool starts_line(const float* at) noexcept {
+    return reinterpret_cast<std::uintptr_t>(at) % column_alignment == 0;
 }
 
-// `to` starts on a line and is whole lines.
-void stream_lines(std::span<float> to, float value) noexcept {
-    const __m128 values = _mm_set1_ps(value);
-    float* const end = to.data() + to.size();
-    for (float* line = to.data(); line != end; line += line_floats) {
-        _mm_stream_ps(line, values);
-        _mm_stream_ps(line + 4, values);
-        _mm_stream_ps(line + 8, values);
-        _mm_stream_ps(line + 12, values);
+/// Four lines of different numbers. From the first-level cache, since two vectors of it are read in the time
+/// that one is stored; arithmetic on counters would take longer.
+class Pattern {
+public:
+    explicit Pattern(float seed) noexcept {
+        constexpr std::uint32_t apart = 0x9e3779b1,
+                                one = 0x3f800000;  // 2^32 / golden ratio; the bits of 1.0f
+        std::uint32_t bits = std::bit_cast<std::uint32_t>(seed) * apart;
+        for (float& number : numbers_) number = std::bit_cast<float>(one | (bits += apart) >> 9);
     }
-    _mm_sfence();  // these stores are not ordered with those that tell another thread that all is done
+
+    /// What belongs to `place`, and behind it as far as its line goes.
+    [[nodiscard]] const float* at(const float* place) const noexcept {
+        return numbers_ + reinterpret_cast<std::uintptr_t>(place) / sizeof(float) % count;
+    }
+
+private:
+    static constexpr std::size_t count = 4 * line_floats;
+    alignas(column_alignment) float numbers_[count];
+};
+
+void store_line(const float* from, float* to) noexcept {
+    std::memcpy(to, from, column_alignment);
 }
 
-void fill_streaming(std::span<float> to, float value) noexcept {
-    const std::size_t before = std::min(floats_before_line(to.data()), to.size());
-    const std::size_t lines = (to.size() - before) / line_floats * line_floats;
-    std::ranges::fill(to.first(before), value);
-    stream_lines(to.subspan(before, lines), value);
-    std::ranges::fill(to.subspan(before + lines), value);
-}
-
+/// `to` is where a line begins.
+void stream_line(const float* from, float* to) noexcept {
+#ifdef GOFFER_STREAMS
+    for (std::size_t i = 0; i < line_floats; i += 4) _mm_stream_ps(to + i, _mm_loadu_ps(from + i));
 #else
-
-void fill_streaming(std::span<float> to, float value) noexcept {
-    std::ranges::fill(to, value);
+    store_line(from, to);
+#endif
 }
 
+/// Orders streamed lines before what tells another thread that all is done.
+void fence() noexcept {
+#ifdef GOFFER_STREAMS
+    _mm_sfence();
 #endif
+}
+
+/// Sets each float of `to` to *from(its address): alone, or by `line` where a whole line begins.
+template <class From, class Line>
+void write(std::span<float> to, const From& from, const Line& line) noexcept {
+    float* at = to.data();
+    float* const end = at + to.size();
+    for (; at != end && !starts_line(at); ++at) *at = *from(at);
+    for (; end - at >= static_cast<std::ptrdiff_t>(line_floats); at += line_floats) line(from(at), at);
+    for (; at != end; ++at) *at = *from(at);
+}
+
+template <class From>
+void write(std::span<float> to, bool non_temporal, const From& from) noexcept {
+    if (!non_temporal) return write(to, from, [](const float* a, float* b) { store_line(a, b); });
+    write(to, from, [](const float* a, float* b) { stream_line(a, b); });
+    fence();
+}
 
 }  // namespace
 
-void fill(std::span<float> to, float value, bool streaming) noexcept {
-    if (streaming) {
-        fill_streaming(to, value);
-    } else {
-        std::ranges::fill(to, value);
+void fill(std::span<float> to, float seed, bool non_temporal) noexcept {
+    const Pattern pattern(seed);
+    write(to, non_temporal, [&](const float* place) { return pattern.at(place); });
+}
+
+void copy_floats(std::span<const float> from, std::span<float> to, bool non_temporal) noexcept {
+    assert(from.size() <= to.size());
+    if (!non_temporal) {
+        if (!from.empty()) std::memcpy(to.data(), from.data(), from.size_bytes());
+        return;
     }
+    const float* const begin = to.data();
+    write(to.first(from.size()), true, [&](const float* place) { return from.data() + (place - begin); });
 }
 
 }  // namespace goffer

@@ -2,6 +2,13 @@
 #include <goffer/engine/isa.hpp>
 
 #include <array>
+#include <cstdint>
+
+#ifdef GOFFER_HAS_SSE42
+#include "saved_registers.hpp"
+
+#include <xsimd/xsimd.hpp>
+#endif
 
 namespace goffer {
 namespace {
@@ -24,26 +31,49 @@ constexpr Isa built[] = {
 
 constexpr std::array<std::string_view, 6> names = {"auto", "scalar", "sse4.2", "avx2", "avx512", "neon"};
 
-// The compiler's own test, not xsimd's: it also asks the system whether it saves the wide registers.
-bool processor_has(Isa isa) noexcept {
+#ifdef GOFFER_HAS_SSE42
+
+/// What this machine runs of what is built for x86-64.
+struct Machine {
+    bool sse42, avx2, avx512;
+};
+
+Machine look() noexcept {
+    const auto processor = xsimd::available_architectures();
+    const std::uint64_t saved = saved_registers();
+    const bool wide = (saved & saves_256_bits) == saves_256_bits;
+    const bool widest = (saved & saves_512_bits) == saves_512_bits;
+    Machine machine;
+    machine.sse42 = processor.sse4_2;
+    machine.avx2 = wide && processor.avx2 && processor.fma3_avx2;
+    machine.avx512 = widest && machine.avx2 && processor.avx512f && processor.avx512cd &&
+                     processor.avx512dq && processor.avx512bw;
+    return machine;
+}
+
+bool machine_has(Isa isa) noexcept {
+    // Once: a virtual machine's host answers each of these questions, which takes longer than many a job.
+    static const Machine machine = look();
     switch (isa) {
-#if defined(__x86_64__)
         case Isa::sse42:
-            return __builtin_cpu_supports("sse4.2");
+            return machine.sse42;
         case Isa::avx2:
-            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+            return machine.avx2;
         case Isa::avx512:
-            return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
-                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-                   __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#elif defined(__aarch64__)
-        case Isa::neon:
-            return true;
-#endif
+            return machine.avx512;
         default:
             return isa == Isa::automatic || isa == Isa::scalar;
     }
 }
+
+#else
+
+/// Every 64-bit Arm has NEON, and every machine what plain C++ needs.
+bool machine_has(Isa isa) noexcept {
+    return isa == Isa::automatic || isa == Isa::scalar || isa == Isa::neon;
+}
+
+#endif
 
 }  // namespace
 
@@ -54,14 +84,14 @@ std::span<const Isa> built_isas() noexcept {
 bool runs_here(Isa isa) noexcept {
     bool is_built = isa == Isa::automatic;
     for (const Isa candidate : built) is_built |= candidate == isa;
-    return is_built && processor_has(isa);
+    return is_built && machine_has(isa);
 }
 
 Isa resolve(Isa isa) noexcept {
     if (isa != Isa::automatic) return isa;
     Isa best = Isa::scalar;
     for (const Isa candidate : built) {
-        if (processor_has(candidate)) best = candidate;
+        if (machine_has(candidate)) best = candidate;
     }
     return best;
 }

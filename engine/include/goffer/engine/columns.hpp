@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -33,9 +34,11 @@ public:
 
     /// The values of column `index` < columns(), without the padding.
     [[nodiscard]] std::span<float> operator[](std::size_t index) noexcept {
+        assert(index < columns_);
         return {memory_.get() + index * stride_, count_};
     }
     [[nodiscard]] std::span<const float> operator[](std::size_t index) const noexcept {
+        assert(index < columns_);
         return {memory_.get() + index * stride_, count_};
     }
 

@@ -3,15 +3,22 @@
 
 #include <span>
 
-/// Filling memory: the least that an output of so many bytes can cost, which other outputs are measured
-/// against.
+/// Filling and copying memory: the least that an output of so many bytes can cost, which other outputs are
+/// measured against. A copy is that for outputs which leave gaps in cache lines: these are read, too.
+///
+/// `non_temporal`: whole cache lines go past the cache where there are such stores (x86-64), and are visible
+/// to other threads on return; floats before the first and behind the last whole line are stored as usual.
 
 namespace goffer {
 
-/// Sets every float of `to`, the caller's memory, to `value`. `streaming`: whole cache lines go past the
-/// cache with non-temporal stores where there are such (x86-64), and are visible to other threads on return;
-/// floats before the first and behind the last whole line are stored as usual. Does not allocate. Thread-safe
-/// where ranges do not overlap.
-void fill(std::span<float> to, float value, bool streaming) noexcept;
+/// Sets every float of `to`, the caller's memory, to a number from 1 to 2 that differs from its neighbours':
+/// memory that is all zeros or all one number is something that some machines are faster with. The numbers
+/// repeat every four cache lines, depend on `seed` and on where in its line a float lies, and not on where
+/// `to` begins. Does not allocate. Thread-safe where ranges do not overlap.
+void fill(std::span<float> to, float seed, bool non_temporal) noexcept;
+
+/// Copies `from` to the beginning of `to`, which is as long or longer, and does not overlap it. Does not
+/// allocate. Thread-safe where ranges that are written overlap no others.
+void copy_floats(std::span<const float> from, std::span<float> to, bool non_temporal) noexcept;
 
 }  // namespace goffer

@@ -11,16 +11,21 @@ namespace goffer {
 /// `N` floats per vertex. Component c of vertex i is at reinterpret_cast<std::byte*>(component[c]) + i *
 /// stride.
 ///
-/// The memory is the caller's, must be aligned to 4 bytes, and must hold `count` vertices. Streams of one job
-/// must not overlap, except that interleaved streams may share a buffer at different offsets. A default-made
-/// stream is empty: not asked for.
+/// The memory is the caller's, must be aligned to 4 bytes, and must hold `count` vertices. It is written and
+/// never read. Streams of one job must not share a byte; members of the same records at different offsets
+/// don't. A default-made stream, all null, is empty: not asked for.
 template <std::size_t N>
 struct Stream {
     float* component[N] = {};
     std::size_t stride = sizeof(float);  ///< bytes from one vertex to the next; at least 4, a multiple of 4
     std::size_t count = 0;               ///< vertices that the memory holds
 
-    [[nodiscard]] bool empty() const noexcept { return component[0] == nullptr; }
+    [[nodiscard]] bool empty() const noexcept {
+        for (const float* first : component) {
+            if (first != nullptr) return false;
+        }
+        return true;
+    }
     [[nodiscard]] bool planar() const noexcept { return stride == sizeof(float); }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/simd/x86_rows.hpp>
 #include <goffer/simd/xsimd_lanes.hpp>
 
 #include <immintrin.h>
@@ -8,8 +9,15 @@
 namespace goffer::simd {
 
 /// AVX-512 with what xsimd 8.1 lacks there: a fused multiply-add (it multiplies, then adds), and estimates of
-/// reciprocals (it calls an intrinsic that does not exist). And a part of a batch is stored by a mask.
-struct Avx512Lanes : XsimdLanes<xsimd::avx512bw> {
+/// reciprocals (it calls an intrinsic that does not exist). A part of a batch is stored by a mask.
+struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
+    using Single = Avx512Lanes;
+    using Row = X86Rows<Avx512Lanes>::Row;
+    using X86Rows<Avx512Lanes>::first_of;
+    using X86Rows<Avx512Lanes>::mixed_row;
+    using X86Rows<Avx512Lanes>::row_times;
+    using X86Rows<Avx512Lanes>::store_row;
+
     static Vec madd(Vec a, Vec b, Vec c) { return Vec(_mm512_fmadd_ps(a, b, c)); }
     static Vec nmadd(Vec a, Vec b, Vec c) { return Vec(_mm512_fnmadd_ps(a, b, c)); }
     static Vec rsqrt(Vec a) {
@@ -21,8 +29,45 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw> {
         return y * nmadd(a, y, Vec(2.0f));
     }
     static void store_first(float* to, Vec value, std::size_t count) {
+        if (count == 0) return;  // a store of nothing would fetch its line all the same
         const auto lanes = static_cast<__mmask16>(count >= width ? 0xffffu : (1u << count) - 1u);
         _mm512_mask_storeu_ps(to, lanes, value);
+    }
+
+    template <std::size_t count>
+    static void store_row_first(float* to, Row row) {
+        _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1u << count) - 1u), _mm512_castps128_ps512(row));
+    }
+
+    template <class Visit>
+    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+        const __m512 ab_low = _mm512_unpacklo_ps(a, b), ab_high = _mm512_unpackhi_ps(a, b);
+        const __m512 cd_low = _mm512_unpacklo_ps(c, d), cd_high = _mm512_unpackhi_ps(c, d);
+        const __m512 rows[4] = {
+            _mm512_shuffle_ps(ab_low, cd_low, 0x44), _mm512_shuffle_ps(ab_low, cd_low, 0xee),
+            _mm512_shuffle_ps(ab_high, cd_high, 0x44), _mm512_shuffle_ps(ab_high, cd_high, 0xee)};
+        visit_rows(rows, visit);
+    }
+    static Row first_row(Vec a, Vec b, Vec c, Vec d) {
+        return first_of(_mm512_castps512_ps128(a), _mm512_castps512_ps128(b), _mm512_castps512_ps128(c),
+                        _mm512_castps512_ps128(d));
+    }
+    template <class Visit>
+    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
+        const __m512 low = _mm512_unpacklo_ps(a, b), high = _mm512_unpackhi_ps(a, b);
+        const __m512 rows[4] = {_mm512_shuffle_ps(low, c, 0x04), _mm512_shuffle_ps(low, c, 0x5e),
+                                _mm512_shuffle_ps(high, c, 0xa4), _mm512_shuffle_ps(high, c, 0xfe)};
+        visit_rows(rows, visit);
+    }
+
+private:
+    /// `rows` has those of lanes 0, 4, 8 and 12, then 1, 5, ...
+    template <class Visit>
+    static void visit_rows(const __m512 (&rows)[4], const Visit& visit) {
+        for (std::size_t i = 0; i < 4; ++i) visit(i, _mm512_castps512_ps128(rows[i]));
+        for (std::size_t i = 0; i < 4; ++i) visit(4 + i, _mm512_extractf32x4_ps(rows[i], 1));
+        for (std::size_t i = 0; i < 4; ++i) visit(8 + i, _mm512_extractf32x4_ps(rows[i], 2));
+        for (std::size_t i = 0; i < 4; ++i) visit(12 + i, _mm512_extractf32x4_ps(rows[i], 3));
     }
 };
 

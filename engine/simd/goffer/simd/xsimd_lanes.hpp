@@ -30,16 +30,23 @@ struct XsimdLanes {
 
     // xsimd 8.1 has no streaming store.
     static void stream(float* to, Vec value) {
-#if defined(__SSE__)
+#if XSIMD_WITH_SSE2
         if constexpr (width == 4) _mm_stream_ps(to, value);
-#if defined(__AVX__)
+#if XSIMD_WITH_AVX
         if constexpr (width == 8) _mm256_stream_ps(to, value);
 #endif
-#if defined(__AVX512F__)
+#if XSIMD_WITH_AVX512F
         if constexpr (width == 16) _mm512_stream_ps(to, value);
 #endif
 #else
         value.store_unaligned(to);
+#endif
+    }
+    static void prefetch(const float* at) {
+#if defined(__SSE__)
+        _mm_prefetch(reinterpret_cast<const char*>(at), _MM_HINT_T0);
+#elif defined(__GNUC__)
+        __builtin_prefetch(at, 1);
 #endif
     }
     static void store_first(float* to, Vec value, std::size_t count) {
@@ -93,12 +100,54 @@ struct XsimdLanes {
         return magnitude | (sign & Vec(-0.0f));
     }
     static Vec word(Vec value) {
-        return xsimd::bitwise_cast<Vec>(xsimd::nearbyint_as_int(value));
+        return bits(xsimd::nearbyint_as_int(value));
     }
     static Vec pair_words(Vec low, Vec high) {
-        using Words = xsimd::batch<std::int32_t, Arch>;
         const Words lower = xsimd::nearbyint_as_int(low) & Words(0xffff);
-        return xsimd::bitwise_cast<Vec>(lower | (xsimd::nearbyint_as_int(high) << 16));
+        return bits(lower | (xsimd::nearbyint_as_int(high) << 16));
+    }
+
+    static Vec smaller(Vec a, Vec b) {
+        return xsimd::min(a, b);
+    }
+    static Vec sqrt(Vec a) {
+        return xsimd::sqrt(a);
+    }
+
+    /// Four values that belong to one lane; and of four lanes, that lane by lane. Wider registers have lanes
+    /// files of their own.
+    using Row = Vec;
+    template <class Visit>
+    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+        static_assert(width == 4);
+        const Vec ac_low = xsimd::zip_lo(a, c), ac_high = xsimd::zip_hi(a, c);
+        const Vec bd_low = xsimd::zip_lo(b, d), bd_high = xsimd::zip_hi(b, d);
+        visit(0, xsimd::zip_lo(ac_low, bd_low));
+        visit(1, xsimd::zip_hi(ac_low, bd_low));
+        visit(2, xsimd::zip_lo(ac_high, bd_high));
+        visit(3, xsimd::zip_hi(ac_high, bd_high));
+    }
+    static Row first_row(Vec a, Vec b, Vec c, Vec d) {
+        return xsimd::zip_lo(xsimd::zip_lo(a, c), xsimd::zip_lo(b, d));
+    }
+    template <class Visit>
+    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
+        for_rows(a, b, c, c, visit);
+    }
+    static Row mixed_row(const float* from, const float* to, float weight, float factor) {
+        return Vec(factor) * (load(from) + Vec(weight) * (load(to) - load(from)));
+    }
+    static Row row_times(Row row, const float* factors) {
+        return row * load(factors);
+    }
+    static void store_row(float* to, Vec row) {
+        store(to, row);
+    }
+    template <std::size_t count>
+    static void store_row_first(float* to, Vec row) {
+        alignas(16) float values[4];
+        row.store_aligned(values);
+        std::memcpy(to, values, count * sizeof(float));
     }
 
     /// Lane l of the result is lane Picks::at(l) of `a`, or of `b` where that is `width` and more.
@@ -108,6 +157,15 @@ struct XsimdLanes {
     }
 
 private:
+    using Words = xsimd::batch<std::int32_t, Arch>;
+    static Vec bits(Words words) {
+#if XSIMD_VERSION_MAJOR >= 11
+        return xsimd::bitwise_cast<float>(words);
+#else
+        return xsimd::bitwise_cast<Vec>(words);
+#endif
+    }
+
     template <class Picks, std::size_t... lane>
     static Vec shuffle(Vec a, Vec b, std::index_sequence<lane...>) {
         return Vec(__builtin_shufflevector(a.data, b.data, Picks::at(static_cast<int>(lane))...));

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#if !defined(__GNUC__) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
+/// What x86-64 tells of the system: a processor may have registers that an old system or a virtual machine
+/// does not keep for its threads. Xsimd asks for that in newer versions than 8.1 only.
+
+namespace goffer {
+
+/// Bits of saved_registers().
+constexpr std::uint64_t saves_256_bits = 0x06;  ///< lower and upper halves of AVX registers
+constexpr std::uint64_t saves_512_bits =
+    0xe6;  ///< these, masks, the upper halves of 512 bits, registers 16 to 31
+
+/// The registers that the system saves when it changes threads, as the bits of XCR0; none where it cannot be
+/// asked.
+[[nodiscard]] inline std::uint64_t saved_registers() noexcept {
+    constexpr std::uint32_t answers = 1u << 27;  // OSXSAVE, in ecx of leaf 1: else xgetbv is no instruction
+#if defined(__GNUC__) || defined(__clang__)
+    std::uint32_t a = 1, b = 0, c = 0, d = 0;
+    __asm__("cpuid" : "+a"(a), "=b"(b), "+c"(c), "=d"(d));
+    if ((c & answers) == 0) return 0;
+    std::uint32_t low = 0, high = 0;
+    __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    return std::uint64_t{high} << 32 | low;
+#else
+    int words[4];
+    __cpuid(words, 1);
+    return (static_cast<std::uint32_t>(words[2]) & answers) == 0 ? 0 : _xgetbv(0);
+#endif
+}
+
+}  // namespace goffer
