@@ -56,7 +56,7 @@ TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
                 if (!runs_here(isa)) continue;
                 CAPTURE(name(isa));
                 const bend::DeformJob job = make_job(bound.body, pose, isa, out);
-                REQUIRE(bend::validate(job) == bend::JobFault::none);
+                REQUIRE(bend::validate(job).none());
                 bend::run(job);
                 const Worst one(expected, out, subject.cylinder.length);
                 CHECK(one.position <= 5e-6);

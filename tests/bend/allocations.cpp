@@ -3,6 +3,7 @@
 
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
+#include "support/herd.hpp"
 #include "support/layout.hpp"
 #include "support/locks.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <vector>
 
 /// Property P6: frames allocate nothing and take no lock. (That they open and write no file, symbols.cpp
@@ -27,6 +29,8 @@ class Frames {
 public:
     Frames() {
         Random random(91);
+        bodies_.reserve(2);
+        jobs_.reserve(24);
         for (const std::size_t count : {150u, 5000u}) bodies_.push_back(loose_body(random, count));
         for (std::size_t i = 0; i < 24; ++i) {
             constexpr std::string_view pictures[] = {"x y z",      "xyzuvw",      "x y z u v w a b c d",
@@ -42,6 +46,13 @@ public:
         }
         visible_.assign(jobs_.size(), 1);
         visible_[3] = 0;
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            bend::Batch& batch = batches_.emplace_back(bend::batch_of(jobs_[i]));
+            batch.visible = strided(std::span(visible_).subspan(i, 1));
+        }
+        const HerdStyle style{
+            .storage = Storage::paged_members, .indices = true, .places = true, .masks = true};
+        batches_.push_back(herd_.emplace(random, bodies_[0], 30, style).batch());
     }
 
     /// On the calling thread.
@@ -49,10 +60,15 @@ public:
         const bend::CrowdJob crowd = pose(frame);
         faults_ += bend::validate(crowd).none() ? 0 : 1;
         bend::bounds(jobs_, boxes_);
+        bend::bounds(batches_.back(), boxes_);
+        texts_ +=
+            bend::describe(bend::Fault{bend::Field::poses, bend::Reason::not_finite, 1, 7, 2}).text[0] != 0
+                ? 1
+                : 0;
         bend::run(crowd);
         for (std::size_t piece = 0; piece < 5; ++piece) bend::run_piece(crowd, piece, 5);
         for (const bend::DeformJob& job : jobs_) {
-            faults_ += bend::validate(job) == bend::JobFault::none ? 0 : 1;
+            faults_ += bend::validate(job).none() ? 0 : 1;
             bend::run(job);
             bend::run_range(job, 7, 100);
         }
@@ -66,6 +82,7 @@ public:
     }
 
     [[nodiscard]] int faults() const { return faults_; }
+    [[nodiscard]] int texts() const { return texts_; }
 
 private:
     bend::CrowdJob pose(int frame) {
@@ -74,16 +91,18 @@ private:
             jobs_[i].pose = {0.05f * static_cast<float>(frame), 0.1f * static_cast<float>(i)};
         }
         constexpr bend::Stores stores[] = {bend::Stores::automatic, bend::Stores::cached,
-                                           bend::Stores::streaming};
-        return {.instances = jobs_, .visible = visible_, .stores = stores[frame % 3]};
+                                           bend::Stores::non_temporal};
+        return {.batches = batches_, .frame = static_cast<std::uint32_t>(frame), .stores = stores[frame % 3]};
     }
 
     std::vector<bend::Body> bodies_;
     std::vector<Layout> outputs_;
-    std::vector<bend::Bounds> boxes_{24};
+    std::vector<bend::Bounds> boxes_{30};
     std::vector<bend::DeformJob> jobs_;
     std::vector<std::uint8_t> visible_;
-    int faults_ = 0;
+    std::optional<Herd> herd_;
+    std::vector<bend::Batch> batches_;  // of one job each; and of the herd
+    int faults_ = 0, texts_ = 0;
 };
 
 /// A hundred; but where nothing is counted, enough to see that they run.
@@ -121,6 +140,7 @@ TEST_CASE("P6: a hundred frames allocate nothing and take no lock") {
     CHECK(allocated == allocated_now);
     CHECK(locked == locked_now);
     CHECK(frames.faults() == 0);
+    CHECK(frames.texts() == frame_count() + 1);
 }
 
 TEST_CASE("P6: a hundred frames on the scheduler allocate nothing once it is warm") {

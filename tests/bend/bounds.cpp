@@ -223,7 +223,9 @@ TEST_CASE("every way to run a job leaves the same bounds") {
         for (std::size_t i = 0; i < boxes.size(); ++i)
             CHECK(same(boxes[i], i % 5 == 0 ? bend::Bounds{glm::vec3(7), glm::vec3(-7)} : expected[i]));
     };
-    const bend::CrowdJob crowd{.instances = jobs};
+    std::vector<bend::Batch> batches;
+    for (const bend::DeformJob& job : jobs) batches.push_back(bend::batch_of(job));
+    const bend::CrowdJob crowd{.batches = batches};
     check([&] {
         for (const bend::DeformJob& job : jobs) bend::run(job);
     });

@@ -2,7 +2,6 @@
 #include "support/chains.hpp"
 
 #include <goffer/bend/capsules.hpp>
-#include <goffer/bend/crowd.hpp>
 #include <goffer/bend/path.hpp>
 #include <goffer/bend/sockets.hpp>
 #include <goffer/fit/sockets.hpp>
@@ -11,7 +10,7 @@
 
 #include <limits>
 
-/// What follows a body without its mesh: sockets, capsules; poses along a path; turns of a crowd.
+/// What follows a body without its mesh: sockets, capsules; poses along a path.
 
 namespace goffer::test {
 namespace {
@@ -226,35 +225,6 @@ TEST_CASE("paths that are none are named") {
     for (const PathFault fault :
          {PathFault::too_few_points, PathFault::not_finite, PathFault::repeated_point})
         CHECK(bend::describe(fault).starts_with("path: "));
-}
-
-TEST_CASE("every n-th frame: each instance has its turn, and the turns are spread") {
-    Random random(86);
-    const bend::Body body = loose_body(random, 20);
-    constexpr std::size_t instances = 12;
-    std::vector<Output> outputs;
-    std::vector<bend::DeformJob> jobs;
-    for (std::size_t i = 0; i < instances; ++i) outputs.emplace_back(body.vertex_count());
-    for (Output& out : outputs) jobs.push_back(make_job(body, {1, 0}, Isa::automatic, out));
-    const std::vector<std::uint8_t> every = {0, 1, 2, 3, 4, 4, 4, 4, 3, 3, 2, 255};
-    bend::CrowdJob crowd{.instances = jobs, .every = every};
-    std::vector<int> turns(instances);
-    for (crowd.frame = 0; crowd.frame < 12; ++crowd.frame) {
-        for (Output& out : outputs) std::ranges::fill(out.columns[0], 99.0f);
-        const bend::CrowdResult result = bend::run(crowd);
-        std::size_t deformed = 0;
-        for (std::size_t i = 0; i < instances; ++i) {
-            const bool own = outputs[i].columns[0][0] != 99.0f;
-            turns[i] += own ? 1 : 0;
-            deformed += own ? 1 : 0;
-        }
-        CHECK(deformed == result.deformed);
-        CHECK(deformed <= 7);  // of the four with n = 4, for one, there is one in each frame
-    }
-    for (std::size_t i = 0; i + 1 < instances; ++i) CHECK(turns[i] == 12 / std::max<int>(every[i], 1));
-    crowd.every = std::span(every).first(3);
-    CHECK(bend::validate(crowd).every_count);
-    CHECK(bend::describe(bend::validate(crowd)).starts_with("every: "));
 }
 
 }  // namespace goffer::test

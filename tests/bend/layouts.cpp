@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 #include "support/layout.hpp"
+#include "support/layout_case.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
@@ -13,8 +14,6 @@
 
 namespace goffer::test {
 namespace {
-
-constexpr std::string_view all_planes = "x y z u v w a b c d p q r 123";
 
 constexpr std::string_view pictures[] = {
     // tight records
@@ -64,48 +63,9 @@ constexpr std::string_view pictures[] = {
     "123pqr",
 };
 
-struct Trial {
-    std::string_view picture;
-    std::size_t count, shift, skew;
-    Isa isa;
-};
-
-/// A body, a job for it, and what its planes hold.
-class Case {
-public:
-    Case(Random& random, std::size_t count) : body_(loose_body(random, count)), planes_(all_planes, count) {
-        job_.body = &body_;
-        job_.pose = {static_cast<float>(uniform(random, -4.8, 4.8)),
-                     static_cast<float>(uniform(random, -9, 9))};
-        job_.transform = random_transform(random, 3);
-        job_.previous_pose = {job_.pose.angle * 0.9f, job_.pose.direction + 0.1f};
-        job_.previous_transform = random_transform(random, 3);
-    }
-
-    void make_planes(Isa isa) {
-        planes_.clear();
-        planes_.attach(job_);
-        job_.isa = isa;
-        bend::run(job_);
-    }
-
-    bend::DeformJob& job(Layout& out) {
-        out.clear();
-        out.attach(job_);
-        return job_;
-    }
-
-    [[nodiscard]] const Layout& planes() const { return planes_; }
-    [[nodiscard]] std::size_t count() const { return body_.vertex_count(); }
-
-private:
-    bend::Body body_;
-    Layout planes_;
-    bend::DeformJob job_;
-};
-
-/// All layouts, at the given places behind a cache line, cached and streaming.
-void check_layouts(Case& subject, std::span<const std::size_t> shifts, std::span<const std::size_t> skews) {
+/// All layouts, at the given places behind a cache line, cached and non-temporal.
+void check_layouts(LayoutCase& subject, std::span<const std::size_t> shifts,
+                   std::span<const std::size_t> skews) {
     for (const Isa isa : isas_here()) {
         subject.make_planes(isa);
         for (const std::string_view picture : pictures) {
@@ -114,8 +74,9 @@ void check_layouts(Case& subject, std::span<const std::size_t> shifts, std::span
                     INFO(picture, ", ", subject.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
                          name(isa));
                     Layout out(picture, subject.count(), shift, skew);
-                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
-                        const bend::CrowdJob crowd{.instances = {&subject.job(out), 1}, .stores = stores};
+                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
+                        const bend::Batch batch = bend::batch_of(subject.job(out));
+                        const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = isa};
                         REQUIRE(bend::validate(crowd).none());
                         bend::run(crowd);
                         REQUIRE(out.fault(subject.planes()) == "");
@@ -133,7 +94,7 @@ constexpr std::size_t every_shift[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
 TEST_CASE("every layout holds the bits of planes: every alignment") {
     Random random(41);
     for (const std::size_t count : {1u, 16u, 37u, 260u, 523u}) {
-        Case subject(random, count);
+        LayoutCase subject(random, loose_body(random, count));
         const std::size_t skews[] = {0, 1 + random() % 15};
         check_layouts(subject, every_shift, skews);
     }
@@ -144,7 +105,7 @@ TEST_CASE("every layout holds the bits of planes: every vertex count") {
     std::vector<std::size_t> counts{255, 256, 257, 258, 259, 511, 512, 513, 514, 515, 767, 1000, 1024, 1039};
     for (std::size_t count = 1; count <= 70; ++count) counts.push_back(count);
     for (const std::size_t count : counts) {
-        Case subject(random, count);
+        LayoutCase subject(random, loose_body(random, count));
         const std::size_t shifts[] = {0, random() % 16};
         const std::size_t skews[] = {random() % 2 == 0 ? 0 : random() % 16};
         check_layouts(subject, shifts, skews);
@@ -153,12 +114,12 @@ TEST_CASE("every layout holds the bits of planes: every vertex count") {
 
 TEST_CASE("a range writes its own vertices alone, in every layout") {
     Random random(43);
-    Case small(random, 35), large(random, 800);
+    LayoutCase small(random, loose_body(random, 35)), large(random, loose_body(random, 800));
     for (const Isa isa : isas_here()) {
         small.make_planes(isa);
         large.make_planes(isa);
         for (const std::string_view picture : pictures) {
-            const auto check = [&](Case& subject, std::size_t first, std::size_t last) {
+            const auto check = [&](LayoutCase& subject, std::size_t first, std::size_t last) {
                 INFO(picture, ", [", first, ", ", last, "), ", name(isa));
                 Layout out(picture, subject.count(), random() % 16, random() % 16);
                 bend::run_range(subject.job(out), first, last);
@@ -176,17 +137,18 @@ TEST_CASE("a range writes its own vertices alone, in every layout") {
     }
 }
 
-TEST_CASE("pieces that stream write their own vertices alone, in every layout") {
+TEST_CASE("non-temporal pieces write their own vertices alone, in every layout") {
     Random random(44);
-    Case subject(random, 700);
+    LayoutCase subject(random, loose_body(random, 700));
     for (const Isa isa : isas_here()) {
         subject.make_planes(isa);
         for (const std::string_view picture : pictures) {
             for (const std::size_t pieces : {2u, 5u, 60u}) {
                 INFO(picture, ", ", pieces, " pieces, ", name(isa));
                 Layout out(picture, subject.count(), random() % 16, random() % 2 == 0 ? 0 : random() % 16);
-                const bend::CrowdJob crowd{.instances = {&subject.job(out), 1},
-                                           .stores = bend::Stores::streaming};
+                const bend::Batch batch = bend::batch_of(subject.job(out));
+                const bend::CrowdJob crowd{
+                    .batches = {&batch, 1}, .stores = bend::Stores::non_temporal, .isa = isa};
                 for (std::size_t piece = pieces; piece-- > 0;) bend::run_piece(crowd, piece, pieces);
                 REQUIRE(out.fault(subject.planes()) == "");
             }

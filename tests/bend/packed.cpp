@@ -79,7 +79,8 @@ Worst run(bend::DeformJob job, Output& planes, bend::Stores stores) {
     job.tangents = {};
     job.packed = {packed.data(), sizeof(bend::PackedVertex), count};
     job.bounds = &box;
-    const bend::CrowdJob crowd{.instances = {&job, 1}, .stores = stores};
+    const bend::Batch batch = bend::batch_of(job);
+    const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = job.isa};
     REQUIRE(bend::validate(crowd).none());
     bend::run(crowd);
     for (const bend::PackedVertex& vertex : packed) REQUIRE(vertex.unused == 0);
@@ -105,7 +106,8 @@ TEST_CASE("packed vertices decode to the positions and normals of planes") {
             for (const Isa isa : isas_here()) {
                 bend::DeformJob job = make_job(bound.body, pose, isa, out);
                 if (k > 0) job.transform = random_transform(random, subject.cylinder.length);
-                const Worst one = run(job, out, k % 2 == 0 ? bend::Stores::cached : bend::Stores::streaming);
+                const Worst one =
+                    run(job, out, k % 2 == 0 ? bend::Stores::cached : bend::Stores::non_temporal);
                 INFO("trial ", trial, " angle ", pose.angle, " ", name(isa));
                 CHECK(one.position <= 1e-6);
                 CHECK(one.normal <= 0.004);

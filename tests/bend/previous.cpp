@@ -38,7 +38,7 @@ TEST_CASE("previous positions have the bits that positions had at that pose and 
                                              : "x y z pqr 123",
                             count);
                 both.attach(now);
-                REQUIRE(bend::validate(now) == bend::JobFault::none);
+                REQUIRE(bend::validate(now).none());
                 const bool clamped = bend::run(now).clamped;
                 CHECK(clamped == (std::fabs(now.pose.angle) > body.max_angle()));
                 for (std::size_t i = 0; i < count; ++i) {

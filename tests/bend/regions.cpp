@@ -80,7 +80,7 @@ Worst worst_of(Random& random, const Case& one, double position, double directio
         for (const Isa isa : isas_here()) {
             CAPTURE(name(isa));
             const bend::DeformJob job = make_job(one.bound.body, poses, isa, out);
-            REQUIRE(bend::validate(job) == bend::JobFault::none);
+            REQUIRE(bend::validate(job).none());
             CHECK_FALSE(bend::run(job).clamped);
             const Worst here(expected, out, one.subject.cylinder.length);
             CHECK(here.position <= position);
@@ -210,12 +210,12 @@ TEST_CASE("regions meet: positions, and the tangent planes of the bare bend") {
         for (int trial = 0; trial < 50; ++trial) {
             const std::vector<bend::Pose> poses = random_poses(random, *body);
             bend::DeformJob job = make_job(*body, poses, isa, out);
-            for (const bool wrinkles : {true, false}) {
-                job.wrinkles = wrinkles;
+            for (const float weight : {1.0f, 0.0f}) {
+                job.wrinkle_weight = weight;
                 bend::run(job);
                 for (std::size_t i = 0; i < around; ++i) {
                     REQUIRE(glm::length(out.position(i) - out.position(around + i)) < 1e-6);
-                    if (!wrinkles) REQUIRE(angle_between(out.normal(i), out.normal(around + i)) < 0.01);
+                    if (weight == 0) REQUIRE(angle_between(out.normal(i), out.normal(around + i)) < 0.01);
                 }
             }
         }
@@ -324,16 +324,17 @@ TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
                         first = last;
                     }
                     CHECK(same());
-                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::streaming}) {
+                    for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
                         parts = Output(count);
                         bend::DeformJob job = job_to(parts);
-                        bend::run_parallel(bend::CrowdJob{.instances = {&job, 1}, .stores = stores});
+                        bend::Batch batch = bend::batch_of(job);
+                        const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = isa};
+                        bend::run_parallel(crowd);
                         CHECK(same());
                         parts = Output(count);
                         job = job_to(parts);
-                        for (std::size_t piece = 0; piece < 3; ++piece)
-                            bend::run_piece(bend::CrowdJob{.instances = {&job, 1}, .stores = stores}, piece,
-                                            3);
+                        batch = bend::batch_of(job);
+                        for (std::size_t piece = 0; piece < 3; ++piece) bend::run_piece(crowd, piece, 3);
                         CHECK(same());
                     }
                 }
@@ -349,15 +350,15 @@ TEST_CASE("streams that have no kernel of their own have the bits of those that 
         const std::size_t count = one.subject.positions.size();
         const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
         for (const Isa isa : isas_here()) {
-            for (const bool wrinkles : {true, false}) {
+            for (const float weight : {1.0f, 0.3f, 0.0f}) {
                 Output all(count);
                 bend::DeformJob job = make_job(one.bound.body, poses, isa, all);
-                job.wrinkles = wrinkles;
+                job.wrinkle_weight = weight;
                 bend::run(job);
                 for (unsigned streams = 1; streams < 7; ++streams) {
                     Output some(count);
                     job = make_job(one.bound.body, poses, isa, some);
-                    job.wrinkles = wrinkles;
+                    job.wrinkle_weight = weight;
                     if ((streams & 1) == 0) job.positions = {};
                     if ((streams & 2) == 0) job.normals = {};
                     if ((streams & 4) == 0) job.tangents = {};
@@ -370,25 +371,6 @@ TEST_CASE("streams that have no kernel of their own have the bits of those that 
             }
         }
     }
-}
-
-TEST_CASE("without wrinkles a body bends as one that has no folds") {
-    Random random(69);
-    const Subject subject = random_subject(random, 12, 1);
-    fit::BindOptions none, some;
-    none.folds = 0;
-    some.folds = 4;
-    const fit::Bound folded = fit::bind(subject.geometry(), subject.cylinder, some);
-    const fit::Bound bare = fit::bind(subject.geometry(), subject.cylinder, none);
-    Output a(subject.positions.size()), b(subject.positions.size());
-    bend::DeformJob job = test::make_job(folded.body, {1.3f, 2.0f}, Isa::automatic, a);
-    job.wrinkles = false;
-    bend::run(job);
-    bend::run(test::make_job(bare.body, {1.3f, 2.0f}, Isa::automatic, b));
-    for (std::size_t c = 0; c < 10; ++c) REQUIRE(std::ranges::equal(a.columns[c], b.columns[c]));
-    job.wrinkles = true;
-    bend::run(job);
-    CHECK_FALSE(std::ranges::equal(a.columns[0], b.columns[0]));
 }
 
 TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") {
@@ -409,31 +391,6 @@ TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") 
             REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
         }
     }
-}
-
-TEST_CASE("P7: validate names the poses at fault") {
-    Random random(71);
-    const Case one = random_case(random, 3, false);
-    Output out(one.subject.positions.size());
-    const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
-    bend::DeformJob job = make_job(one.bound.body, poses, Isa::automatic, out);
-    CHECK(bend::validate(job) == bend::JobFault::none);
-    job.poses = std::span(poses).first(2);
-    CHECK(bend::validate(job) == bend::JobFault::poses_count);
-    job.poses = {};
-    CHECK(bend::validate(job) == bend::JobFault::poses_count);
-    std::vector<bend::Pose> bad = poses;
-    bad[2].angle = std::numeric_limits<float>::quiet_NaN();
-    job.poses = bad;
-    CHECK(bend::validate(job) == bend::JobFault::pose_angle);
-    bad = poses;
-    bad[1].direction = std::numeric_limits<float>::infinity();
-    CHECK(bend::validate(job) == bend::JobFault::pose_direction);
-    job.poses = poses;
-    job.previous_positions = job.positions;
-    CHECK(bend::validate(job) == bend::JobFault::previous_poses_count);
-    job.previous_poses = poses;
-    CHECK(bend::validate(job) == bend::JobFault::none);
 }
 
 TEST_CASE("a chain is clamped where any region is") {

@@ -93,7 +93,7 @@ TEST_CASE("a transform does to every stream what it would do to the surface") {
                     glm::length(linear[1]) * subject.cylinder.length * glm::dvec3(0.3, -1, 0.5);
                 job.transform = {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]),
                                  glm::vec3(offset)};
-                REQUIRE(bend::validate(job) == bend::JobFault::none);
+                REQUIRE(bend::validate(job).none());
                 bend::run(job);
                 const Worst one = compare(moved, still, job.transform, count);
                 CHECK(one.position <= 2e-6);
@@ -176,7 +176,7 @@ TEST_CASE("transforms that flatten, and of any size, give no NaN") {
             bend::DeformJob job{.body = &body, .pose = {1.5f, 0.5f}, .isa = isa};
             job.transform = {linear[0], linear[1], linear[2], glm::vec3(0.5f)};
             out.attach(job);
-            REQUIRE(bend::validate(job) == bend::JobFault::none);
+            REQUIRE(bend::validate(job).none());
             bend::Bounds box;
             job.bounds = &box;
             bend::run(job);

@@ -3,11 +3,13 @@
 // What a game does: bends a body with goffer::bend alone. Its one vertex is the tip of the outer line, which
 // lies at (L / alpha - r, 0, L / alpha) after a quarter turn.
 
-#include <goffer/bend/job.hpp>
+#include <goffer/bend/crowd.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 int main() {
     constexpr double length = 10;
@@ -23,14 +25,18 @@ int main() {
     input.vertices = {&tip, 1};
     input.normals = {&outwards, 1};
     const auto body = goffer::bend::Body::make(input);
-    if (!body) return std::puts(describe(goffer::bend::Body::check(input)).data()), 1;
+    if (!body) {
+        const std::string fault{std::string_view(describe(goffer::bend::Body::check(input)))};
+        return std::puts(fault.c_str()), 1;
+    }
 
     float position[3] = {};
     goffer::bend::DeformJob job{.body = &*body, .pose = {.angle = static_cast<float>(quarter)}};
     job.positions = goffer::interleaved<3>(position, 1);
-    if (const auto fault = validate(job); fault != goffer::bend::JobFault::none)
-        return std::puts(describe(fault).data()), 1;
+    if (const auto fault = validate(job); !fault.none()) return std::puts(describe(fault).c_str()), 1;
     run(job);
+    const goffer::bend::Batch batch = batch_of(job);  // and as a crowd, the same again
+    if (run_parallel(goffer::bend::CrowdJob{.batches = {&batch, 1}}).deformed != 1) return 1;
 
     std::printf("the tip is at %g %g %g\n", position[0], position[1], position[2]);
     const double away =

@@ -126,8 +126,11 @@ TEST_CASE("within the largest angle nothing folds through itself") {
         const paper::Body body{1, subject.cylinder.radius, bound.folds(), Profile::damped, Amplitude::paper};
         const paper::ClosedForm map(body, {static_cast<double>(bound.body.max_angle()), 0});
         // The arc's parameter grows along every column: each step goes forward along the bent centre line.
-        const auto rhos = bound.body.column(bend::Body::rho);
-        const double largest = static_cast<double>(*std::max_element(rhos.begin(), rhos.end()));
+        double largest = 0;
+        for (const glm::vec3& position : subject.positions) {
+            const glm::dvec3 from = glm::dvec3(position) - subject.cylinder.origin;
+            largest = std::max(largest, glm::length(glm::cross(from, subject.cylinder.axis)));
+        }
         for (const double rho : {largest, 0.7 * largest, 0.2 * largest}) {
             for (int i = 0; i < 200; ++i) {
                 const double z = i / 200.0, step = 1e-4;
@@ -157,6 +160,13 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
     CHECK(refused([](Subject& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") != std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.cylinder.rest_angle = 60; }).find("rest_angle") !=
           std::string::npos);
+    CHECK(refused([](Subject& s, Options&) {
+              const glm::dvec3 origin = s.cylinder.origin;
+              for (glm::vec3& p : s.positions) p = 1e-15f * glm::vec3(glm::dvec3(p) - origin);
+              s.cylinder.origin = glm::dvec3(0);
+              s.cylinder.length *= 1e-15;
+              s.cylinder.radius *= 1e-15;
+          }).find("cannot bind: radius: out of range") == 0);
     CHECK(refused([](Subject& s, Options&) { s.cylinder.radius = -1; }).find("radius") != std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.normals.pop_back(); }).find("normals") != std::string::npos);
     CHECK(refused([](Subject& s, Options&) { s.triangles.clear(); }).find("triangles") != std::string::npos);

@@ -446,6 +446,10 @@ TEST_CASE("check of a cylinder names the field at fault") {
         CHECK(has(said_of([&](Cylinder& c) { c.radius = bad; }), "radius"));
     }
     CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = nan; }), "rest_angle"));
+    for (const double bad : {-1e-9, 5.0, 6.3, HUGE_VAL})  // length / (2 radius) is 5
+        CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = bad; }), "rest_angle"));
+    CHECK(said_of([](Cylinder& c) { c.rest_angle = 4.9; }) == "");
+    CHECK(has(said_of([](Cylinder& c) { c.rest_angle = 6.3, c.length = 10; }), "rest_angle"));
     CHECK(has(said_of([&](Cylinder& c) { c.rest_direction = nan; }), "rest_direction"));
     CHECK(has(said_of([&](Cylinder& c) { c.residual = nan; }), "residual"));
 }

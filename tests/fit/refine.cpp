@@ -327,6 +327,13 @@ TEST_CASE("refine: bad input is named") {
     heights.pop_back();
     CHECK(told({{10, 3}}).starts_with("heights: 37 for 38 vertices"));
     fit::Cylinder base = fit::fit_cylinder(solid.geometry());
+    for (const double angle : {-0.5, base.length / (2 * base.radius), 6.3, 1e300}) {
+        CAPTURE(angle);
+        base.rest_angle = angle;
+        CHECK_THROWS_WITH_AS((void)fit::refine(solid.geometry(), base, 3), doctest::Contains("rest_angle"),
+                             fit::Error);
+    }
+    base.rest_angle = 0;
     base.radius = -1;
     CHECK_THROWS_AS((void)fit::refine(solid.geometry(), base, 3), fit::Error);
     CHECK_THROWS_AS((void)fit::refine({solid.positions, {}}, base, 3), fit::Error);

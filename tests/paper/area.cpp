@@ -22,8 +22,8 @@ namespace {
 constexpr double length = 10, radius = 1;
 constexpr std::array<int, 3> folds_of{3, 6, 10};
 
-// DESIGN 2.2, in percent, to be met to the last digit but one. It was measured on a grid; the surface itself
-// has a little more area, by 0.003 to 0.006.
+// The areas of the known table, in percent, to be met to the last digit but one. It was measured on a grid;
+// the surface itself has a little more area, by 0.003 to 0.006.
 struct Row {
     double angle, bare;
     std::array<double, 3> wrinkled;

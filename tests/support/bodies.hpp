@@ -95,33 +95,73 @@ inline Subject random_subject(Random& random, double slenderness, double scale, 
     return subject;
 }
 
-/// A body of any vertices at all, that no mesh need have: for tests that ask where values go. Length 1,
-/// radius 0.1, three folds; vertices up to `widest` from the axis.
-inline bend::Body loose_body(Random& random, std::size_t count, double widest = 0.11) {
+/// Vertices that no mesh need have, for tests that ask where values go: heights up to 1, up to `widest` from
+/// the axis.
+struct LooseVertices {
+    std::vector<bend::RestVertex> vertices;
+    std::vector<bend::RestVector> normals, tangents;
+    std::vector<float> signs;
+
+    LooseVertices(Random& random, std::size_t count, double widest)
+        : vertices(count), normals(count), tangents(count), signs(count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const double rho = i % 10 == 3 ? 0 : uniform(random, 0, widest);
+            const double depth = rho < 0.05 ? 20 : 1 / rho;
+            vertices[i] = {uniform(random, -4, 4), uniform(random, 0, 1), rho, depth * uniform(random, -1, 1),
+                           uniform(random, -20, 20)};
+            const glm::dmat3 frame = random_rotation(random);
+            normals[i] = {frame[0].x, frame[0].y, frame[0].z};
+            tangents[i] = {frame[1].x, frame[1].y, frame[1].z};
+            signs[i] = random() % 2 == 0 ? 1.0f : -1.0f;
+        }
+    }
+
+    /// A body of them. Radius 0.1.
+    [[nodiscard]] bend::Body body(std::span<const bend::RegionInput> regions) const {
+        bend::BodyInput input;
+        input.radius = 0.1;
+        input.regions = regions;
+        input.vertices = vertices;
+        input.normals = normals;
+        input.tangents = tangents;
+        input.tangent_signs = signs;
+        return std::move(bend::Body::make(input).value());
+    }
+};
+
+/// A region of length 1 with three folds.
+inline bend::RegionInput loose_region(std::size_t vertex_count) {
     static const bend::WrinkleTable table =
         fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 3, 1, 0.1, 4.9, 32);
-    std::vector<bend::RestVertex> vertices(count);
-    std::vector<bend::RestVector> normals(count), tangents(count);
-    std::vector<float> signs(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double rho = i % 10 == 3 ? 0 : uniform(random, 0, widest);
-        const double depth = rho < 0.05 ? 20 : 1 / rho;
-        vertices[i] = {uniform(random, -4, 4), uniform(random, 0, 1), rho, depth * uniform(random, -1, 1),
-                       uniform(random, -20, 20)};
-        const glm::dmat3 frame = random_rotation(random);
-        normals[i] = {frame[0].x, frame[0].y, frame[0].z};
-        tangents[i] = {frame[1].x, frame[1].y, frame[1].z};
-        signs[i] = random() % 2 == 0 ? 1.0f : -1.0f;
+    return {.length = 1, .max_angle = 4.9, .table = table, .vertex_count = vertex_count};
+}
+
+/// A body of one region of any vertices at all. Length 1, radius 0.1, three folds.
+inline bend::Body loose_body(Random& random, std::size_t count, double widest = 0.11) {
+    const bend::RegionInput region = loose_region(count);
+    return LooseVertices(random, count, widest).body({&region, 1});
+}
+
+/// The same of a region for each of `counts`, with so many vertices. Some regions are bent at rest, some have
+/// an onset or factors of their own.
+inline bend::Body loose_chain(Random& random, std::span<const std::size_t> counts) {
+    std::vector<bend::RegionInput> regions;
+    std::size_t sum = 0;
+    for (const std::size_t count : counts) {
+        bend::RegionInput& region = regions.emplace_back(loose_region(count));
+        if (random() % 3 == 0) region.rest_angle = uniform(random, 0.1, 3);
+        if (random() % 3 == 0) region.rest_direction = uniform(random, -3, 3);
+        if (random() % 3 == 0) region.onset = uniform(random, 0, 0.1);
+        if (random() % 3 == 0) {
+            region.factors.max_angle = 4.9f;
+            region.factors.rows.resize(8);
+            for (auto& row : region.factors.rows) {
+                for (float& square : row) square = static_cast<float>(uniform(random, -0.2, 2));
+            }
+        }
+        sum += count;
     }
-    const bend::RegionInput region{.length = 1, .max_angle = 4.9, .table = table, .vertex_count = count};
-    bend::BodyInput input;
-    input.radius = 0.1;
-    input.regions = {&region, 1};
-    input.vertices = vertices;
-    input.normals = normals;
-    input.tangents = tangents;
-    input.tangent_signs = signs;
-    return std::move(bend::Body::make(input).value());
+    return LooseVertices(random, sum, 0.11).body(regions);
 }
 
 /// A body of these vertices, without wrinkles. Length 1, radius 0.1.

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,8 @@
 
 namespace goffer::test {
 
-/// Streams of a job as a picture tells: a word for every array of records, a letter for every float of its
-/// record.
+/// Streams of a job or of a batch as a picture tells: a word for every array of records, a letter for every
+/// float of its record.
 ///
 ///     xyz position   uvw normal   abcd tangent   pqr previous position   123 packed   . a gap
 ///
@@ -25,12 +27,23 @@ namespace goffer::test {
 /// another order, with a gap.
 class Layout {
 public:
+    /// Vertices [first, last) of `planes`, which are expected from vertex `to` of a layout on.
+    struct Part {
+        const Layout* planes = nullptr;
+        std::size_t first = 0, last = 0;
+        std::size_t to = 0;
+        bool ends = true;  ///< if not, the gap behind its last vertex is between outputs of one instance, too
+    };
+
+    /// What may become of the gaps between a part's first output and its last one.
+    enum class Gaps : std::uint8_t { kept, scratch };
+
     static constexpr std::string_view letters = "xyzuvwabcdpqr123";
     static constexpr float guard = -12345.0f;
 
     /// Memory for `count` vertices. Arrays begin `shift` floats behind a cache line, each of them `skew`
     /// further than the one before; without skew at places that differ modulo a page as those of separate
-    /// allocations might, so that planes can be streamed to.
+    /// allocations might, so that planes can be written past the cache.
     Layout(std::string_view picture, std::size_t count, std::size_t shift = 0, std::size_t skew = 0)
         : count_(count) {
         constexpr std::size_t line = 16, way = 256, margin = 16;
@@ -38,11 +51,11 @@ public:
         const std::size_t grid = skew != 0 || one ? line : way;
         const std::size_t step = skew != 0 || one ? skew : 2 * line;
         std::size_t size = 0;
-        for (std::size_t area = 0; !picture.empty(); ++area) {
+        for (; !picture.empty(); ++areas_) {
             const std::string_view word = picture.substr(0, picture.find(' '));
-            const std::size_t first = (size + margin + grid - 1) / grid * grid + shift + area * step;
+            const std::size_t first = (size + margin + grid - 1) / grid * grid + shift + areas_ * step;
             for (std::size_t i = 0; i < word.size(); ++i) {
-                if (word[i] != '.') places_[letters.find(word[i])] = {first + i, word.size()};
+                if (word[i] != '.') places_[letters.find(word[i])] = {first + i, word.size(), areas_};
             }
             size = first + count * word.size();
             picture.remove_prefix(std::min(word.size() + 1, picture.size()));
@@ -53,8 +66,9 @@ public:
 
     void clear() { std::fill(memory_[0].begin(), memory_[0].end(), guard); }
 
-    /// Sets the streams of `job`: those of the picture are here, the others empty.
-    void attach(bend::DeformJob& job) {
+    /// Sets the streams of `job`, a DeformJob or a Batch: those of the picture are here, the others empty.
+    template <class Job>
+    void attach(Job& job) {
         job.positions = stream<3>('x');
         job.normals = stream<3>('u');
         job.tangents = stream<4>('a');
@@ -66,23 +80,25 @@ public:
         }
     }
 
-    /// Empty if the vertices [first, last) are those of `reference` bit by bit, and nothing else was written;
-    /// or what is not so.
-    [[nodiscard]] std::string fault(const Layout& reference, std::size_t first, std::size_t last) const {
+    /// Empty if the memory holds `parts` bit by bit, and nothing else was written; or what is not so.
+    [[nodiscard]] std::string fault(std::span<const Part> parts, Gaps gaps = Gaps::kept) const {
         std::vector<float> expected(memory_[0].size(), guard);
-        for (std::size_t letter = 0; letter < letters.size(); ++letter) {
-            const Place& to = places_[letter];
-            const Place& from = reference.places_[letter];
-            if (to.stride == 0) continue;
-            const float* values = reference.memory_[0].data() + from.first;
-            for (std::size_t i = first; i < last; ++i) {
-                std::memcpy(&expected[to.first + i * to.stride], values + i * from.stride, sizeof(float));
-            }
+        if (gaps == Gaps::scratch) {
+            for (const Part& part : parts) take_gaps(part, expected);
         }
+        for (const Part& part : parts) take_outputs(part, expected);
         if (std::memcmp(expected.data(), memory_[0].data(), memory_[0].size_bytes()) == 0) return {};
         return difference(expected);
     }
-    [[nodiscard]] std::string fault(const Layout& reference) const { return fault(reference, 0, count_); }
+    /// The same of the vertices [first, last), at their own places.
+    [[nodiscard]] std::string fault(const Layout& planes, std::size_t first, std::size_t last,
+                                    Gaps gaps = Gaps::kept) const {
+        const Part part{&planes, first, last, first, last == count_};
+        return fault({&part, 1}, gaps);
+    }
+    [[nodiscard]] std::string fault(const Layout& planes, Gaps gaps = Gaps::kept) const {
+        return fault(planes, 0, count_, gaps);
+    }
 
     /// FNV-1a over all of the memory.
     [[nodiscard]] std::uint64_t hash(std::uint64_t sum = 14695981039346656037u) const {
@@ -94,6 +110,8 @@ public:
         return sum;
     }
 
+    [[nodiscard]] std::size_t count() const { return count_; }
+
     [[nodiscard]] float value(char letter, std::size_t i) const {
         const Place& place = places_[letters.find(letter)];
         return memory_[0][place.first + i * place.stride];
@@ -103,6 +121,7 @@ private:
     struct Place {
         std::size_t first = 0;   // floats from the beginning of the memory
         std::size_t stride = 0;  // floats; 0: not in the picture
+        std::size_t area = 0;    // index of its word
     };
 
     [[nodiscard]] float* at(std::size_t index) { return memory_[0].data() + index; }
@@ -116,6 +135,36 @@ private:
         result.stride = places_[letter].stride * sizeof(float);
         result.count = count_;
         return result;
+    }
+
+    /// What `part` may have left between its outputs: whatever is there.
+    void take_gaps(const Part& part, std::vector<float>& expected) const {
+        if (part.first == part.last) return;
+        for (std::size_t area = 0; area < areas_; ++area) {
+            std::size_t low = memory_[0].size(), high = 0, stride = 0;
+            for (const Place& place : places_) {
+                if (place.stride == 0 || place.area != area) continue;
+                low = std::min(low, place.first);
+                high = std::max(high, place.first);
+                stride = place.stride;
+            }
+            const std::size_t begin = low + part.to * stride;
+            const std::size_t next = part.to + part.last - part.first;
+            const std::size_t end = part.ends ? high + (next - 1) * stride + 1 : low + next * stride;
+            if (stride != 0) std::copy_n(&memory_[0][begin], end - begin, &expected[begin]);
+        }
+    }
+
+    void take_outputs(const Part& part, std::vector<float>& expected) const {
+        for (std::size_t letter = 0; letter < letters.size(); ++letter) {
+            const Place& to = places_[letter];
+            const Place& from = part.planes->places_[letter];
+            if (to.stride == 0) continue;
+            for (std::size_t i = part.first; i < part.last; ++i) {
+                std::memcpy(&expected[to.first + (part.to + i - part.first) * to.stride],
+                            &part.planes->memory_[0][from.first + i * from.stride], sizeof(float));
+            }
+        }
     }
 
     [[nodiscard]] std::string difference(const std::vector<float>& expected) const {
@@ -134,6 +183,7 @@ private:
 
     Columns memory_;
     std::array<Place, letters.size()> places_;
+    std::size_t areas_ = 0;
     std::size_t count_;
 };
 

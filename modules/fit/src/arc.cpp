@@ -132,7 +132,8 @@ Line settle(const Body& body, const Line& start, int steps) {
 bool possible(const Fitted& arc) {
     const double angle = arc.angle(), radius = arc.section.radius;
     const double length = arc.high - arc.low + angle * radius;  // of the outer line
-    return angle < 2 * std::numbers::pi && angle * 2 * radius < length;
+    constexpr double inside = 1 - 1e-4;  // what is left of the inner line must be a length
+    return angle < 2 * std::numbers::pi && angle * 2 * radius < inside * length;
 }
 
 std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,12 +18,6 @@ namespace {
 
 void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     if (!options.regions.empty()) fit::check(options.regions);
-    const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
-    if (!(cylinder.rest_angle >= 0 && cylinder.rest_angle < most) ||
-        !std::isfinite(cylinder.rest_direction)) {
-        throw Error("rest_angle: " + text(cylinder.rest_angle) + " is outside 0.." + text(most) +
-                    ", what a body of that length and radius can have; or rest_direction is not finite");
-    }
     if (!(onset >= 0 && onset <= 1)) throw Error("onset: " + text(onset) + " is outside 0..1");
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0)) {
         throw Error(std::string("amplitude: area is not for a body ") +
@@ -91,10 +84,24 @@ double largest_factor(const bend::FactorTable& factors) {
     return std::sqrt(static_cast<double>(square));
 }
 
-bend::Body make(const bend::BodyInput& input) {
+/// Throws Error where Body::check finds a fault.
+bend::Body make(const Cylinder& cylinder, std::span<const bend::RegionInput> regions, const RestMesh& mesh) {
+    bend::BodyInput input;
+    input.origin = cylinder.origin;
+    input.axes = axes_of(cylinder);
+    input.radius = cylinder.radius;
+    input.regions = regions;
+    input.vertices = mesh.vertices;
+    input.normals = mesh.normals;
+    input.tangents = mesh.tangents;
+    input.tangent_signs = mesh.tangent_signs;
     std::optional<bend::Body> body = bend::Body::make(input);
-    if (!body) throw Error("cannot bind: " + std::string(bend::describe(bend::Body::check(input))));
+    if (!body) throw Error(std::string("cannot bind: ") + bend::describe(bend::Body::check(input)).c_str());
     return std::move(*body);
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -147,26 +154,34 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
         regions.push_back(region_input(plans[i], onset, own.size()));
         first += own.size();
     }
-    bend::BodyInput input;
-    input.origin = cylinder.origin;
-    input.axes = axes_of(cylinder);
-    input.radius = cylinder.radius;
-    input.regions = regions;
-    input.vertices = mesh.vertices;
-    input.normals = mesh.normals;
-    input.tangents = mesh.tangents;
-    input.tangent_signs = mesh.tangent_signs;
-    bend::Body body = make(input);
+    bend::Body body = make(cylinder, regions, mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
         solve_factors(body, geometry, mesh.order, regions);
         for (std::size_t i = 0; i < regions.size(); ++i)
             regions[i].max_angle =
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
-        body = make(input);
+        body = make(cylinder, regions, mesh);
     }
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     return {std::move(body), std::move(found), std::move(mesh.order),
-            cylinder,        options.profile,  taken.count()};
+            cylinder,        options.profile,  milliseconds_since(start)};
+}
+
+Bound bind_level(const Geometry& level, const Bound& rig) {
+    const auto start = std::chrono::steady_clock::now();
+    check(level);
+    if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
+        throw Error("rig: its body is empty or another's; give what bind returned");
+    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places_of(rig));
+    std::vector<bend::RegionInput> regions = rig.body.region_inputs();
+    std::vector<BoundRegion> found = rig.regions;
+    const Rows rows(level, rig.cylinder);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        regions[i].vertex_count = mesh.counts[i];
+        found[i].folds_capacity = rows.folds(found[i].length);
+    }
+    bend::Body body = make(rig.cylinder, regions, mesh);
+    return {std::move(body), std::move(found), std::move(mesh.order),
+            rig.cylinder,    rig.profile,      milliseconds_since(start)};
 }
 
 }  // namespace goffer::fit

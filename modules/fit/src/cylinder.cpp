@@ -124,6 +124,14 @@ void check_positive(double value, std::string_view name) {
     throw Error("cylinder: " + std::string(name) + " is " + text(value) + "; give a finite number above 0");
 }
 
+/// An arc whose inner line has a length, and which does not come round to where it began.
+void check_rest_angle(const Cylinder& cylinder) {
+    const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
+    if (cylinder.rest_angle >= 0 && cylinder.rest_angle < most) return;
+    throw Error("cylinder: rest_angle " + text(cylinder.rest_angle) + " is outside 0.." + text(most) +
+                ", what a body of that length and radius can have; give radians");
+}
+
 void check_finite(const Vector3d& value, std::string_view name) {
     if (value.allFinite()) return;
     throw Error("cylinder: " + std::string(name) + " " + text(value) + " is not finite; give finite numbers");
@@ -156,6 +164,7 @@ void check(const Cylinder& cylinder) {
     check_finite(Vector3d::Constant(cylinder.rest_angle), "rest_angle");
     check_finite(Vector3d::Constant(cylinder.rest_direction), "rest_direction");
     check_finite(Vector3d::Constant(cylinder.residual), "residual");
+    check_rest_angle(cylinder);
     check_unit(cylinder.axis, "axis");
     check_unit(cylinder.zero, "zero");
     constexpr double tolerance = 1e-3;

@@ -114,21 +114,21 @@ public:
     /// The body at rest but for one region.
     void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {
         poses_[region] = pose;
-        deform(false, surface.bare);
-        deform(true, surface.wrinkle);
+        deform(0, surface.bare);
+        deform(1, surface.wrinkle);
         for (std::size_t i = 0; i < surface.bare.size(); ++i) surface.wrinkle[i] -= surface.bare[i];
     }
 
     /// The body at rest.
-    void rest(std::vector<glm::vec3>& positions) { deform(false, positions); }
+    void rest(std::vector<glm::vec3>& positions) { deform(0, positions); }
 
 private:
-    void deform(bool wrinkles, std::vector<glm::vec3>& positions) {
+    void deform(float wrinkle_weight, std::vector<glm::vec3>& positions) {
         positions.resize(body_.vertex_count());
         bend::DeformJob job;
         job.body = &body_;
         job.poses = poses_;
-        job.wrinkles = wrinkles;
+        job.wrinkle_weight = wrinkle_weight;
         job.transform[3] = -glm::vec3(body_.origin());  // so that no digits go to a distance from the origin
         job.positions = interleaved<3>(&positions[0].x, positions.size());
         bend::run(job);

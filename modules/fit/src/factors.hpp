@@ -9,7 +9,7 @@
 
 namespace goffer::fit {
 
-/// Amplitude mode `mesh` (DESIGN 2.2): solves each region's factors m(alpha, theta), 0 <= m <= 2, such that
+/// Amplitude mode `mesh`: solves each region's factors m(alpha, theta), 0 <= m <= 2, such that
 /// the region's own triangles keep the area that they have at rest. `body`: made from the same regions
 /// without factors; `order`: as Bound::order. Runs on all processors.
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,

@@ -138,6 +138,16 @@ glm::dmat3 axes_of(const Cylinder& cylinder) {
     return axes;
 }
 
+std::vector<RestRegion> places_of(const Bound& bound) {
+    std::vector<RestRegion> places;
+    double start = 0;
+    for (const BoundRegion& region : bound.regions) {
+        places.push_back({start, region.length, region.folds});
+        start += region.length;
+    }
+    return places;
+}
+
 std::size_t region_at(std::span<const RestRegion> regions, double z) {
     std::size_t region = regions.size() - 1;
     while (region > 0 && z < regions[region].start) --region;

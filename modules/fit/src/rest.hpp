@@ -2,6 +2,7 @@
 #pragma once
 
 #include <goffer/bend/body.hpp>
+#include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
 #include <goffer/paper/closed_form.hpp>
@@ -23,6 +24,9 @@ struct RestRegion {
     double length = 0;
     int folds = 0;
 };
+
+/// The regions that `bound` was planned with.
+[[nodiscard]] std::vector<RestRegion> places_of(const Bound& bound);
 
 /// The base's axes in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);

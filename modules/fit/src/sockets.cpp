@@ -16,12 +16,7 @@ namespace goffer::fit {
 namespace {
 
 bend::Socket placed(const Bound& bound, const paper::Cylindrical& at) {
-    std::vector<RestRegion> regions;
-    double start = 0;
-    for (const BoundRegion& region : bound.regions) {
-        regions.push_back({start, region.length, region.folds});
-        start += region.length;
-    }
+    const std::vector<RestRegion> regions = places_of(bound);
     bend::Socket socket;
     socket.region = region_at(regions, at.z);
     socket.vertex = rest_vertex(at, regions[socket.region], bound.cylinder.radius, bound.profile);

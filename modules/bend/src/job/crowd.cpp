@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "pose/instance.hpp"
-#include "job/run.hpp"
+#include "job/batch_runner.hpp"
+#include "job/check.hpp"
+#include "kernel/kernels.hpp"
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/engine/parallel.hpp>
@@ -8,36 +9,53 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 
 namespace goffer::bend {
 namespace {
 
-constexpr std::size_t block_vertices =
-    512;  // their rest columns, nine or twelve of them, stay in the first-level cache
-constexpr std::size_t group_size = 16;        // instances that share a block while it is there
 constexpr std::size_t most_pieces = 256;      // of a frame, for the scheduler to hand out
 constexpr std::size_t least_vertices = 8192;  // of a piece, so that handing it out is not the work
 
-/// A place in the crowd: a vertex of an instance.
+/// A place in the crowd: a vertex of an instance of a batch.
 struct Place {
+    std::size_t batch = 0;
     std::size_t instance = 0;
     std::size_t vertex = 0;
 };
 
-bool has_turn(const CrowdJob& job, std::size_t instance) noexcept {
-    return job.every.empty() || job.every[instance] <= 1 || (job.frame + instance) % job.every[instance] == 0;
-}
+/// Which of a batch's instances are done in this frame.
+class Activity {
+public:
+    Activity(const Batch& batch, std::uint32_t frame) noexcept : batch_(batch), frame_(frame) {}
 
-bool is_active(const CrowdJob& job, std::size_t instance) noexcept {
-    return has_turn(job, instance) && (job.visible.empty() || job.visible[instance] != 0) &&
-           (job.changed.empty() || job.changed[instance] != 0);
-}
+    /// Whether all are, without a look at any.
+    [[nodiscard]] bool all() const noexcept {
+        return batch_.visible.empty() && batch_.changed.empty() && batch_.update_intervals.empty();
+    }
+    [[nodiscard]] bool operator[](std::size_t instance) const noexcept {
+        if (all()) return true;
+        const std::size_t element = element_of(batch_, instance);
+        return (batch_.visible.empty() || batch_.visible[element] != 0) &&
+               (batch_.changed.empty() || batch_.changed[element] != 0) && has_turn(instance, element);
+    }
+    [[nodiscard]] std::size_t count() const noexcept {
+        if (all()) return batch_.count;
+        std::size_t active = 0;
+        for (std::size_t i = 0; i < batch_.count; ++i) active += (*this)[i] ? 1 : 0;
+        return active;
+    }
 
-std::size_t vertex_bytes(const DeformJob& job) noexcept {
-    return (job.positions.empty() ? 0u : 12u) + (job.normals.empty() ? 0u : 12u) +
-           (job.tangents.empty() ? 0u : 16u) + (job.packed.empty() ? 0u : 12u) +
-           (job.previous_positions.empty() ? 0u : 12u);
-}
+private:
+    [[nodiscard]] bool has_turn(std::size_t instance, std::size_t element) const noexcept {
+        if (batch_.update_intervals.empty()) return true;
+        const std::uint8_t interval = batch_.update_intervals[element];
+        return interval <= 1 || (frame_ + instance) % interval == 0;
+    }
+
+    const Batch& batch_;
+    std::uint32_t frame_;
+};
 
 struct Size {
     std::size_t vertices = 0;
@@ -46,164 +64,173 @@ struct Size {
 
 Size size_of(const CrowdJob& job) noexcept {
     Size size;
-    for (std::size_t i = 0; i < job.instances.size(); ++i) {
-        if (!is_active(job, i)) continue;
-        const std::size_t count = job.instances[i].body->vertex_count();
-        size.vertices += count;
-        size.bytes += count * vertex_bytes(job.instances[i]);
+    for (const Batch& batch : job.batches) {
+        const std::size_t vertices = Activity(batch, job.frame).count() * batch.body->vertex_count();
+        size.vertices += vertices;
+        size.bytes += vertices * vertex_bytes(batch);
     }
     return size;
 }
 
-bool streams(const CrowdJob& job, std::size_t bytes) noexcept {
-    return job.stores == Stores::streaming ||
-           (job.stores == Stores::automatic && bytes >= streaming_threshold);
+bool is_non_temporal(const CrowdJob& job, std::size_t bytes) noexcept {
+    return job.stores == Stores::non_temporal ||
+           (job.stores == Stores::automatic && bytes >= non_temporal_threshold);
 }
 
-/// Passes over instances of one body that are run together, block by block.
-class Group {
-public:
-    [[nodiscard]] bool takes(const DeformJob& job) const noexcept {
-        return count_ == 0 || (count_ + pass_count <= capacity && passes_[0].job->body == job.body);
-    }
-
-    /// Returns whether the pose was clamped.
-    bool add(const DeformJob& job, bool leave_bounds) noexcept {
-        const PreparedJob prepared = prepare(job, passes_ + count_, leave_bounds);
-        count_ += prepared.passes;
-        return prepared.clamped;
-    }
-
-    /// Deforms the vertices [first, last) of all, and empties the group.
-    void run(std::size_t first, std::size_t last, bool streaming) noexcept {
-        by_region(passes_, count_, first, last,
-                  [&](std::size_t begin, std::size_t end) { run_blocks(begin, end, streaming); });
-        count_ = 0;
-    }
-
-    void run(bool streaming) noexcept {
-        if (count_ != 0) run(0, passes_[0].job->body->vertex_count(), streaming);
-    }
-
-private:
-    void run_blocks(std::size_t first, std::size_t last, bool streaming) const noexcept {
-        for (; first < last; first += block_vertices) {
-            const std::size_t end = std::min(first + block_vertices, last);
-            for (std::size_t i = 0; i < count_; ++i) run_pass(passes_[i], first, end, streaming);
-        }
-    }
-
-    static constexpr std::size_t capacity = group_size + pass_count - 1;
-    PreparedPass passes_[capacity];
-    std::size_t count_ = 0;
-};
-
-/// Deforms what lies between two places. An instance counts where its first vertex lies.
-CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool streaming) noexcept {
-    Group group;
-    CrowdResult result;
-    const std::size_t end = to.vertex == 0 ? to.instance : to.instance + 1;
-    for (std::size_t i = from.instance; i < end; ++i) {
-        if (!is_active(job, i)) continue;
-        const DeformJob& instance = job.instances[i];
-        const std::size_t count = instance.body->vertex_count();
+/// Deforms a batch from one of its places to another. An instance counts where its first vertex lies.
+CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
+                      bool non_temporal) noexcept {
+    const Activity active(batch, job.frame);
+    const std::size_t vertices = batch.body->vertex_count();
+    BatchRunner runner(batch, kernels(job.isa), non_temporal);
+    for (std::size_t i = from.instance; i < batch.count && i <= to.instance; ++i) {
         const std::size_t first = i == from.instance ? from.vertex : 0;
-        const std::size_t last = i == to.instance ? to.vertex : count;
-        const bool whole = first == 0 && last == count;
-        if (!whole || !group.takes(instance)) group.run(streaming);
-        const bool clamped = group.add(instance, first == 0);
-        if (first == 0) {
-            ++result.deformed;
-            result.clamped += clamped ? 1 : 0;
-        }
-        if (!whole) group.run(first, last, streaming);
+        const std::size_t last = i == to.instance ? to.vertex : vertices;
+        if (first < last && active[i]) runner.add(i, first, last);
     }
-    group.run(streaming);
-    if (streaming) simd::fence();
+    runner.finish();
+    return runner.result();
+}
+
+CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool non_temporal) noexcept {
+    CrowdResult result;
+    for (std::size_t b = from.batch; b < job.batches.size() && b <= to.batch; ++b) {
+        const Batch& batch = job.batches[b];
+        const Place begin = b == from.batch ? from : Place{b, 0, 0};
+        const Place end = b == to.batch ? to : Place{b, batch.count, 0};
+        if (begin.instance < end.instance || begin.vertex < end.vertex)
+            result += run_batch(batch, job, begin, end, non_temporal);
+    }
+    if (non_temporal) simd::fence();
     return result;
 }
 
-/// Where piece `piece` of `pieces` begins, for a crowd of `vertices` active vertices. Places are asked for in
-/// order: `cursor` is where the last one was found.
-struct Cursor {
-    Place place = {};
-    std::size_t before = 0;  // active vertices before place.instance
-};
+/// Finds where pieces begin, which are asked for in order.
+class Cutter {
+public:
+    /// `vertices`: of all active instances.
+    Cutter(const CrowdJob& job, std::size_t vertices, std::size_t pieces) noexcept
+        : job_(job), vertices_(vertices), pieces_(pieces) {}
 
-Place begin_of(const CrowdJob& job, std::size_t vertices, std::size_t piece, std::size_t pieces,
-               Cursor& cursor) noexcept {
-    const std::size_t wanted = piece * vertices / pieces;
-    if (piece == pieces) return {job.instances.size(), 0};
-    for (std::size_t i = cursor.place.instance; i < job.instances.size(); ++i) {
-        if (!is_active(job, i)) continue;
-        const std::size_t size = job.instances[i].body->vertex_count();
-        if (wanted < cursor.before + size) {
-            // On whole lines, so that no two pieces stream into the same one.
-            cursor.place = {i, (wanted - cursor.before) / line_floats * line_floats};
-            return cursor.place;
+    [[nodiscard]] Place begin_of(std::size_t piece) noexcept {
+        const Place end = {job_.batches.size(), 0, 0};
+        if (piece == pieces_) return end;
+        // In two parts, since the product of both may be too large.
+        const std::size_t wanted = vertices_ / pieces_ * piece + vertices_ % pieces_ * piece / pieces_;
+        for (; place_.batch < job_.batches.size(); place_ = {place_.batch + 1, 0, 0}) {
+            if (found(wanted)) return place_;
         }
-        cursor.before += size;
-        cursor.place.instance = i + 1;
+        return end;
     }
-    return {job.instances.size(), 0};
-}
+
+private:
+    /// Looks for the vertex `wanted` in this batch, from the place found last on.
+    bool found(std::size_t wanted) noexcept {
+        const Batch& batch = job_.batches[place_.batch];
+        const Activity active(batch, job_.frame);
+        const std::size_t size = batch.body->vertex_count();
+        place_.vertex = 0;
+        if (active.all() && size != 0) {
+            const std::size_t skipped = std::min((wanted - before_) / size, batch.count - place_.instance);
+            place_.instance += skipped;
+            before_ += skipped * size;
+        }
+        for (; place_.instance < batch.count; ++place_.instance) {
+            if (!active[place_.instance]) continue;
+            if (wanted < before_ + size) {
+                // On whole lines, so that no two pieces write the same one past the cache.
+                place_.vertex = (wanted - before_) / line_floats * line_floats;
+                return true;
+            }
+            before_ += size;
+        }
+        return false;
+    }
+
+    const CrowdJob& job_;
+    std::size_t vertices_, pieces_;
+    Place place_;
+    std::size_t before_ = 0;  // active vertices before place_.instance
+};
 
 }  // namespace
 
-std::string_view describe(const CrowdFault& fault) noexcept {
-    if (fault.visible_count) return "visible: neither empty nor one per instance";
-    if (fault.changed_count) return "changed: neither empty nor one per instance";
-    if (fault.every_count) return "every: neither empty nor one per instance";
-    return describe(fault.fault);
+Batch batch_of(const DeformJob& job) noexcept {
+    const auto poses = [](std::span<const Pose> many, const Pose& one) {
+        return StridedView<Pose>{.data = many.empty() ? &one : many.data(), .count = 1};
+    };
+    const auto transform = [](const glm::mat4x3& matrix) {
+        return TransformColumn(StridedView<glm::mat4x3>{.data = &matrix, .count = 1});
+    };
+    Batch batch;
+    batch.body = job.body;
+    batch.count = 1;
+    batch.poses = poses(job.poses, job.pose);
+    batch.transforms = transform(job.transform);
+    batch.wrinkle_weights = {.data = &job.wrinkle_weight, .count = 1};
+    batch.previous_poses = poses(job.previous_poses, job.previous_pose);
+    batch.previous_transforms = transform(job.previous_transform);
+    batch.positions = job.positions;
+    batch.normals = job.normals;
+    batch.tangents = job.tangents;
+    batch.packed = job.packed;
+    batch.previous_positions = job.previous_positions;
+    if (job.bounds != nullptr) batch.bounds = {job.bounds, 1};
+    batch.scratch_gaps = job.scratch_gaps;
+    return batch;
 }
 
-CrowdFault validate(const CrowdJob& job) noexcept {
-    CrowdFault result;
-    const std::size_t count = job.instances.size();
-    result.visible_count = !job.visible.empty() && job.visible.size() != count;
-    result.changed_count = !job.changed.empty() && job.changed.size() != count;
-    result.every_count = !job.every.empty() && job.every.size() != count;
-    if (!result.none()) return result;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!is_active(job, i)) continue;
-        result.fault = validate(job.instances[i]);
-        result.instance = i;
-        if (!result.none()) return result;
+glm::mat4x3 TransformColumn::operator[](std::size_t index) const noexcept {
+    const float* from = first.at(index);
+    const int column = layout == Layout::columns3 ? 3 : layout == Layout::columns4 ? 4 : 1;
+    const int row = layout == Layout::rows4 ? 4 : 1;
+    glm::mat4x3 matrix;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) matrix[c][r] = from[c * column + r * row];
     }
-    return {};
+    return matrix;
+}
+
+Fault validate(const CrowdJob& job) noexcept {
+    for (std::size_t b = 0; b < job.batches.size(); ++b) {
+        Fault fault = check(job.batches[b]);
+        fault.batch = b;
+        if (!fault.none()) return fault;
+    }
+    return runs_here(job.isa) ? Fault{} : Fault{.field = Field::isa, .reason = Reason::not_supported};
 }
 
 CrowdResult run(const CrowdJob& job) noexcept {
-    return run_between(job, {0, 0}, {job.instances.size(), 0}, streams(job, size_of(job).bytes));
+    assert(runs_here(job.isa));
+    return run_between(job, {}, {job.batches.size(), 0, 0}, is_non_temporal(job, size_of(job).bytes));
 }
 
 CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces) noexcept {
+    assert(piece < pieces && runs_here(job.isa));
     const Size size = size_of(job);
-    Cursor cursor;
-    const Place from = begin_of(job, size.vertices, piece, pieces, cursor);
-    const Place to = begin_of(job, size.vertices, piece + 1, pieces, cursor);
-    return run_between(job, from, to, streams(job, size.bytes));
+    Cutter cutter(job, size.vertices, pieces);
+    const Place from = cutter.begin_of(piece);
+    return run_between(job, from, cutter.begin_of(piece + 1), is_non_temporal(job, size.bytes));
 }
 
 CrowdResult run_parallel(const CrowdJob& job) {
+    assert(runs_here(job.isa));
     const Size size = size_of(job);
-    const bool streaming = streams(job, size.bytes);
+    const bool non_temporal = is_non_temporal(job, size.bytes);
     const std::size_t pieces = std::clamp<std::size_t>(size.vertices / least_vertices, 1, most_pieces);
     Place places[most_pieces + 1];
-    Cursor cursor;
-    for (std::size_t piece = 0; piece <= pieces; ++piece) {
-        places[piece] = begin_of(job, size.vertices, piece, pieces, cursor);
-    }
-    std::atomic<std::size_t> deformed = 0;
-    std::atomic<std::size_t> clamped = 0;
+    Cutter cutter(job, size.vertices, pieces);
+    for (std::size_t piece = 0; piece <= pieces; ++piece) places[piece] = cutter.begin_of(piece);
+    std::atomic<std::size_t> deformed = 0, clamped = 0, at_rest = 0;
     parallel_ranges(pieces, 1, [&](std::size_t first, std::size_t last) {
         for (; first < last; ++first) {
-            const CrowdResult part = run_between(job, places[first], places[first + 1], streaming);
+            const CrowdResult part = run_between(job, places[first], places[first + 1], non_temporal);
             deformed.fetch_add(part.deformed, std::memory_order_relaxed);
             clamped.fetch_add(part.clamped, std::memory_order_relaxed);
+            at_rest.fetch_add(part.at_rest, std::memory_order_relaxed);
         }
     });
-    return {deformed.load(), clamped.load()};
+    return {deformed.load(), clamped.load(), at_rest.load()};
 }
 
 }  // namespace goffer::bend

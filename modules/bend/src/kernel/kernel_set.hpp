@@ -1,35 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/kernel.hpp"
+#include "kernel/bend_kernel.hpp"
+#include "kernel/copy_kernel.hpp"
+#include "kernel/setup_kernel.hpp"
 
 namespace goffer::bend {
 
-template <class L, Squeeze squeeze>
-constexpr void add_planes(Kernel (&planes)[squeeze_count][9]) {
-    Kernel(&own)[9] = planes[static_cast<std::size_t>(squeeze)];
-    own[1] = &bend_range<L, squeeze, 1, Form::planes>;
-    own[3] = &bend_range<L, squeeze, 3, Form::planes>;
-    own[7] = &bend_range<L, squeeze, 7, Form::planes>;
-    own[packed_streams] = &bend_range<L, squeeze, 3, Form::packed_planes>;
+template <class L, Squeeze squeeze, StreamSet streams>
+constexpr void add_kernels(KernelSet& set) {
+    set.planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
+        &bend_to_planes<L, squeeze, streams>;
+    set.rows[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
+        &bend_to_rows<L, squeeze, streams>;
+    if constexpr (streams != StreamSet::positions_normals_tangents)
+        set.weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
+            &bend_to_records<L, squeeze, streams>;
 }
 
-/// All kernels over the lanes `L`.
+template <class L, Squeeze squeeze>
+constexpr void add_kernels(KernelSet& set) {
+    add_kernels<L, squeeze, StreamSet::positions>(set);
+    add_kernels<L, squeeze, StreamSet::positions_normals>(set);
+    add_kernels<L, squeeze, StreamSet::positions_normals_tangents>(set);
+    add_kernels<L, squeeze, StreamSet::packed>(set);
+}
+
+/// All kernels over the lanes `L`: those over vertices in batches of L, the others in single registers.
 template <class L>
 constexpr KernelSet kernel_set() {
     using Single = typename L::Single;
     KernelSet set{};
-    add_planes<L, Squeeze::none>(set.planes);
-    add_planes<L, Squeeze::plain>(set.planes);
-    add_planes<L, Squeeze::relative>(set.planes);
-    set.records[1] = &bend_range<L, Squeeze::plain, 1, Form::records>;
-    set.records[3] = &bend_range<L, Squeeze::plain, 3, Form::records>;
-    set.records[packed_streams] = &bend_range<L, Squeeze::plain, 3, Form::packed_records>;
-    set.interleave[1] = &interleave<Single, 1>;
-    set.interleave[3] = &interleave<Single, 3>;
-    set.interleave[6] = &interleave<Single, 6>;
-    set.interleave[7] = &interleave<Single, 7>;
-    set.interleave[10] = &interleave<Single, 10>;
+    add_kernels<L, Squeeze::none>(set);
+    add_kernels<L, Squeeze::plain>(set);
+    add_kernels<L, Squeeze::relative>(set);
+    set.weave[3] = &weave<Single, 3>;
+    set.weave[6] = &weave<Single, 6>;
+    set.weave[7] = &weave<Single, 7>;
+    set.weave[9] = &weave<Single, 9>;
+    set.weave[10] = &weave<Single, 10>;
+    set.weave[13] = &weave<Single, 13>;
+    set.copy_lines = &copy_lines<Single>;
+    set.setup = &set_up<Single>;
     return set;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/kernel_args.hpp"
+#include "kernel/args.hpp"
 
 #include <goffer/engine/isa.hpp>
 

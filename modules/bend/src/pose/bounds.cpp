@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "kernel/kernels.hpp"
+#include "pose/bounds_of.hpp"
 #include "pose/centre_line.hpp"
-#include "pose/instance.hpp"
+#include "pose/posed_group.hpp"
 
 #include <goffer/bend/bounds.hpp>
 
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -20,58 +22,70 @@ constexpr std::size_t edges = Bands::count + 1;
 
 /// The widest vertex and the deepest wrinkles of four bands, or of what meets at four edges.
 struct Girth {
-    Four rho, lift, dip;  // rho below 0: no vertex there
+    Float4 rho, lift, dip;  // rho below 0: no vertex there
 };
 
 Girth of_bands(const Bands& bands, std::size_t j) noexcept {
-    return {load_four(&bands.rho[j + 1]), load_four(&bands.lift[j + 1]), load_four(&bands.dip[j + 1])};
+    return {load4(&bands.rho[j + 1]), load4(&bands.lift[j + 1]), load4(&bands.dip[j + 1])};
 }
 
 /// Edge j is where bands j - 1 and j meet.
 Girth at_edges(const Bands& bands, std::size_t j) noexcept {
     const Girth behind = of_bands(bands, j);
-    return {larger(behind.rho, load_four(&bands.rho[j])), larger(behind.lift, load_four(&bands.lift[j])),
-            larger(behind.dip, load_four(&bands.dip[j]))};
+    return {max(behind.rho, load4(&bands.rho[j])), max(behind.lift, load4(&bands.lift[j])),
+            max(behind.dip, load4(&bands.dip[j]))};
+}
+
+/// Four cross-sections at one amplitude, in each sector.
+struct Sections {
+    Float4 radius[sectors];   // of the farthest vertex
+    Float4 through[sectors];  // how deep wrinkles are
+    Mask4 none;               // no vertex there
+    bool deep;                // wrinkles are deeper than the radius somewhere
+};
+
+Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
+    Sections sections;
+    for (int i = 0; i < sectors; ++i) {
+        sections.radius[i] = girth.rho + splat(amplitude[i]) * girth.lift;
+        sections.through[i] = splat(amplitude[i]) * girth.dip;
+    }
+    sections.none = girth.rho < splat(0);
+    sections.deep = any(sections.through[sectors - 1] > girth.rho);
+    return sections;
 }
 
 /// How far cross-sections reach along an axis, and against it.
 struct Reach {
-    Four up, down;
+    Float4 up, down;
 };
 
-/// `value` where the comparison holds, else 0.
-template <class Mask>
-Four where(Mask holds, Four value) noexcept {
-    return std::bit_cast<Four>(holds & std::bit_cast<Mask>(value));
+/// `value` where the mask holds, else 0.
+Float4 where(Mask4 holds, Float4 value) noexcept {
+    return select(holds, value, splat(0));
 }
 
 /// `radius`: in each sector, no smaller than in the one before. (a, b): the axis within the section's plane,
 /// a towards the bend, b >= 0 across; `whole` its length there. Of an arc the farthest point is where the
 /// axis points to, or an end; of two that meet, the inner one's.
-inline Reach reach(const Four (&radius)[sectors], Four a, Four b, Four whole) noexcept {
-    const Four half = all(0.5f) * whole, slant = all(0.8660254f) * b, middle = radius[2] * b;
-    const auto towards = [&](Four c, Four half_c) {
-        const Four outer = larger(radius[0], where(c > -half, radius[1]));
-        const Four inner = larger(where(c > 0, radius[2]), where(c > half, radius[3]));
-        const Four ends = larger(radius[3] * larger(c, slant + half_c), radius[1] * (slant - half_c));
-        return larger(larger(ends, middle), larger(outer, inner) * whole);
+inline Reach reach(const Float4 (&radius)[sectors], Float4 a, Float4 b, Float4 whole) noexcept {
+    const Float4 half = splat(0.5f) * whole, slant = splat(0.8660254f) * b, middle = radius[2] * b;
+    const auto towards = [&](Float4 c, Float4 half_c) {
+        const Float4 outer = max(radius[0], where(c > -half, radius[1]));
+        const Float4 inner = max(where(c > splat(0), radius[2]), where(c > half, radius[3]));
+        const Float4 ends = max(radius[3] * max(c, slant + half_c), radius[1] * (slant - half_c));
+        return max(max(ends, middle), max(outer, inner) * whole);
     };
-    const Four half_a = all(0.5f) * a;
+    const Float4 half_a = splat(0.5f) * a;
     return {towards(a, half_a), towards(-a, -half_a)};
 }
 
-inline Reach reach(const Girth& girth, Four amplitude, Four a, Four b, Four whole) noexcept {
-    Four radius[sectors], through[sectors];
-    for (int i = 0; i < sectors; ++i) {
-        radius[i] = girth.rho + all(amplitude[i]) * girth.lift;
-        through[i] = all(amplitude[i]) * girth.dip;
-    }
-    const Reach outside = reach(radius, a, b, whole);
-    const auto crosses = through[sectors - 1] > girth.rho;
-    if ((crosses[0] | crosses[1] | crosses[2] | crosses[3]) == 0) return outside;
+inline Reach reach(const Sections& sections, Float4 a, Float4 b, Float4 whole) noexcept {
+    const Reach outside = reach(sections.radius, a, b, whole);
+    if (!sections.deep) return outside;
     // Wrinkles deeper than the radius move vertices through the axis to its other side.
-    const Reach inside_out = reach(through, a, b, whole);
-    return {larger(outside.up, inside_out.down), larger(outside.down, inside_out.up)};
+    const Reach inside_out = reach(sections.through, a, b, whole);
+    return {max(outside.up, inside_out.down), max(outside.down, inside_out.up)};
 }
 
 /// Where a body lies along one axis of the streams' space; (m0, m1, m2) is that axis along n, b, t.
@@ -82,24 +96,24 @@ inline Reach reach(const Girth& girth, Four amplitude, Four a, Four b, Four whol
 class Extent {
 public:
     Extent(const Coefficients& k, int row) noexcept
-        : m0_(k.matrix[row]), m2_(k.matrix[8 + row]), across_(all(std::fabs(k.matrix[4 + row]))) {
+        : m0_(k.matrix[row]), m2_(k.matrix[8 + row]), across_(splat(std::fabs(k.matrix[4 + row]))) {
         in_plane_ = std::sqrt(m0_ * m0_ + m2_ * m2_);
         whole_ = std::sqrt(m0_ * m0_ + m2_ * m2_ + across_[0] * across_[0]);
     }
 
     /// The edges from j on.
-    void take_edges(const CentreLine& line, std::size_t j, const Girth& girth, Four amplitude) noexcept {
-        const Four at = all(m0_) * line.x + all(m2_) * line.z;
-        const Four a = all(m0_) * line.cosine - all(m2_) * line.sine;
-        store_four(at_ + j, at);
-        store_four(a_ + j, a);
-        store_four(tau_ + j, all(m0_) * line.sine + all(m2_) * line.cosine);
-        take(girth, amplitude, at, a, root(a * a + across_ * across_));
+    void take_edges(const CentreLine& line, std::size_t j, const Sections& sections) noexcept {
+        const Float4 at = splat(m0_) * line.x + splat(m2_) * line.z;
+        const Float4 a = splat(m0_) * line.cosine - splat(m2_) * line.sine;
+        store4(at_ + j, at);
+        store4(a_ + j, a);
+        store4(tau_ + j, splat(m0_) * line.sine + splat(m2_) * line.cosine);
+        take(sections, at, a, sqrt(a * a + across_ * across_));
     }
 
     /// The bands that run square to the axis somewhere, once all edges are taken. `radius` and `sagitta` of
     /// the centre line in a band, for an axis in the bend's plane.
-    void take_bands(const Bands& bands, Four amplitude, float radius, float sagitta) noexcept {
+    void take_bands(const Bands& bands, Float4 amplitude, float radius, float sagitta) noexcept {
         for (std::size_t j = 0; j < Bands::count; ++j) {
             if (!(tau_[j] * tau_[j + 1] < 0) || bands.rho[j + 1] < 0) continue;
             // From the nearer edge, so that little cancels.
@@ -107,16 +121,16 @@ public:
             const float rise =
                 std::min(radius * tau_[i] * tau_[i] / (in_plane_ + std::fabs(a_[i])), sagitta * in_plane_);
             const float side = a_[i] > 0 ? 1.0f : -1.0f;
-            const Girth girth = {all(bands.rho[j + 1]), all(bands.lift[j + 1]), all(bands.dip[j + 1])};
-            take(girth, amplitude, all(at_[i] - side * rise), all(side * in_plane_), all(whole_));
+            const Girth girth = {splat(bands.rho[j + 1]), splat(bands.lift[j + 1]), splat(bands.dip[j + 1])};
+            take(sections_of(girth, amplitude), splat(at_[i] - side * rise), splat(side * in_plane_),
+                 splat(whole_));
         }
     }
 
     /// Bands from j on that each go all round a circle of `radius`.
-    void take_circles(const Girth& girth, Four amplitude, float radius) noexcept {
+    void take_circles(const Sections& sections, float radius) noexcept {
         for (const float side : {-1.0f, 1.0f}) {
-            take(girth, amplitude, all((m0_ - side * in_plane_) * radius), all(side * in_plane_),
-                 all(whole_));
+            take(sections, splat((m0_ - side * in_plane_) * radius), splat(side * in_plane_), splat(whole_));
         }
     }
 
@@ -126,24 +140,23 @@ public:
     [[nodiscard]] float high() const noexcept { return std::max({high_[0], high_[1], high_[2], high_[3]}); }
 
 private:
-    void take(const Girth& girth, Four amplitude, Four at, Four a, Four whole) noexcept {
-        const auto [up, down] = reach(girth, amplitude, a, across_, whole);
-        const auto none = girth.rho < 0;
-        high_ = none ? high_ : larger(high_, at + up);
-        low_ = none ? low_ : smaller(low_, at - down);
+    void take(const Sections& sections, Float4 at, Float4 a, Float4 whole) noexcept {
+        const auto [up, down] = reach(sections, a, across_, whole);
+        high_ = select(sections.none, high_, max(high_, at + up));
+        low_ = select(sections.none, low_, min(low_, at - down));
     }
 
     float m0_, m2_;
-    Four across_;
+    Float4 across_;
     float in_plane_, whole_;
     float at_[edges], a_[edges], tau_[edges];  // of the centre line; tau: the axis along it
-    Four low_ = all(std::numeric_limits<float>::max());
-    Four high_ = all(std::numeric_limits<float>::lowest());
+    Float4 low_ = splat(std::numeric_limits<float>::max());
+    Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
 
 /// The bounds of one region's vertices, of which there must be one.
-Bounds bounds_of(const Bands& bands, const Coefficients& k) noexcept {
-    const Four amplitude = amplitudes(k);
+Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
+    const Float4 amplitude = amplitudes(k, squeeze);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
     const float length = k.one_minus_kappa * k.reach[0] * height;  // of a band's arc; reach[0] is L
     const float turn = k.curvature * k.reach[0] * height;
@@ -151,13 +164,14 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k) noexcept {
     Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
     for (std::size_t j = 0; j < edges; j += 4) {
         if (turn > 3) {  // nearly half a turn: all of the circle
-            for (Extent& extent : extents) extent.take_circles(of_bands(bands, j), amplitude, radius);
+            const Sections sections = sections_of(of_bands(bands, j), amplitude);
+            for (Extent& extent : extents) extent.take_circles(sections, radius);
             continue;
         }
-        const Four place = all(static_cast<float>(j)) + Four{0, 1, 2, 3};
-        const CentreLine line = centre_line(k, all(bands.lowest) + place * all(height));
-        const Girth girth = at_edges(bands, j);
-        for (Extent& extent : extents) extent.take_edges(line, j, girth, amplitude);
+        const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
+        const CentreLine line = centre_line(k, splat(bands.lowest) + place * splat(height));
+        const Sections sections = sections_of(at_edges(bands, j), amplitude);
+        for (Extent& extent : extents) extent.take_edges(line, j, sections);
     }
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {
@@ -170,48 +184,72 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k) noexcept {
     return bounds;
 }
 
-Bounds bounds_of(const Posed& posed) noexcept {
-    Coefficients k;
-    Joint second;
-    prepare_region(posed, 0, posed.body->frame().base, k, second);
-    return bounds_of(posed, k, second);
+Bounds nowhere() noexcept {
+    constexpr float far = std::numeric_limits<float>::max();
+    return {glm::vec3(far), glm::vec3(-far)};
+}
+
+void take(Bounds& bounds, const BodyData& body, std::size_t region, const Coefficients& k,
+          Squeeze squeeze) noexcept {
+    if (body.regions[region].first == body.regions[region].last) return;
+    const Bounds own = bounds_of(body.details[region].bands, k, squeeze);
+    bounds = {glm::min(bounds.low, own.low), glm::max(bounds.high, own.high)};
+}
+
+Bounds bounds_of(const Body& body, std::span<const Pose> poses, const glm::mat4x3& transform, float weight,
+                 Isa isa) noexcept {
+    assert(!body.empty());
+    const BodyData& data = *body.data();
+    Bounds bounds = nowhere();
+    each_region(data, kernels(isa).setup, poses, transform, weight,
+                [&](std::size_t region, const Coefficients& k, Squeeze squeeze) {
+                    take(bounds, data, region, k, squeeze);
+                });
+    return bounds;
 }
 
 }  // namespace
 
-Bounds bounds_of(const Posed& posed, const Coefficients& first, const Joint& second) noexcept {
-    constexpr float far = std::numeric_limits<float>::max();
-    Bounds all = {glm::vec3(far), glm::vec3(-far)};
-    const auto take = [&](const Region& region, const Coefficients& k) {
-        if (region.first == region.last) return;
-        const Bounds own = bounds_of(region.bands, k);
-        all = {glm::min(all.low, own.low), glm::max(all.high, own.high)};
-    };
-    const std::span<const Region> regions = posed.body->regions();
-    take(regions[0], first);
-    Coefficients k;
-    Joint from = second, to;
-    for (std::size_t r = 1; r < regions.size(); ++r, from = to) {
-        prepare_region(posed, r, from, k, to);
-        take(regions[r], k);
-    }
-    return all;
+Bounds bounds_of(const BodyData& body, const Coefficients* k, const Squeeze* squeezes) noexcept {
+    Bounds bounds = nowhere();
+    for (std::size_t r = 0; r < body.regions.size(); ++r) take(bounds, body, r, k[r], squeezes[r]);
+    return bounds;
 }
 
 Bounds bounds(const Body& body, const Pose& pose, const glm::mat4x3& transform) noexcept {
-    return bounds_of({&body, &pose, &transform, true});
+    return bounds_of(body, {&pose, 1}, transform, 1, Isa::automatic);
 }
 
 Bounds bounds(const Body& body, std::span<const Pose> poses, const glm::mat4x3& transform) noexcept {
-    return bounds_of({&body, poses.data(), &transform, true});
+    return bounds_of(body, poses, transform, 1, Isa::automatic);
 }
 
 Bounds bounds(const DeformJob& job) noexcept {
-    return bounds_of({job.body, poses_of(job), &job.transform, job.wrinkles});
+    return bounds_of(*job.body, poses_of(job), job.transform, job.wrinkle_weight, job.isa);
 }
 
 void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept {
+    assert(result.size() >= jobs.size());
     for (std::size_t i = 0; i < jobs.size(); ++i) result[i] = bounds(jobs[i]);
+}
+
+void bounds(const Batch& batch, std::span<Bounds> result, Isa isa) noexcept {
+    assert(batch.body != nullptr && !batch.body->empty() && result.size() >= batch.count);
+    const BodyData& body = *batch.body->data();
+    PosedGroup group(body, kernels(isa).setup);
+    Coefficients k[setup_width];
+    for (std::size_t first = 0; first < batch.count; first += setup_width) {
+        const std::size_t count = std::min(setup_width, batch.count - first);
+        group.clear();
+        for (std::size_t i = first; i < first + count; ++i) {
+            group.add(batch, element_of(batch, i), Time::now);
+            result[i] = nowhere();
+        }
+        for (std::size_t r = 0; r < body.regions.size(); ++r) {
+            group.set_up(r, k, 1);
+            for (std::size_t i = 0; i < count; ++i) take(result[first + i], body, r, k[i], group.squeeze(i));
+        }
+    }
 }
 
 }  // namespace goffer::bend

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "kernel/kernels.hpp"
 #include "pose/centre_line.hpp"
-#include "pose/instance.hpp"
+#include "pose/posed_group.hpp"
 
 #include <goffer/bend/capsules.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace goffer::bend {
@@ -48,10 +50,10 @@ glm::vec3 placed(const Coefficients& k, const CentreLine& line, int i) noexcept 
     return point;
 }
 
-void region_capsules(const Region& region, const Coefficients& k, float scale, std::span<Capsule> result) {
+void region_capsules(const Region& region, const Bands& bands, const Coefficients& k, Squeeze squeeze,
+                     float scale, std::span<Capsule> result) {
     constexpr float margin = 1.00001f;  // for rounding
-    const Bands& bands = region.bands;
-    const Four deepest = amplitudes(k);
+    const Float4 deepest = amplitudes(k, squeeze);
     const float count = static_cast<float>(result.size());
     const float step = (bands.highest - bands.lowest) / count;
     const float turn = k.curvature * region.length * step;
@@ -60,7 +62,7 @@ void region_capsules(const Region& region, const Coefficients& k, float scale, s
     const float sagitta = turn < 3 ? arc * turn / 8 : arc;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
-        const CentreLine line = centre_line(k, Four{from, from + step, from, from});
+        const CentreLine line = centre_line(k, Float4{from, from + step, from, from});
         const float radius =
             region.first == region.last
                 ? 0
@@ -72,11 +74,15 @@ void region_capsules(const Region& region, const Coefficients& k, float scale, s
 }  // namespace
 
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept {
-    const Posed posed = {job.body, poses_of(job), &job.transform, job.wrinkles};
+    assert(job.body != nullptr && !job.body->empty() && pieces >= 1);
+    assert(result.size() >= capsule_count(*job.body, pieces));
+    const BodyData& body = *job.body->data();
     const float scale = largest_scale(job.transform);
-    each_region(posed, [&](std::size_t r, const Coefficients& k) {
-        region_capsules(job.body->regions()[r], k, scale, result.subspan(r * pieces, pieces));
-    });
+    each_region(body, kernels(job.isa).setup, poses_of(job), job.transform, job.wrinkle_weight,
+                [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
+                    region_capsules(body.regions[r], body.details[r].bands, k, squeeze, scale,
+                                    result.subspan(r * pieces, pieces));
+                });
 }
 
 }  // namespace goffer::bend

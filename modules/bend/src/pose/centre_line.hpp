@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/kernel_args.hpp"
+#include "kernel/args.hpp"
 
-#include <goffer/simd/four.hpp>
+#include <goffer/simd/float4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,22 +17,22 @@ using namespace simd;
 
 /// The centre line at bands' edges, in the middle frame.
 struct CentreLine {
-    Four x, z;          // along n and t
-    Four cosine, sine;  // of the arc angle
+    Float4 x, z;          // along n and t
+    Float4 cosine, sine;  // of the arc angle
 };
 
-inline CentreLine centre_line(const Coefficients& k, Four v) noexcept {
-    const Four vv = v * v;
-    Four rise = polynomial(k.rise, vv) * vv;
-    Four reach = polynomial(k.reach, vv) * v;
+inline CentreLine centre_line(const Coefficients& k, Float4 v) noexcept {
+    const Float4 vv = v * v;
+    Float4 rise = polynomial(k.rise, vv) * vv;
+    Float4 reach = polynomial(k.reach, vv) * v;
     float curvature = k.first_curvature;
-    for (int n = 0; n < k.doublings; ++n, curvature += curvature) {
-        const Four cosine = all(1) - all(curvature) * rise;
-        rise = all(curvature) * reach * reach;
+    for (float n = 0; n < k.doublings; ++n, curvature += curvature) {
+        const Float4 cosine = splat(1) - splat(curvature) * rise;
+        rise = splat(curvature) * reach * reach;
         reach *= cosine;
     }
-    return {all(k.one_minus_kappa) * rise, all(k.one_minus_kappa) * reach, all(1) - all(k.curvature) * rise,
-            all(k.curvature) * reach};
+    return {splat(k.one_minus_kappa) * rise, splat(k.one_minus_kappa) * reach,
+            splat(1) - splat(k.curvature) * rise, splat(k.curvature) * reach};
 }
 
 /// A cross-section's columns are taken in sectors, from the outer line to the inner one: T = 1 + cos(beta -
@@ -61,13 +61,13 @@ inline float relative_amplitude(const Coefficients& k) noexcept {
 
 /// The largest amplitude in each sector. It grows with T; the maximum is taken all the same, since a caller's
 /// table may hold anything.
-inline Four amplitudes(const Coefficients& k) noexcept {
-    if (k.wrinkling == Squeeze::none) return all(0);
-    if (k.wrinkling == Squeeze::relative) return all(relative_amplitude(k));
-    constexpr Four t = {0.5f, 1.0f, 1.5f, 2.0f};
-    Four largest = absolute(polynomial(k.amplitude, t)) * root(t);
-    for (int i = 1; i < sectors; ++i) largest[i] = std::max(largest[i], largest[i - 1]);
-    return largest;
+inline Float4 amplitudes(const Coefficients& k, Squeeze squeeze) noexcept {
+    if (squeeze == Squeeze::none) return splat(0);
+    if (squeeze == Squeeze::relative) return splat(relative_amplitude(k));
+    const Float4 t = {0.5f, 1.0f, 1.5f, 2.0f};
+    const Float4 each = abs(polynomial(k.amplitude, t)) * sqrt(t);
+    const float second = std::max(each[0], each[1]), third = std::max(second, each[2]);
+    return {each[0], second, third, std::max(third, each[3])};
 }
 
 }  // namespace goffer::bend

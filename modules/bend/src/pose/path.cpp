@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "pose/bezier.hpp"
+#include "pose/centre_places.hpp"
+#include "pose/polyline.hpp"
+
 #include <goffer/bend/path.hpp>
 
 #include <glm/geometric.hpp>
@@ -16,45 +20,8 @@ namespace {
 
 using glm::dvec3;
 
-/// A polyline by the length along it. Beyond the end it goes straight on.
-class Polyline {
-public:
-    explicit Polyline(std::span<const glm::vec3> points) noexcept : points_(points) {}
-
-    struct Place {
-        dvec3 point, direction;
-    };
-
-    /// `along` >= that of the call before.
-    [[nodiscard]] Place at(double along) noexcept {
-        for (; piece_ + 2 < points_.size(); ++piece_) {
-            const double length = glm::length(step());
-            if (along <= before_ + length) break;
-            before_ += length;
-        }
-        const dvec3 direction = glm::normalize(step());
-        return {dvec3(points_[piece_]) + (along - before_) * direction, direction};
-    }
-
-private:
-    [[nodiscard]] dvec3 step() const noexcept { return dvec3(points_[piece_ + 1]) - dvec3(points_[piece_]); }
-
-    std::span<const glm::vec3> points_;
-    std::size_t piece_ = 0;
-    double before_ = 0;  // length of the pieces before
-};
-
-/// The distance from `point` to the polyline.
-double distance(const dvec3& point, std::span<const glm::vec3> points) noexcept {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const dvec3 a(points[i]), step = dvec3(points[i + 1]) - a;
-        const bool last = i + 2 == points.size();  // goes straight on
-        const double most = last ? std::numeric_limits<double>::infinity() : 1.0;
-        const double t = std::clamp(glm::dot(point - a, step) / glm::dot(step, step), 0.0, most);
-        nearest = std::min(nearest, glm::length(a + t * step - point));
-    }
-    return nearest;
+bool is_finite(const glm::vec3& p) noexcept {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 /// An orthonormal frame whose third axis is `direction`, turned as little as possible from `axes`.
@@ -68,34 +35,107 @@ glm::dmat3 turned_to(const glm::dmat3& axes, const dvec3& direction) noexcept {
     return {turn(axes[0]), turn(axes[1]), direction};
 }
 
-/// A frame on the way along the body.
+/// The turn of a region's end: by `angle` towards (`cosine`, `sine`) about the axis.
+struct Turn {
+    double angle, cosine, sine;
+    bool clamped;
+};
+
+/// From the axis of `axes` towards `heading`, at most by `most`. Straight on where there is no heading.
+Turn turn_towards(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
+    const dvec3 local = heading * axes;  // its components along them
+    const double across = std::sqrt(local.x * local.x + local.y * local.y);
+    const double wanted = std::atan2(across, local.z), angle = std::min(wanted, most);
+    if (across == 0) return {angle, 1, 0, wanted > most};
+    return {angle, local.x / across, local.y / across, wanted > most};
+}
+
+/// A frame on the way along the body's centre line.
 struct Way {
     dvec3 point;
     glm::dmat3 axes;
 };
 
-/// `share` of the way along a region that begins at `from`.
-Way along(const Way& from, const Pose& pose, double length, double radius, double share) noexcept {
-    const double alpha = static_cast<double>(pose.angle), theta = static_cast<double>(pose.direction);
-    const double kappa = alpha * radius / length, phi = alpha * share;
-    const double arc = (1 - kappa) * length * share;
-    const double half = phi / 2, sinc = half != 0 ? std::sin(half) / half : 1;
-    const dvec3 n = std::cos(theta) * from.axes[0] + std::sin(theta) * from.axes[1];
-    const dvec3 b = std::cos(theta) * from.axes[1] - std::sin(theta) * from.axes[0];
-    const dvec3 t = from.axes[2];
-    const dvec3 turned_n = std::cos(phi) * n - std::sin(phi) * t;
-    const dvec3 turned_t = std::sin(phi) * n + std::cos(phi) * t;
-    return {from.point + arc * sinc * (std::sin(half) * n + std::cos(half) * t),
-            {std::cos(theta) * turned_n - std::sin(theta) * b,
-             std::sin(theta) * turned_n + std::cos(theta) * b, turned_t}};
+/// Goes on to the end of a region whose centre line has `length` and is bent by `turn`.
+CentrePlaces go(Way& way, const Turn& turn, double length) noexcept {
+    const dvec3 n = turn.cosine * way.axes[0] + turn.sine * way.axes[1];
+    const dvec3 b = turn.cosine * way.axes[1] - turn.sine * way.axes[0];
+    const dvec3 t = way.axes[2];
+    const Arc arc(turn.angle);
+    const CentrePlaces places(way.point, length, n, t, arc);
+    const double sine = arc.sine[Arc::doublings], versine = arc.versine[Arc::doublings];
+    const dvec3 turned_n = n - versine * n - sine * t;
+    way.axes = {turn.cosine * turned_n - turn.sine * b, turn.sine * turned_n + turn.cosine * b,
+                t + sine * n - versine * t};
+    way.point += length / arc.angle * (versine * n + sine * t);
+    return places;
 }
 
-/// The pose that turns the axis of `axes` to `direction`, at most by `most`.
-Pose towards(const glm::dmat3& axes, const dvec3& direction, float most, bool& clamped) noexcept {
-    const dvec3 local = glm::transpose(axes) * direction;
-    const double angle = std::atan2(std::hypot(local.x, local.y), local.z);
-    clamped = clamped || angle > static_cast<double>(most);
-    return {std::min(static_cast<float>(angle), most), static_cast<float>(std::atan2(local.y, local.x))};
+/// About the angle from the axis of `axes` to `heading`, at most `most`: within a hundredth of it up to a
+/// right angle.
+double about_angle(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
+    const dvec3 local = heading * axes;
+    const double square = local.x * local.x + local.y * local.y;
+    // Of the half angle's tangent across / onward, by a quotient that is near the arc's.
+    const double across = std::sqrt(square), onward = std::sqrt(square + local.z * local.z) + local.z;
+    const double above = 2 * across * (15 * onward * onward + 4 * square);
+    const double below = onward * (15 * onward * onward + 9 * square);
+    return std::min(above / std::max(below, least_square), most);
+}
+
+/// How far ahead on `path` a region of `length` ends: as far as its centre line is long, which is shorter
+/// than the region by what the region bends, which depends on where it ends. `guess`: of it.
+template <class Path>
+double end_of_region(Path& path, const glm::dmat3& axes, double guess, double length, double radius,
+                     double most) noexcept {
+    const double angle = about_angle(axes, path.heading(guess), most);
+    return guess * length / (guess + angle * radius);  // Newton's step, were the curvature the same all along
+}
+
+/// All straight, from `start` on, unturned.
+PathFit straight(const Body& body, const dvec3& start, std::span<Pose> poses) noexcept {
+    std::ranges::fill(poses, Pose{});
+    PathFit fit;
+    fit.transform[3] = glm::vec3(start - body.origin());
+    return fit;
+}
+
+PathFit no_fit(std::span<Pose> poses) noexcept {
+    std::ranges::fill(poses, Pose{});
+    return {.error = std::numeric_limits<float>::infinity()};
+}
+
+glm::mat4x3 transform_to(const Way& way, const Body& body) noexcept {
+    const glm::dmat3 turn = way.axes * glm::transpose(body.axes());
+    glm::mat4x3 transform{glm::mat3(turn)};
+    transform[3] = glm::vec3(way.point - turn * body.origin());
+    return transform;
+}
+
+template <class Path>
+PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
+    const dvec3 heading = path.heading(0);
+    if (heading == dvec3(0)) return straight(body, path.start(), poses);
+    Way way{path.start(), turned_to(body.axes(), glm::normalize(heading))};
+    PathFit fit{.transform = transform_to(way, body)};
+    double farthest = 0, share = 1;  // of the last region's length, its centre line's
+    const std::span<const Region> regions = body.regions();
+    const double radius = body.radius();
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        const auto length = static_cast<double>(regions[r].length);
+        const auto most = static_cast<double>(regions[r].max_angle);
+        double ahead = share * length;
+        for (int steps = r == 0 ? 2 : 1; steps > 0; --steps)
+            ahead = end_of_region(path, way.axes, ahead, length, radius, most);
+        const Turn turn = turn_towards(way.axes, path.heading(ahead), most);
+        poses[r] = {static_cast<float>(turn.angle), static_cast<float>(std::atan2(turn.sine, turn.cosine))};
+        fit.clamped = fit.clamped || turn.clamped;
+        const double centre = length - turn.angle * radius;
+        farthest = std::max(farthest, path.go(go(way, turn, centre)));
+        share = centre / length;
+    }
+    fit.error = static_cast<float>(std::sqrt(farthest));
+    return fit;
 }
 
 }  // namespace
@@ -117,7 +157,7 @@ std::string_view describe(PathFault fault) noexcept {
 PathFault check_path(std::span<const glm::vec3> points) noexcept {
     if (points.size() < 2) return PathFault::too_few_points;
     for (const glm::vec3& p : points) {
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return PathFault::not_finite;
+        if (!is_finite(p)) return PathFault::not_finite;
     }
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i] == points[i - 1]) return PathFault::repeated_point;
@@ -126,48 +166,13 @@ PathFault check_path(std::span<const glm::vec3> points) noexcept {
 }
 
 PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses) noexcept {
-    constexpr int places = 16;
-    PathFit fit;
-    Polyline path(points);
-    const Polyline::Place start = path.at(0);
-    Way way{start.point, turned_to(body.axes(), start.direction)};
-    const glm::dmat3 turn = way.axes * glm::transpose(body.axes());
-    fit.transform = glm::mat4x3(glm::mat3(turn));
-    fit.transform[3] = glm::vec3(start.point - turn * body.origin());
-    double reached = 0, error = 0;
-    for (std::size_t r = 0; r < poses.size(); ++r) {
-        const double length = static_cast<double>(body.regions()[r].length);
-        const float most = body.max_angle(r);
-        // The centre line is shorter than the region by what the region bends; which depends on where it
-        // ends.
-        double ahead = length;
-        for (int step = 0; step < 3; ++step) {
-            Polyline from_here = path;
-            bool ignored = false;
-            poses[r] = towards(way.axes, from_here.at(reached + ahead).direction, most, ignored);
-            ahead = length - static_cast<double>(poses[r].angle) * body.radius();
-        }
-        reached += ahead;
-        poses[r] = towards(way.axes, path.at(reached).direction, most, fit.clamped);
-        for (int i = 1; i <= places; ++i) {
-            const Way here = along(way, poses[r], length, body.radius(), static_cast<double>(i) / places);
-            error = std::max(error, distance(here.point, points));
-        }
-        way = along(way, poses[r], length, body.radius(), 1);
-    }
-    fit.error = static_cast<float>(error);
-    return fit;
+    if (points.size() < 2 || !std::ranges::all_of(points, is_finite)) return no_fit(poses);
+    return follow(body, Polyline(points), poses.first(std::min(poses.size(), body.region_count())));
 }
 
 PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses) noexcept {
-    constexpr int pieces = 256;
-    glm::vec3 points[pieces + 1];
-    for (int i = 0; i <= pieces; ++i) {
-        const float t = static_cast<float>(i) / pieces, u = 1 - t;
-        points[i] = u * u * u * control[0] + 3 * u * u * t * control[1] + 3 * u * t * t * control[2] +
-                    t * t * t * control[3];
-    }
-    return poses_along(body, points, poses);
+    if (!std::ranges::all_of(control, is_finite)) return no_fit(poses);
+    return follow(body, Bezier(control), poses.first(std::min(poses.size(), body.region_count())));
 }
 
 }  // namespace goffer::bend

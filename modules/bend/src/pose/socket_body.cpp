@@ -6,23 +6,6 @@
 #include <utility>
 
 namespace goffer::bend {
-namespace {
-
-/// A region's input back from the body that it was made into, for `count` vertices of another.
-RegionInput input_of(const Region& region, std::size_t count) {
-    RegionInput input;
-    input.length = static_cast<double>(region.length);
-    input.max_angle = static_cast<double>(region.max_angle);
-    input.rest_angle = static_cast<double>(region.rest.angle);
-    input.rest_direction = static_cast<double>(region.rest.direction);
-    input.onset = static_cast<double>(region.onset);
-    input.table = region.table;
-    input.factors = region.factors;
-    input.vertex_count = count;
-    return input;
-}
-
-}  // namespace
 
 std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> sockets) {
     std::vector<std::size_t> place(sockets.size());
@@ -38,8 +21,8 @@ std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> s
         normals.push_back(sockets[i].normal);
         tangents.push_back(sockets[i].tangent);
     }
-    std::vector<RegionInput> regions;
-    for (std::size_t r = 0; r < counts.size(); ++r) regions.push_back(input_of(body.regions()[r], counts[r]));
+    std::vector<RegionInput> regions = body.region_inputs();
+    for (std::size_t r = 0; r < counts.size(); ++r) regions[r].vertex_count = counts[r];
     const std::vector<float> signs(sockets.size(), 1.0f);
     BodyInput input;
     input.origin = body.origin();

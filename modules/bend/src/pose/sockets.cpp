@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "pose/instance.hpp"
 #include "kernel/kernels.hpp"
-#include "job/run.hpp"
+#include "pose/posed_group.hpp"
 
 #include <goffer/bend/sockets.hpp>
 
@@ -25,24 +24,30 @@ void Sockets::frames(std::span<const Pose> poses, std::span<SocketFrame> frames,
 }
 
 void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const noexcept {
-    const Posed posed = {&body_, poses_of(job), &job.transform, job.wrinkles};
+    const BodyData& body = *body_.data();
     const KernelSet& set = kernels(job.isa);
-    alignas(64) float planes[9][chunk];
+    alignas(64) float planes[10][chunk + largest_unit];
     const auto vector = [&](std::size_t plane, std::size_t i) {
         return glm::vec3(planes[plane][i], planes[plane + 1][i], planes[plane + 2][i]);
     };
-    each_region(posed, [&](std::size_t r, const Coefficients& k) {
-        const Region& region = body_.regions()[r];
-        for (std::size_t first = region.first; first < region.last; first += chunk) {
-            const std::size_t count = std::min(chunk, region.last - first);
-            run_block(body_, k, set, first, count, planes[0], chunk);
-            for (std::size_t i = 0; i < count; ++i) {
-                const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
-                frames[place_[first + i]] = {vector(0, i),
-                                             glm::mat3(tangent, glm::cross(normal, tangent), normal)};
-            }
-        }
-    });
+    const PlaneOutput out = {{planes[0], planes[1], planes[2]},
+                             {planes[3], planes[4], planes[5]},
+                             {planes[6], planes[7], planes[8], planes[9]}};
+    each_region(body, set.setup, poses_of(job), job.transform, job.wrinkle_weight,
+                [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
+                    const PlaneKernel kernel =
+                        set.plane_kernel(squeeze, StreamSet::positions_normals_tangents);
+                    const Region& region = body.regions[r];
+                    for (std::size_t first = region.first; first < region.last; first += chunk) {
+                        const std::size_t count = std::min(chunk, region.last - first);
+                        kernel(body.columns, k, out, first, count, Write::staged);
+                        for (std::size_t i = 0; i < count; ++i) {
+                            const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
+                            frames[place_[first + i]] = {
+                                vector(0, i), glm::mat3(tangent, glm::cross(normal, tangent), normal)};
+                        }
+                    }
+                });
 }
 
 }  // namespace goffer::bend

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/bend/fault.hpp>
 #include <goffer/bend/region.hpp>
-#include <goffer/engine/columns.hpp>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 /// A body: a mesh bound to its base cylinder, which is a chain of one or more regions. Made once, offline
@@ -50,116 +50,120 @@ struct BodyInput {
     std::span<const float> tangent_signs;  ///< as many as tangents: w, the bitangent's sign
 };
 
-/// What is wrong with a BodyInput. describe() names the field and what it should be.
-enum class BodyFault : std::uint8_t {
+/// The working range: what Body::check accepts, so that in every pose, under a transform with numbers up to
+/// 1e6, no number on the way to the outputs leaves float's range. (Positions and normals bear transforms up
+/// to 1e18; tangents do where wrinkles are not as steep as is allowed here.) Lengths are in model units.
+///
+/// Wrinkles are judged by a bound, not by their true depth: by the sum of a row's terms, all taken as
+/// positive and at their largest. For tables that fit makes it is up to five times the depth, and up to two
+/// hundred times in a region with a rest angle or an onset.
+struct WorkingRange {
+    static constexpr double least_length = 1e-12;  ///< of a region, and least radius
+    static constexpr double most_length = 1e12;    ///< of a region; most radius, and most rho of a vertex
+    static constexpr double most_origin = 1e15;    ///< |origin| on each axis
+    static constexpr double least_angle = 1e-12;  ///< least max_angle, of a region and of its tables, radians
+    static constexpr double most_angle = 1000;    ///< most max_angle; most |rest_direction|, radians
+    static constexpr double most_rest = 1 - 1e-5;  ///< most rest_angle, as a share of length / (2 radius)
+    static constexpr double most_wrinkle = 1e18;   ///< |wrinkle| and |slope| of a vertex, 1 / model units
+    static constexpr double most_depth = 1e15;     ///< deepest wrinkle that a table may ask for
+    static constexpr double most_growth = 1e6;     ///< what a wrinkle may stretch the surface by
+    /// What a vertex's distance from the axis, lifted by the deepest wrinkle, may be of the arc's radius
+    /// length / max_angle. (From 1 on the body folds through itself.)
+    static constexpr double most_reach = 1e4;
+};
+
+/// What of a BodyInput is wrong.
+enum class BodyField : std::uint8_t {
     none,
     origin,
     axes,
     radius,
-    regions,
-    region_length,
-    region_max_angle,
-    region_rest,
-    region_onset,
-    region_table,
-    region_factors,
-    region_vertices,
-    vertices,
+    regions,  ///< how many there are
+    length,   ///< this and those up to vertex_count: of a region
+    max_angle,
+    rest_angle,
+    rest_direction,
+    onset,
+    table,
+    factors,
+    vertex_count,  ///< of all regions together
+    vertices,      ///< how many there are
+    beta,          ///< this and those up to slope: of a vertex
+    z,
+    rho,
+    wrinkle,
+    slope,
     normals,
     tangents,
-    tangent_signs
+    tangent_signs,
 };
 
-/// One line on `fault`, in static storage. Thread-safe.
-[[nodiscard]] std::string_view describe(BodyFault fault) noexcept;
+/// The first fault of a BodyInput. A plain value; a default-made one is none.
+struct BodyFault {
+    static constexpr std::size_t nowhere = Fault::nowhere;
 
-/// Where a region begins: axes and origin in float, model space.
-struct Joint {
-    float axes[3][4];  ///< e1, e2, e3, each followed by a 0
-    float origin[4];   ///< centre of the cross-section, followed by a 0
+    BodyField field = BodyField::none;
+    Reason reason = Reason::none;
+    /// Of the region, vertex, normal or tangent. Nowhere: of the body, or of all of them.
+    std::size_t index = nowhere;
+
+    [[nodiscard]] bool none() const noexcept { return reason == Reason::none; }
+    [[nodiscard]] bool operator==(const BodyFault&) const noexcept = default;
 };
 
-/// A body's frame and size in float: what an instance's set-up reads.
-struct BodyFrame {
-    Joint base = {};  ///< of the whole: where the first region begins
-    float radius = 1;
-};
+/// `fault` in words: what, where, and what it should be, as in "regions[2].max_angle: not finite; ...".
+/// "no fault" for none. Does not allocate. Thread-safe.
+[[nodiscard]] FaultText describe(const BodyFault& fault) noexcept;
+
+struct BodyData;
 
 /// An immutable body. Move-only; share it by reference among jobs and threads. All functions are thread-safe.
 ///
-/// Vertices keep the order they were given in: vertex i of the body is vertex i of every output stream.
+/// Vertices keep the order they were given in: vertex i of the body is vertex i of every output stream. A
+/// body that was default-made or moved from is empty: it has no vertices and no regions, and validate()
+/// refuses it.
 class Body {
 public:
-    /// The columns that kernels read, one value per vertex.
-    enum Column : std::size_t {
-        cos_half_beta,  ///< sqrt(2) cos(beta / 2)
-        sin_half_beta,  ///< sqrt(2) sin(beta / 2)
-        rho,
-        lift,     ///< g w S, S of the column at rest: rho' = rho + amplitude * lift
-        height,   ///< z / L - 1/2, of its region
-        wrinkle,  ///< g w S / rho
-        slope,    ///< d(g w S) / dz
-        normal_rho,
-        normal_beta,
-        normal_z,
-        tangent_rho,
-        tangent_beta,
-        tangent_z,
-        tangent_sign,
-        cos_beta,     ///< cos(beta)
-        sin_beta,     ///< sin(beta)
-        rest_cosine,  ///< cos(beta) / S
-        rest_sine,    ///< sin(beta) / S
-    };
+    Body() noexcept;
+    Body(Body&& other) noexcept;
+    Body& operator=(Body&& other) noexcept;
+    ~Body();
 
-    /// Checks `input`; BodyFault::none if a body can be made from it. Does not allocate.
+    /// The first fault of `input`: what is missing, not finite, contradictory or outside WorkingRange. None
+    /// if a body can be made from it. Does not allocate.
     [[nodiscard]] static BodyFault check(const BodyInput& input) noexcept;
 
     /// Makes a body, or nothing where `check(input)` finds a fault. Allocates; may throw std::bad_alloc.
     [[nodiscard]] static std::optional<Body> make(const BodyInput& input);
 
-    [[nodiscard]] std::size_t vertex_count() const noexcept { return columns_.count(); }
-    [[nodiscard]] bool has_tangents() const noexcept { return has_tangents_; }
-    /// From base to tip; at least one.
-    [[nodiscard]] std::span<const Region> regions() const noexcept {
-        return {regions_.data(), region_count_};
-    }
-    [[nodiscard]] std::size_t region_count() const noexcept { return region_count_; }
-    /// Of all regions together.
-    [[nodiscard]] double length() const noexcept { return length_; }
-    [[nodiscard]] double radius() const noexcept { return radius_; }
-    /// The largest usable |angle| of a region, region < region_count(), radians: beyond it the body would
-    /// fold through itself, and poses are clamped to it.
-    [[nodiscard]] float max_angle(std::size_t region = 0) const noexcept {
-        return regions_[region].max_angle;
-    }
-    /// The pose of a region, region < region_count(), that returns the rest mesh.
-    [[nodiscard]] Pose rest_pose(std::size_t region = 0) const noexcept { return regions_[region].rest; }
-    [[nodiscard]] const glm::dvec3& origin() const noexcept { return origin_; }
-    [[nodiscard]] const glm::dmat3& axes() const noexcept { return axes_; }
-    /// origin(), axes() and radius(), rounded.
-    [[nodiscard]] const BodyFrame& frame() const noexcept { return frame_; }
+    [[nodiscard]] bool empty() const noexcept { return data_ == nullptr; }
+    [[nodiscard]] std::size_t vertex_count() const noexcept;
+    [[nodiscard]] bool has_tangents() const noexcept;
+    /// From base to tip; of a body that is not empty, at least one.
+    [[nodiscard]] std::span<const Region> regions() const noexcept;
+    /// What the regions were made from, unrounded. With origin(), axes() and radius() that is all of a
+    /// BodyInput but its vertices: a body made from them deforms a vertex of the same rest coordinates to the
+    /// same bits. Allocates; may throw std::bad_alloc.
+    [[nodiscard]] std::vector<RegionInput> region_inputs() const;
+    [[nodiscard]] std::size_t region_count() const noexcept { return regions().size(); }
+    /// Of all regions together, model units.
+    [[nodiscard]] double length() const noexcept;
+    [[nodiscard]] double radius() const noexcept;
+    /// Region::max_angle of region `region` < region_count().
+    [[nodiscard]] float max_angle(std::size_t region = 0) const noexcept;
+    /// Region::rest of region `region` < region_count().
+    [[nodiscard]] Pose rest_pose(std::size_t region = 0) const noexcept;
+    /// Centre of the base end, model space. An empty body has the frame of a default-made BodyInput.
+    [[nodiscard]] glm::dvec3 origin() const noexcept;
+    /// Columns e1, e2, e3 of the body frame.
+    [[nodiscard]] glm::dmat3 axes() const noexcept;
     /// Bytes of memory that the body holds.
     [[nodiscard]] std::size_t bytes() const noexcept;
-
-    /// A column, aligned and padded as Columns says. Tangent columns exist only where has_tangents(),
-    /// those from cos_beta on only where a region compares_with_rest.
-    [[nodiscard]] std::span<const float> column(Column column) const noexcept {
-        return columns_[column < cos_beta || has_tangents_ ? column : column - (cos_beta - tangent_rho)];
-    }
+    /// For the runtime's own files; null of an empty body.
+    [[nodiscard]] const BodyData* data() const noexcept { return data_.get(); }
 
 private:
-    Body() = default;
-
-    Columns columns_;
-    std::vector<Region> regions_;
-    std::size_t region_count_ = 0;  // the vector would divide to know
-    BodyFrame frame_;
-    glm::dvec3 origin_{0};
-    glm::dmat3 axes_{1};
-    double length_ = 1;
-    double radius_ = 1;
-    bool has_tangents_ = false;
+    std::unique_ptr<const BodyData> data_;
 };
 
 }  // namespace goffer::bend

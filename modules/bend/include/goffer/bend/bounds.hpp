@@ -13,6 +13,8 @@
 
 namespace goffer::bend {
 
+struct Batch;
+
 /// The box that holds every vertex of `body`, which has one region, at `pose` under `transform` (model space
 /// to the box's space), with a margin for rounding of 1e-5 of the body's size. `pose` and `transform` finite;
 /// a pose beyond the body's max_angle() is clamped. Conservative: for round bodies at most 1.3 times as long
@@ -30,6 +32,10 @@ namespace goffer::bend {
 
 /// Of a job's current pose and transform. `job.body` not null. The bounds that its packed stream is in.
 [[nodiscard]] Bounds bounds(const DeformJob& job) noexcept;
+
+/// Of every instance of `batch`, whatever its masks say: result[i] of instance i. For culling before the
+/// masks are known. `result` is the caller's and holds batch.count.
+void bounds(const Batch& batch, std::span<Bounds> result, Isa isa = Isa::automatic) noexcept;
 
 /// Of every job: result[i] of jobs[i]. `result` is the caller's and holds as many.
 void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept;

@@ -27,7 +27,7 @@ enum class PathFault : std::uint8_t { none, too_few_points, not_finite, repeated
 /// How a body lies along a path.
 struct PathFit {
     /// From model space to the path's: a rotation and a shift that put the base's centre on the first point,
-    /// the axis along the first piece. The job's transform, if the instance is to lie on the path.
+    /// the axis along the path's beginning. The job's transform, if the instance is to lie on the path.
     glm::mat4x3 transform{1};
     /// The largest distance from the centre line to the path's part that it runs along, measured at 16 places
     /// of each region, units of the path. A path shorter than the body goes straight on.
@@ -35,16 +35,21 @@ struct PathFit {
     bool clamped = false;  ///< a region would have had to bend beyond its max_angle(): it bends so far only
 };
 
-/// Poses for the regions of `body`, one each into `poses` (the caller's, as many as there are regions), such
-/// that its centre line runs along the polyline `points`, which check_path finds no fault in. Each region
-/// ends in the direction that the path has as far along as the region reaches; positions follow from that.
-/// For a smooth path the error falls with the square of the regions' lengths; more of them fit closer. The
-/// path's corners are not rounded first: of a path with long pieces only directions at the regions' ends
-/// count. Does not allocate. Thread-safe.
+/// Poses for the regions of `body`, one each into `poses` (the caller's; of fewer, the first regions get
+/// theirs, and the rest of the body is not looked at), such that its centre line runs along the polyline
+/// `points`. Each region ends in the direction that the path has as far along as the region reaches;
+/// positions follow from that. For a smooth path the error falls with the square of the regions' lengths;
+/// more of them fit closer. The path's corners are not rounded first: of a path with long pieces only
+/// directions at the regions' ends count. Does not allocate. Thread-safe. Time goes with the number of
+/// points.
+///
+/// Points that repeat the one before them are passed over; where all points are one, the body goes straight
+/// on from there, unturned. Fewer than two points, or one that is not finite: all poses are straight, the
+/// transform is the identity, and the error is infinite.
 PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses) noexcept;
 
-/// The same along the cubic Bezier curve of four control points, no two neighbours of which are equal: a
-/// polyline of 256 pieces stands for it.
+/// The same along the cubic Bezier curve of four control points, some of which may be equal; directions are
+/// the curve's own. Some 4 microseconds for 16 regions.
 PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses) noexcept;
 
 }  // namespace goffer::bend

@@ -15,6 +15,8 @@ struct Pose {
     /// Direction theta that the body bends towards, radians about the axis from the body's e1 to its e2. Any
     /// value.
     float direction = 0;
+
+    [[nodiscard]] bool operator==(const Pose&) const noexcept = default;
 };
 
 static_assert(sizeof(Pose) == 8 && std::is_trivially_copyable_v<Pose>);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/bend/method.hpp>
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -9,9 +11,6 @@
 
 namespace goffer::bend {
 
-/// Degree of the amplitude profile in T = 1 + cos(beta - theta).
-inline constexpr std::size_t wrinkle_degree = 7;
-
 /// Coefficients of the amplitude profile over the columns, for one bend angle.
 ///
 /// The amplitude of the column at beta is
@@ -19,8 +18,8 @@ inline constexpr std::size_t wrinkle_degree = 7;
 /// in model units, with the region's size and the area factor m(alpha) in it. (The squeeze is q = kappa T:
 /// its root is the square-root start of eq 7's solution; P is its smooth rest.)
 ///
-/// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc (DESIGN's
-/// 2.5) and begins gently: with S and S_0 the column's scale in the pose and at rest,
+/// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc and
+/// begins gently: with S and S_0 the column's scale in the pose and at rest,
 ///     q = max(0, 1 - S / S_0),   q' = q^2 / (q + q0),   A = S_0 sqrt(q') P(q' / kappa).
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
@@ -34,7 +33,7 @@ struct WrinkleTable {
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
     /// The row at `angle`, linear between the two nearest, clamped to the table; zeros where there are no
-    /// rows. Does not allocate. Thread-safe.
+    /// rows. An angle that is not finite counts as 0. Does not allocate. Thread-safe.
     [[nodiscard]] WrinkleRow at(float angle) const noexcept;
 };
 
@@ -49,8 +48,9 @@ struct FactorTable {
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
-    /// The factor at `angle` >= 0 and any finite `direction`: its square linear between its four neighbours,
-    /// the angle clamped to the table's; 1 where there are no rows. Does not allocate. Thread-safe.
+    /// The factor at `angle` and any `direction`: its square linear between its four neighbours, the angle
+    /// clamped to the table's; 1 where there are no rows. What is not finite counts as 0. Does not allocate.
+    /// Thread-safe.
     [[nodiscard]] float at(float angle, float direction) const noexcept;
 };
 

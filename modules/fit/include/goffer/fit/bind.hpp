@@ -32,7 +32,7 @@ struct BindOptions {
     /// From base to tip, at most bend::max_regions; none: the body is one region. Their lengths and folds are
     /// fixed at bind; each has an angle and a direction of its own in a pose.
     std::vector<RegionOptions> regions;
-    /// q0 (DESIGN 2.2), 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently; columns
+    /// q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently; columns
     /// become shorter by up to about q0 of their length for it. Unset: 0, and gentle_onset for a body that is
     /// bent at rest, where without it the wrinkle would begin with a step.
     std::optional<double> onset;
@@ -57,7 +57,7 @@ struct BoundRegion {
     int folds_capacity = 0;  ///< most folds that the mesh has vertices for
 };
 
-/// A body, and what was found on the way.
+/// A body, and what was found on the way. It is a rig, too: bind_level() puts other meshes on it.
 struct Bound {
     bend::Body body;
     std::vector<BoundRegion> regions;  ///< as many as the body's
@@ -78,12 +78,33 @@ struct Bound {
 /// replaced (normals by made ones, tangents by a direction orthogonal to the normal).
 ///
 /// Throws Error: what check(geometry) and check(cylinder) throw; an option out of range; a vertex of a
-/// triangle below z = 0 or above z = length by more than a thousandth of it; a rest angle that no
-/// such body can have; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A
+/// triangle below z = 0 or above z = length by more than a thousandth of it; numbers outside
+/// bend::WorkingRange; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A
 /// vertex that no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per
 /// 10,000 vertices and 10 ms for each region's table; Amplitude::mesh deforms the mesh some hundred times, on
 /// all processors: a tenth of a second for 10,000 vertices.
 [[nodiscard]] Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options = {});
+
+/// Binds another mesh of the same model to the rig of `rig`: a level of detail, a layer of clothes.
+/// The new body shares with it the cylinder, the regions with their lengths, folds, rest arcs and onsets, the
+/// tables of wrinkles and factors, and the largest angles. One array of poses serves both, and vertices whose
+/// positions at rest are equal, bit for bit, are deformed to positions that are equal, bit for bit: where a
+/// level keeps vertices of the finer mesh, they don't move when levels change.
+///
+/// The level's own are its vertices, their normals and tangents (carried or made as bind() does) and, in the
+/// result, BoundRegion::folds_capacity and Bound::order. `level` is in the model space of the mesh that the
+/// rig was bound from. Bind the finest level with bind(), where folds are chosen and Amplitude::mesh is
+/// solved, and the others to it: a coarser one gets the finer one's wrinkles as far as its rows can show
+/// them, and keeps its area as well as it resembles the finer one.
+///
+/// Vertices of its triangles may lie off the finer mesh, as a simplifier leaves them, but not beyond the base
+/// cylinder's ends by more than a thousandth of its length. The largest angles are not taken back for a
+/// vertex that lies farther from the axis than all of the rig's: at these angles such a vertex may fold
+/// through the body. `rig` is not needed afterwards, and may itself be a level.
+///
+/// Throws Error: what check(level) throws; an empty rig; a vertex beyond the ends; numbers outside
+/// bend::WorkingRange. Thread-safe. About 1 ms per 10,000 vertices.
+[[nodiscard]] Bound bind_level(const Geometry& level, const Bound& rig);
 
 /// The wrinkle table for a base cylinder: `rows` rows from angle 0 to `max_angle` (radians, > 0), made in
 /// double from eq 7's solution at Chebyshev points; kernels that interpolate 256 of them stay within 5e-6 L

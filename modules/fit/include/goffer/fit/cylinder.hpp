@@ -56,7 +56,8 @@ enum class Rest {
                                     Rest rest = Rest::automatic);
 
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or
-/// radius not positive, axis or zero not of unit length (1e-3) or not orthogonal (1e-3).
+/// radius not positive, rest_angle negative or not below 2 pi and length / (2 radius), axis or zero not of
+/// unit length (1e-3) or not orthogonal (1e-3).
 void check(const Cylinder& cylinder);
 
 /// A stretch of `cylinder` as a cylinder of its own: `length` long, and else the same. Thread-safe.
@@ -66,7 +67,7 @@ void check(const Cylinder& cylinder);
 }
 
 /// z of each position (model space): its height along the axis, or along the rest arc where there is one.
-/// `cylinder` as `check` accepts it, its rest angle as bind does. Pure; may be called from any thread.
+/// `cylinder` as `check` accepts it. Pure; may be called from any thread.
 [[nodiscard]] std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder);
 
 /// The most folds per half length that the mesh can carry: a fold needs 8 rows of vertices along z, so an

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-/// Regions in a row (DESIGN 2.4): each bends along an arc of its own and begins in the frame that the end of
+/// Regions in a row: each bends along an arc of its own and begins in the frame that the end of
 /// the one before carries, without twist. In double; not in the paper, which has one region.
 
 namespace goffer::paper {

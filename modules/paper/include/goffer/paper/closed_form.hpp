@@ -40,9 +40,9 @@ struct Body {
     int folds = 0;        ///< k; 0: no wrinkle
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
-    double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that it is bent along at rest (DESIGN 2.5)
+    double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that it is bent along at rest
     double rest_direction = 0;  ///< theta_0
-    double onset = 0;           ///< q0: the amplitude is that of q^2 / (q + q0) (DESIGN 2.2)
+    double onset = 0;           ///< q0: the amplitude is that of q^2 / (q + q0)
 };
 
 /// One instance's state. angle alpha < 0 means (|alpha|, theta + pi).

@@ -22,8 +22,8 @@ enum class Amplitude {
     none,   ///< no wrinkle: the bare bend
     paper,  ///< eq 7: every column keeps its length on the flat strip
     area,   ///< eq 7 times m(alpha): the lateral area of the bent, wrinkled base is 2 pi r L
-    mesh,  ///< eq 7 times m(alpha, theta), solved on a mesh's own triangles at bind (DESIGN 2.2); here, where
-           ///< there is no mesh, as `paper`
+    mesh,   ///< eq 7 times m(alpha, theta), solved on a mesh's own triangles at bind; here, where
+            ///< there is no mesh, as `paper`
 };
 
 /// Wrinkle shape g(u), u in 0..1, for `folds` k >= 1 oscillations per half length.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/kernel_args.hpp"
+#include "kernel/args.hpp"
 
 #include <utility>
 
@@ -57,7 +57,7 @@ typename L::Vec records(const typename L::Vec (&spread)[N / group], std::integer
 
 /// The records of W / group vertices from `from` on: N / group batches.
 template <class L, int N, int group, int from, int... c>
-void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool streaming,
+void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_temporal,
                       std::integer_sequence<int, c...>) {
     using P = Places<static_cast<int>(L::width), N, group>;
     const typename L::Vec spread[N / group] = {L::template shuffle<typename P::template Spread<c, from>>(
@@ -66,32 +66,33 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool stream
         records<L, N, group, c>(spread, std::make_integer_sequence<int, N / group - 1>())...};
     for (std::size_t j = 0; j < N / group; ++j) {
         float* at = to + j * L::width;
-        streaming ? L::stream(at, batches[j]) : L::store(at, batches[j]);
+        non_temporal ? L::stream(at, batches[j]) : L::store(at, batches[j]);
     }
 }
 
 /// One register's planes as so many records of N floats.
 template <class L, int N>
-void store_records(const typename L::Vec (&planes)[N], float* to, bool streaming) {
+void store_records(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
     constexpr int W = static_cast<int>(L::width);
     if constexpr (W == 1) {
         for (int c = 0; c < N; ++c) L::store(to + c, planes[c]);
     } else if constexpr (N % 2 == 1) {
-        spread_and_store<L, N, 1, 0>(planes, to, streaming, std::make_integer_sequence<int, N>());
+        spread_and_store<L, N, 1, 0>(planes, to, non_temporal, std::make_integer_sequence<int, N>());
     } else {
         constexpr auto groups = std::make_integer_sequence<int, N / 2>();
-        spread_and_store<L, N, 2, 0>(planes, to, streaming, groups);
-        spread_and_store<L, N, 2, W / 2>(planes, to + N / 2 * L::width, streaming, groups);
+        spread_and_store<L, N, 2, 0>(planes, to, non_temporal, groups);
+        spread_and_store<L, N, 2, W / 2>(planes, to + N / 2 * L::width, non_temporal, groups);
     }
 }
 
 template <class L, int N>
-GOFFER_FLATTENED void interleave(const float* planes, std::size_t plane_stride, std::size_t lines, float* to,
-                                 bool streaming) {
+GOFFER_FLATTENED void weave(const float* const* planes, std::size_t lines, float* to, bool non_temporal) {
+    const float* from[N];
+    for (std::size_t c = 0; c < N; ++c) from[c] = planes[c];
     for (std::size_t i = 0; i < lines * line_floats; i += L::width, to += N * L::width) {
         typename L::Vec batch[N];
-        for (std::size_t c = 0; c < N; ++c) batch[c] = L::load(planes + c * plane_stride + i);
-        store_records<L, N>(batch, to, streaming);
+        for (std::size_t c = 0; c < N; ++c) batch[c] = L::load(from[c] + i);
+        store_records<L, N>(batch, to, non_temporal);
     }
 }
 

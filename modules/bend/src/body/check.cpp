@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/body.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace goffer::bend {
+namespace {
+
+using Range = WorkingRange;
+
+/// A number and where it may lie.
+struct Limited {
+    BodyField field;
+    double value;
+    double low, high;
+};
+
+Reason reason_of(double value, double low, double high) noexcept {
+    if (!std::isfinite(value)) return Reason::not_finite;
+    return value >= low && value <= high ? Reason::none : Reason::out_of_range;
+}
+
+BodyFault first_fault(std::span<const Limited> numbers, std::size_t index) noexcept {
+    for (const Limited& number : numbers) {
+        const Reason reason = reason_of(number.value, number.low, number.high);
+        if (reason != Reason::none) return {number.field, reason, index};
+    }
+    return {};
+}
+
+BodyFault check_origin(const glm::dvec3& origin) noexcept {
+    constexpr double most = Range::most_origin;
+    const Limited numbers[] = {{BodyField::origin, origin.x, -most, most},
+                               {BodyField::origin, origin.y, -most, most},
+                               {BodyField::origin, origin.z, -most, most}};
+    return first_fault(numbers, BodyFault::nowhere);
+}
+
+BodyFault check_axes(const glm::dmat3& axes) noexcept {
+    constexpr double tolerance = 1e-6;
+    bool rotation = true;
+    for (int i = 0; i < 3; ++i) {
+        const double length = glm::length(axes[i]), across = glm::dot(axes[i], axes[(i + 1) % 3]);
+        if (!std::isfinite(length)) return {BodyField::axes, Reason::not_finite};
+        rotation = rotation && std::fabs(length - 1) <= tolerance && std::fabs(across) <= tolerance;
+    }
+    if (rotation && glm::determinant(axes) > 0) return {};
+    return {BodyField::axes, Reason::out_of_range};
+}
+
+/// Of a WrinkleTable or a FactorTable.
+template <class Table>
+Reason check_table(const Table& table) noexcept {
+    if (table.empty()) return Reason::none;
+    if (table.rows.size() < 2) return Reason::count;
+    for (const auto& row : table.rows) {
+        const bool finite = std::ranges::all_of(row, [](float value) { return std::isfinite(value); });
+        if (!finite) return Reason::not_finite;
+    }
+    const auto angle = static_cast<double>(table.max_angle);
+    return reason_of(angle, Range::least_angle, static_cast<double>(std::numeric_limits<float>::max()));
+}
+
+bool compares_with_rest(const RegionInput& region) noexcept {
+    return region.rest_angle != 0 || region.onset != 0;
+}
+
+/// The largest factor on the amplitude; one without a table.
+double most_factor(const FactorTable& factors) noexcept {
+    float square = factors.empty() ? 1.0f : 0.0f;
+    for (const auto& row : factors.rows) square = std::max(square, *std::ranges::max_element(row));
+    return std::sqrt(static_cast<double>(square));
+}
+
+/// Bounds on what instances make of a region's wrinkle.
+struct Wrinkle {
+    double depth = 0;      ///< on the amplitude A, or A / S_0
+    double amplitude = 0;  ///< on the coefficients of the polynomial that kernels evaluate
+};
+
+/// A relative squeeze's polynomial is one in q, so that coefficients are divided by powers of kappa, which is
+/// taken as 1e-4 at least; a row serves from the angle of the row before it on. There q / kappa stays below
+/// 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
+Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
+    const bool relative = compares_with_rest(region);
+    const double per_angle = radius / region.length;
+    const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle);
+    const double step = relative ? 4.5 : 2, factor = most_factor(region.factors);
+    const auto& rows = region.table.rows;
+    Wrinkle largest;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double share = i == 0 ? 0 : static_cast<double>(i - 1) / static_cast<double>(rows.size() - 1);
+        const double kappa = share * share * static_cast<double>(region.table.max_angle) * per_angle;
+        const double per_power = relative ? 1 / std::max(kappa, 1e-4) : 1;
+        double depth = 0, power = 1, scale = factor;
+        for (const float coefficient : rows[i]) {
+            const double size = std::fabs(static_cast<double>(coefficient));
+            depth += size * power;
+            largest.amplitude = std::max(largest.amplitude, size * scale);
+            power *= step;
+            scale *= per_power;
+        }
+        largest.depth = std::max(largest.depth, root * factor * depth);
+    }
+    return largest;
+}
+
+bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
+    constexpr double most_coefficient = 1e36;  // times 15 in a slope's, and still a float
+    return wrinkle.depth <= Range::most_depth && wrinkle.amplitude <= most_coefficient;
+}
+
+BodyFault check_region(const RegionInput& region, std::size_t index, double radius) noexcept {
+    const double most = region.length / (2 * radius);
+    const double most_angle = std::min(most * (1 + 1e-6), Range::most_angle);
+    const double most_rest = std::min(most * Range::most_rest, region.max_angle);
+    const double most_direction = Range::most_angle;
+    const Limited numbers[] = {
+        {BodyField::length, region.length, Range::least_length, Range::most_length},
+        {BodyField::max_angle, region.max_angle, Range::least_angle, most_angle},
+        {BodyField::rest_angle, region.rest_angle, 0, most_rest},
+        {BodyField::rest_direction, region.rest_direction, -most_direction, most_direction},
+        {BodyField::onset, region.onset, 0, 1}};
+    if (const BodyFault fault = first_fault(numbers, index); !fault.none()) return fault;
+    if (const Reason reason = check_table(region.factors); reason != Reason::none)
+        return {BodyField::factors, reason, index};
+    Reason reason = check_table(region.table);
+    if (reason == Reason::none && !wrinkle_fits(wrinkle_of(region, radius))) reason = Reason::out_of_range;
+    return reason == Reason::none ? BodyFault{} : BodyFault{BodyField::table, reason, index};
+}
+
+BodyFault check_counts(const BodyInput& input) noexcept {
+    if (input.vertices.empty()) return {BodyField::vertices, Reason::empty};
+    std::size_t left = input.vertices.size();
+    for (const RegionInput& region : input.regions) {
+        if (region.vertex_count > left) return {BodyField::vertex_count, Reason::count};
+        left -= region.vertex_count;
+    }
+    return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
+}
+
+BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,
+                       double depth) noexcept {
+    constexpr double most = std::numeric_limits<double>::max(), most_wrinkle = Range::most_wrinkle;
+    const double slack = 1e-3 * region.length;
+    const double growth = depth * std::fabs(v.wrinkle);
+    const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
+    const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
+                               {BodyField::z, v.z, -slack, region.length + slack},
+                               {BodyField::rho, v.rho, 0, Range::most_length},
+                               {BodyField::wrinkle, v.wrinkle, -most_wrinkle, most_wrinkle},
+                               {BodyField::slope, v.slope, -most_wrinkle, most_wrinkle},
+                               {BodyField::wrinkle, growth, 0, Range::most_growth},
+                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::most_growth},
+                               {BodyField::rho, reach, 0, Range::most_reach}};
+    return first_fault(numbers, index);
+}
+
+BodyFault check_vertices(const BodyInput& input) noexcept {
+    std::size_t i = 0;
+    for (const RegionInput& region : input.regions) {
+        const double depth = wrinkle_of(region, input.radius).depth;
+        for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
+            const BodyFault fault = check_vertex(input.vertices[i], i, region, depth);
+            if (!fault.none()) return fault;
+        }
+    }
+    return {};
+}
+
+BodyFault check_units(BodyField field, std::span<const RestVector> vectors, std::size_t count) noexcept {
+    if (vectors.size() != count) return {field, Reason::count};
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [rho, beta, z] = vectors[i];
+        const Reason reason = reason_of(rho * rho + beta * beta + z * z, 1 - 1e-3, 1 + 1e-3);
+        if (reason != Reason::none) return {field, reason, i};
+    }
+    return {};
+}
+
+BodyFault check_signs(std::span<const float> signs, std::size_t count) noexcept {
+    if (signs.size() != count) return {BodyField::tangent_signs, Reason::count};
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!std::isfinite(signs[i])) return {BodyField::tangent_signs, Reason::not_finite, i};
+    }
+    return {};
+}
+
+BodyFault check_frame(const BodyInput& input) noexcept {
+    if (const BodyFault fault = check_origin(input.origin); !fault.none()) return fault;
+    if (const BodyFault fault = check_axes(input.axes); !fault.none()) return fault;
+    const Limited radius{BodyField::radius, input.radius, Range::least_length, Range::most_length};
+    return first_fault({&radius, 1}, BodyFault::nowhere);
+}
+
+BodyFault check_regions(const BodyInput& input) noexcept {
+    if (input.regions.empty()) return {BodyField::regions, Reason::empty};
+    if (input.regions.size() > max_regions) return {BodyField::regions, Reason::count};
+    for (std::size_t r = 0; r < input.regions.size(); ++r) {
+        const BodyFault fault = check_region(input.regions[r], r, input.radius);
+        if (!fault.none()) return fault;
+    }
+    return check_counts(input);
+}
+
+BodyFault check_vectors(const BodyInput& input) noexcept {
+    const std::size_t count = input.vertices.size();
+    if (const BodyFault fault = check_units(BodyField::normals, input.normals, count); !fault.none())
+        return fault;
+    const std::size_t tangents = input.tangents.empty() ? 0 : count;
+    if (const BodyFault fault = check_units(BodyField::tangents, input.tangents, tangents); !fault.none())
+        return fault;
+    return check_signs(input.tangent_signs, tangents);
+}
+
+}  // namespace
+
+BodyFault Body::check(const BodyInput& input) noexcept {
+    for (const auto part : {check_frame, check_regions, check_vertices, check_vectors}) {
+        if (const BodyFault fault = part(input); !fault.none()) return fault;
+    }
+    return {};
+}
+
+}  // namespace goffer::bend

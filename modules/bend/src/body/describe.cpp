@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/body.hpp>
+
+#include <cstdio>
+
+namespace goffer::bend {
+namespace {
+
+/// How a field is called, and what it should be.
+struct Words {
+    const char* list;    ///< what its index counts in; empty: nothing
+    const char* member;  ///< behind the index
+    const char* wanted;
+};
+
+Words words_of(BodyField field) noexcept {
+    switch (field) {
+        case BodyField::none:
+            break;
+        case BodyField::origin:
+            return {"", "origin", "three numbers within 1e15"};
+        case BodyField::axes:
+            return {"", "axes", "a right-handed orthonormal frame"};
+        case BodyField::radius:
+            return {"", "radius", "from 1e-12 to 1e12"};
+        case BodyField::regions:
+            return {"", "regions", "one to max_regions"};
+        case BodyField::length:
+            return {"regions", ".length", "from 1e-12 to 1e12"};
+        case BodyField::max_angle:
+            return {"regions", ".max_angle", "from 1e-12 to 1000 radians and to length / (2 radius)"};
+        case BodyField::rest_angle:
+            return {"regions", ".rest_angle", "0 to max_angle, and below length / (2 radius) by 1e-5 of it"};
+        case BodyField::rest_direction:
+            return {"regions", ".rest_direction", "within 1000 radians"};
+        case BodyField::onset:
+            return {"regions", ".onset", "0 to 1"};
+        case BodyField::table:
+            return {"regions", ".table",
+                    "no rows or two and more, of finite numbers, up to 1e-12 radians or more, of wrinkles no "
+                    "deeper than 1e15"};
+        case BodyField::factors:
+            return {"regions", ".factors",
+                    "no rows or two and more, of finite numbers, up to 1e-12 radians or more"};
+        case BodyField::vertex_count:
+            return {"", "regions.vertex_count", "adding up to the number of vertices"};
+        case BodyField::vertices:
+            return {"", "vertices", "at least one"};
+        case BodyField::beta:
+            return {"vertices", ".beta", "a number"};
+        case BodyField::z:
+            return {"vertices", ".z", "0 to its region's length, within a thousandth of that"};
+        case BodyField::rho:
+            return {"vertices", ".rho",
+                    "0 to 1e12, and with the deepest wrinkle at most 1e4 length / max_angle"};
+        case BodyField::wrinkle:
+            return {"vertices", ".wrinkle",
+                    "within 1e18, and such that the deepest wrinkle stretches by 1e6 at most"};
+        case BodyField::slope:
+            return {"vertices", ".slope",
+                    "within 1e18, and such that the deepest wrinkle is no steeper than 1e6"};
+        case BodyField::normals:
+            return {"normals", "", "one per vertex, of unit length"};
+        case BodyField::tangents:
+            return {"tangents", "", "none or one per vertex, of unit length"};
+        case BodyField::tangent_signs:
+            return {"tangent_signs", "", "as many as tangents, each a number"};
+    }
+    return {"", "unknown", "a field"};
+}
+
+const char* words_of(Reason reason) noexcept {
+    switch (reason) {
+        case Reason::empty:
+            return "none";
+        case Reason::not_finite:
+            return "not finite";
+        case Reason::count:
+            return "wrong number";
+        default:
+            return "out of range";
+    }
+}
+
+}  // namespace
+
+FaultText describe(const BodyFault& fault) noexcept {
+    FaultText result;
+    if (fault.none()) {
+        std::snprintf(result.text, sizeof(result.text), "no fault");
+        return result;
+    }
+    const auto [list, member, wanted] = words_of(fault.field);
+    char index[24] = "";
+    if (fault.index != BodyFault::nowhere) std::snprintf(index, sizeof(index), "[%zu]", fault.index);
+    std::snprintf(result.text, sizeof(result.text), "%s%s%s: %s; wanted: %s", list, index, member,
+                  words_of(fault.reason), wanted);
+    return result;
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "job/batch_runner.hpp"
+
+#include "pose/bounds_of.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace goffer::bend {
+namespace {
+
+/// A block's rest columns, nine or twelve of them, stay in the first-level cache.
+constexpr std::size_t block_vertices = 512;
+
+/// From so many whole lines' vertices of a region on kernels write them directly; shorter stretches go
+/// through the stage with the joints beside them.
+constexpr std::size_t least_direct = 48;
+
+PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
+    PlaneOutput moved = {};
+    const auto move = [&](float* plane) { return plane == nullptr ? nullptr : plane + vertices; };
+    for (std::size_t c = 0; c < 3; ++c) {
+        moved.position[c] = move(out.position[c]);
+        moved.normal[c] = move(out.normal[c]);
+    }
+    for (std::size_t c = 0; c < 4; ++c) moved.tangent[c] = move(out.tangent[c]);
+    return moved;
+}
+
+/// Positions in steps of the box: what the packed kernel rounds.
+void quantise(Coefficients& k, const Bounds& bounds) noexcept {
+    for (int row = 0; row < 3; ++row) {
+        const float extent = bounds.high[row] - bounds.low[row];
+        const float scale = extent > 0 ? 65535.0f / extent : 0.0f;
+        for (int c = 0; c < 3; ++c) k.matrix[4 * c + row] *= scale;
+        k.offset[row] = (k.offset[row] - bounds.low[row]) * scale;
+    }
+}
+
+}  // namespace
+
+static_assert(sizeof(BatchRunner) <= std::size_t{64} << 10, "crowd.hpp states how much stack a run takes");
+
+BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
+    : batch_(batch),
+      body_(*batch.body->data()),
+      kernels_(kernels),
+      plan_(batch, non_temporal),
+      regions_(body_.regions.size()),
+      bounded_(!batch.packed.empty() || !batch.bounds.empty()),
+      posed_(body_, kernels.setup),
+      stage_(plan_) {
+    bool streams = false;
+    for (const PassPlan& pass : plan_.passes()) {
+        streams |= pass.pass == Pass::current;
+        if (pass.pass == Pass::previous) set_of(Pass::previous) = set_count_++;
+    }
+    posed_now_ = streams || bounded_;
+    if (posed_now_) set_of(Pass::current) = set_count_++;
+    // Packed vertices alone are made from the current coefficients themselves.
+    set_of(Pass::packed) = !batch.packed.empty() && streams ? set_count_++ : set_of(Pass::current);
+    assert(set_count_ != 0 && "a batch that asks for nothing: see validate()");
+    group_size_ = std::clamp<std::size_t>(
+        most_coefficients / (std::max<std::size_t>(set_count_, 1) * regions_), 1, setup_width);
+}
+
+void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last) noexcept {
+    const bool whole = first == 0 && last == body_.vertex_count;
+    if (!whole) finish();
+    const std::size_t element = element_of(batch_, instance);
+    const std::size_t vertex =
+        batch_.places.empty() ? instance * batch_.step : std::size_t{batch_.places[element]};
+    members_[member_count_++] = {instance, element, vertex, plan_.head(vertex)};
+    if (!whole) {
+        run_group(first, last);
+    } else if (member_count_ == group_size_) {
+        run_group(0, last);
+    }
+}
+
+void BatchRunner::finish() noexcept {
+    if (member_count_ != 0) run_group(0, body_.vertex_count);
+    strips_.flush(plan_, kernels_);
+}
+
+void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
+    set_up(first == 0);
+    for (std::size_t begin = first; begin < last;) {
+        const std::size_t end = (begin / block_vertices + 1) * block_vertices;
+        for (std::size_t i = 0; i < member_count_; ++i) {
+            // Blocks end where lines end, which is not at the same vertex for every instance.
+            const std::size_t head = members_[i].head;
+            const std::size_t from = begin == first ? first : std::min(begin + head, last);
+            deform(i, from, end >= last ? last : std::min(end + head, last));
+        }
+        begin = end;
+    }
+    member_count_ = 0;
+}
+
+void BatchRunner::set_up(bool count_poses) noexcept {
+    for (const PassPlan& pass : plan_.passes()) {
+        if (pass.pass == Pass::previous) set_up_poses(Time::before, set_of(Pass::previous), false);
+    }
+    const std::size_t current = set_of(Pass::current);
+    if (posed_now_) set_up_poses(Time::now, current, count_poses);
+    if (!bounded_) return;
+    for (std::size_t i = 0; i < member_count_; ++i) {
+        const Bounds bounds = bounds_of(body_, coefficients(i, current), squeezes(i, current));
+        if (!batch_.bounds.empty() && count_poses) batch_.bounds[members_[i].instance] = bounds;
+        if (!batch_.packed.empty()) set_up_packed(i, bounds);
+    }
+}
+
+void BatchRunner::set_up_poses(Time time, std::size_t set, bool count_poses) noexcept {
+    posed_.clear();
+    for (std::size_t i = 0; i < member_count_; ++i) {
+        const PoseState state = posed_.add(batch_, members_[i].element, time);
+        if (!count_poses) continue;
+        ++result_.deformed;
+        result_.clamped += state.clamped ? 1 : 0;
+        result_.at_rest += state.at_rest ? 1 : 0;
+    }
+    for (std::size_t r = 0; r < regions_; ++r) {
+        posed_.set_up(r, coefficients(0, set) + r, set_count_ * regions_);
+        for (std::size_t i = 0; i < member_count_; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
+    }
+}
+
+void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexcept {
+    const std::size_t current = set_of(Pass::current);
+    const std::size_t packed = set_of(Pass::packed);
+    Coefficients* const k = coefficients(member, packed);
+    if (packed != current) {
+        std::copy_n(coefficients(member, current), regions_, k);
+        std::copy_n(squeezes(member, current), regions_, squeezes(member, packed));
+    }
+    for (std::size_t r = 0; r < regions_; ++r) quantise(k[r], bounds);
+}
+
+std::size_t BatchRunner::line_before(std::size_t member, std::size_t vertex) const noexcept {
+    const std::size_t head = members_[member].head;
+    return vertex < head ? 0 : vertex - (vertex - head) % line_floats;
+}
+
+std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) const noexcept {
+    const std::size_t before = line_before(member, vertex);
+    return before == vertex                 ? vertex
+           : vertex < members_[member].head ? members_[member].head
+                                            : before + line_floats;
+}
+
+/// Where a stretch that goes through the stage ends, which begins at `first` in `region`: behind the last
+/// joint that shares its lines, or where lines of one region follow that are worth a kernel of their own.
+std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std::size_t first,
+                                    std::size_t last) const noexcept {
+    std::size_t end = first;
+    for (;; ++region) {
+        end = std::max(end, std::min(line_behind(member, body_.regions[region].last), last));
+        if (end == last) return end;
+        while (body_.regions[region + 1].last <= end) ++region;
+        const std::size_t next = std::min(body_.regions[region + 1].last, last);
+        if (line_before(member, next) >= end + least_direct) return end;
+    }
+}
+
+/// Calls deform(region, begin, end) for each part of the vertices [first, last) that lies in one region.
+template <class Deform>
+void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept {
+    for (std::size_t region = 0; first < last; ++region) {
+        const std::size_t end = std::min(body_.regions[region].last, last);
+        if (end <= first) continue;
+        deform(region, first, end);
+        first = end;
+    }
+}
+
+/// Where a block ends that begins at `first`: where lines end, and after at most `most` vertices.
+std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::size_t last,
+                                   std::size_t most) const noexcept {
+    const std::size_t head = members_[member].head;
+    const std::size_t end =
+        first < head ? head + most - line_floats : head + ((first - head) / most + 1) * most;
+    return std::min(end, last);
+}
+
+void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last) noexcept {
+    if (first >= last) return;
+    if (plan_.has(Way::staged)) return deform_staged(member, Way::staged, first, last);
+    if (plan_.has(Way::records)) deform_records(member, first, last);
+    if (plan_.has(Way::rows)) deform_rows(member, first, last);
+    if (plan_.has(Way::planes)) deform_planes(member, first, last);
+}
+
+/// Kernels write the caller's planes. Past the cache only whole lines of one region, but at both ends: lines
+/// that regions share go through the stage.
+void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
+    each_stretch(member, Way::planes, first, last,
+                 [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
+                     const std::size_t set = set_of(pass.pass);
+                     kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
+                         body_.columns, coefficients(member, set)[region],
+                         behind(pass.planes, members_[member].vertex + begin), begin, end - begin,
+                         plan_.non_temporal() ? Write::non_temporal : Write::cached);
+                 });
+}
+
+/// Kernels write the caller's records, as they do planes.
+void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
+    each_stretch(member, Way::records, first, last,
+                 [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
+                     const Record& record = plan_.records()[pass.rows[0].record];
+                     const std::size_t vertex = members_[member].vertex + begin;
+                     const std::size_t set = set_of(pass.pass);
+                     const bool non_temporal = plan_.non_temporal();
+                     kernels_.weaving_kernel(squeezes(member, set)[region], pass.streams)(
+                         body_.columns, coefficients(member, set)[region],
+                         record.first + vertex * record.floats, begin, end - begin,
+                         non_temporal ? Write::non_temporal : Write::cached,
+                         non_temporal ? record.to_line(vertex) : 0);
+                 });
+}
+
+/// Calls deform(pass, region, begin, end) for each stretch of whole lines of one region, and for both ends,
+/// of each pass that goes the way `way`; lines that regions share go through the stage. (Into the cache: for
+/// each region.)
+template <class Deform>
+void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, std::size_t last,
+                               const Deform& deform) noexcept {
+    const bool non_temporal = plan_.non_temporal();
+    std::size_t region = 0;
+    while (first < last) {
+        while (body_.regions[region].last <= first) ++region;
+        const std::size_t region_end = std::min(body_.regions[region].last, last);
+        const bool whole = region_end == last || !non_temporal;
+        const std::size_t end = whole ? region_end : line_before(member, region_end);
+        if (!whole && end < first + least_direct) {
+            const std::size_t joints = joints_end(member, region, first, last);
+            deform_staged(member, way, first, joints);
+            first = joints;
+            continue;
+        }
+        for (const PassPlan& pass : plan_.passes())
+            if (pass.way == way) deform(pass, region, first, end);
+        first = end;
+    }
+}
+
+/// Where a pass' rows of `vertex` and on go: to the caller's memory, or to strips that begin at
+/// `block_first`.
+RowOutput BatchRunner::row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,
+                                  std::size_t block_first) noexcept {
+    float* first[3] = {};
+    std::size_t stride[3] = {};
+    for (std::size_t s = 0; s < 3; ++s) {
+        if (pass.rows[s].first == nullptr) continue;
+        const Record& record = plan_.records()[pass.rows[s].record];
+        stride[s] = record.stride;
+        first[s] = record.in_strip
+                       ? strips_.at(plan_, pass.rows[s].record,
+                                    (vertex - block_first) * record.stride_floats() +
+                                        static_cast<std::size_t>(pass.rows[s].first - record.first))
+                       : pass.rows[s].first + (members_[member].vertex + vertex) * record.stride_floats();
+    }
+    return {first[0], first[1], first[2], stride[0], stride[1], stride[2]};
+}
+
+/// Kernels write rows, of records that are the caller's own or that leave as whole lines.
+void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept {
+    while (first < last) {
+        const std::size_t end = block_end(member, first, last, Strips::most_vertices);
+        const std::size_t vertex = members_[member].vertex + first;
+        strips_.begin(plan_, vertex);
+        for (const PassPlan& pass : plan_.passes()) {
+            if (pass.way != Way::rows) continue;
+            const std::size_t set = set_of(pass.pass);
+            each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
+                kernels_.row_kernel(squeezes(member, set)[region], pass.streams)(
+                    body_.columns, coefficients(member, set)[region], row_output(member, pass, from, first),
+                    from, to - from);
+            });
+        }
+        strips_.write(plan_, kernels_, end - first, end == body_.vertex_count);
+        first = end;
+    }
+}
+
+/// Kernels write planes of the stage, and values are copied from there: of all passes that go the way `way`.
+void BatchRunner::deform_staged(std::size_t member, Way way, std::size_t first, std::size_t last) noexcept {
+    while (first < last) {
+        const std::size_t end = block_end(member, first, last, stage_.capacity());
+        for (const PassPlan& pass : plan_.passes()) {
+            if (pass.way != way) continue;
+            const std::size_t set = set_of(pass.pass);
+            each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
+                kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
+                    body_.columns, coefficients(member, set)[region], stage_.output(pass, from - first), from,
+                    to - from, Write::staged);
+            });
+        }
+        stage_.write(plan_, kernels_, way, members_[member].vertex + first, end - first);
+        first = end;
+    }
+}
+
+}  // namespace goffer::bend

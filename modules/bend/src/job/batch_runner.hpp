@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "body/body_data.hpp"
+#include "kernel/args.hpp"
+#include "output/output_plan.hpp"
+#include "output/stage.hpp"
+#include "output/strips.hpp"
+#include "pose/posed_group.hpp"
+
+#include <goffer/bend/crowd.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace goffer::bend {
+
+/// The way of a batch's poses to the store. What all instances share is found once, when the runner is made:
+/// kernels, columns, outputs. Instances are then taken in groups, small enough for their coefficients to stay
+/// in the first-level cache; each group is set up, and its vertices are deformed block by block, so that a
+/// block's rest columns stay there too while they serve the whole group. Lives on the stack: 64 KB at most.
+class BatchRunner {
+public:
+    /// `non_temporal`: whole lines go past the cache, and the caller fences them.
+    BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept;
+
+    /// Deforms the vertices [first, last) of instance `instance`, or takes it up to be deformed with others
+    /// when these are all its vertices: finish() does what is left. `instance` must be active. Poses are
+    /// counted where first is 0.
+    void add(std::size_t instance, std::size_t first, std::size_t last) noexcept;
+    void finish() noexcept;
+
+    [[nodiscard]] const CrowdResult& result() const noexcept { return result_; }
+
+private:
+    /// An instance of the group.
+    struct Member {
+        std::size_t instance;  ///< of the batch
+        std::size_t element;   ///< of its columns
+        std::size_t vertex;    ///< its first one, in the buffer
+        std::size_t head;      ///< its vertices before the first one that begins a line
+    };
+
+    /// Coefficients of a whole group: of `sets` poses each, and of each of these all regions.
+    static constexpr std::size_t most_coefficients = 96;  // of one instance of a body with most_regions
+    static_assert(most_coefficients >= pass_count * max_regions);
+
+    [[nodiscard]] Coefficients* coefficients(std::size_t member, std::size_t set) noexcept {
+        return coefficients_ + (member * set_count_ + set) * regions_;
+    }
+    [[nodiscard]] Squeeze* squeezes(std::size_t member, std::size_t set) noexcept {
+        return squeezes_ + (member * set_count_ + set) * regions_;
+    }
+
+    [[nodiscard]] std::size_t& set_of(Pass pass) noexcept { return set_of_[static_cast<std::size_t>(pass)]; }
+
+    void run_group(std::size_t first, std::size_t last) noexcept;
+    void set_up(bool count_poses) noexcept;
+    void set_up_poses(Time time, std::size_t set, bool count_poses) noexcept;
+    void set_up_packed(std::size_t member, const Bounds& bounds) noexcept;
+    void deform(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    void deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    void deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    template <class Deform>
+    void each_stretch(std::size_t member, Way way, std::size_t first, std::size_t last,
+                      const Deform& deform) noexcept;
+    void deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    void deform_staged(std::size_t member, Way way, std::size_t first, std::size_t last) noexcept;
+    [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
+                                        std::size_t most) const noexcept;
+    [[nodiscard]] RowOutput row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,
+                                       std::size_t block_first) noexcept;
+    template <class Deform>
+    void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
+    [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
+                                         std::size_t last) const noexcept;
+    [[nodiscard]] std::size_t line_before(std::size_t member, std::size_t vertex) const noexcept;
+    [[nodiscard]] std::size_t line_behind(std::size_t member, std::size_t vertex) const noexcept;
+    const Batch& batch_;
+    const BodyData& body_;
+    const KernelSet& kernels_;
+    OutputPlan plan_;
+    std::size_t regions_;
+    bool bounded_;  // bounds are wanted, by the caller or for packed vertices
+    std::size_t set_count_ = 0;
+    std::size_t set_of_[pass_count] = {};
+    bool posed_now_ = false;  // poses are wanted, not only previous ones
+    std::size_t group_size_ = 0;
+    std::size_t member_count_ = 0;
+    CrowdResult result_;
+    Member members_[setup_width];
+    Squeeze squeezes_[most_coefficients];
+    Coefficients coefficients_[most_coefficients];
+    PosedGroup posed_;
+    Stage stage_;
+    Strips strips_;
+};
+
+}  // namespace goffer::bend

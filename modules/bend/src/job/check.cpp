@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "job/check.hpp"
+
+#include "pose/posed_group.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace goffer::bend {
+namespace {
+
+/// A stream as addresses: what all kinds of streams have in common.
+struct StreamMemory {
+    Field field;
+    float* const* component;
+    std::size_t components;
+    std::size_t stride;
+    std::size_t count;
+
+    [[nodiscard]] bool wanted() const noexcept {
+        for (std::size_t c = 0; c < components; ++c) {
+            if (component[c] != nullptr) return true;
+        }
+        return false;
+    }
+};
+
+/// The streams of a batch, the packed one by its three words.
+class Streams {
+public:
+    explicit Streams(const Batch& batch) noexcept
+        : words_{reinterpret_cast<float*>(batch.packed.first), words_[0] == nullptr ? nullptr : words_[0] + 1,
+                 words_[0] == nullptr ? nullptr : words_[0] + 2},
+          all_{of(Field::positions, batch.positions),
+               of(Field::normals, batch.normals),
+               of(Field::tangents, batch.tangents),
+               {Field::packed, words_, 3, batch.packed.stride, batch.packed.count},
+               of(Field::previous_positions, batch.previous_positions)} {}
+
+    [[nodiscard]] const StreamMemory* begin() const noexcept { return all_; }
+    [[nodiscard]] const StreamMemory* end() const noexcept { return all_ + std::size(all_); }
+
+private:
+    template <std::size_t N>
+    static StreamMemory of(Field field, const Stream<N>& stream) noexcept {
+        return {field, stream.component, N, stream.stride, stream.count};
+    }
+
+    float* words_[3];
+    StreamMemory all_[5];
+};
+
+Fault fault_of(Field field, Reason reason) noexcept {
+    return {.field = field, .reason = reason};
+}
+
+/// One stream by itself, but for its length.
+Reason check(const StreamMemory& stream) noexcept {
+    for (std::size_t c = 0; c < stream.components; ++c) {
+        if (stream.component[c] == nullptr) return Reason::null;
+        if (reinterpret_cast<std::uintptr_t>(stream.component[c]) % alignof(float) != 0)
+            return Reason::alignment;
+    }
+    if (stream.stride < sizeof(float) || stream.stride % sizeof(float) != 0) return Reason::stride;
+    return Reason::none;
+}
+
+struct Bytes {
+    std::uintptr_t first, last;
+};
+
+Bytes bytes_of(const StreamMemory& stream, std::size_t component) noexcept {
+    const auto first = reinterpret_cast<std::uintptr_t>(stream.component[component]);
+    return {first, first + (stream.count - 1) * stream.stride + sizeof(float)};
+}
+
+/// Whether two components write to the same bytes: exactly, where their strides are equal; where they are
+/// not, whether their ranges meet.
+bool overlap(const StreamMemory& a, std::size_t component_a, const StreamMemory& b,
+             std::size_t component_b) noexcept {
+    const Bytes of_a = bytes_of(a, component_a), of_b = bytes_of(b, component_b);
+    if (of_a.last <= of_b.first || of_b.last <= of_a.first) return false;
+    if (a.stride != b.stride) return true;
+    const std::uintptr_t apart =
+        (of_a.first > of_b.first ? of_a.first - of_b.first : of_b.first - of_a.first) % a.stride;
+    return apart < sizeof(float) || apart > a.stride - sizeof(float);
+}
+
+bool overlap(const StreamMemory& a, const StreamMemory& b) noexcept {
+    for (std::size_t i = 0; i < a.components; ++i) {
+        for (std::size_t j = &a == &b ? i + 1 : 0; j < b.components; ++j) {
+            if (overlap(a, i, b, j)) return true;
+        }
+    }
+    return false;
+}
+
+Fault check(const Streams& streams) noexcept {
+    for (const StreamMemory& stream : streams) {
+        if (!stream.wanted()) continue;
+        const Reason reason = check(stream);
+        if (reason != Reason::none) return fault_of(stream.field, reason);
+        if (stream.count == 0) return fault_of(stream.field, Reason::too_short);
+    }
+    for (const StreamMemory& a : streams) {
+        for (const StreamMemory& b : streams) {
+            if (&b < &a || !a.wanted() || !b.wanted() || !overlap(a, b)) continue;
+            // A stream whose own components meet has too small a stride for them.
+            if (&a == &b) return fault_of(a.field, Reason::stride);
+            return {.field = b.field, .reason = Reason::overlap, .other = a.field};
+        }
+    }
+    return {};
+}
+
+/// Where the instances begin: each must end within every stream.
+Fault check_places(const Batch& batch, const Streams& streams) noexcept {
+    std::size_t room = std::numeric_limits<std::size_t>::max();
+    Field shortest = Field::none;
+    for (const StreamMemory& stream : streams) {
+        if (stream.wanted() && stream.count < room) room = stream.count, shortest = stream.field;
+    }
+    const std::size_t vertices = batch.body->vertex_count();
+    if (room < vertices) return fault_of(shortest, Reason::too_short);
+    const std::size_t last = room - vertices;
+    if (batch.places.empty()) {
+        if (batch.count == 1) return {};
+        // Divided, since the product may be too large.
+        if (batch.step > last / (batch.count - 1)) return fault_of(shortest, Reason::too_short);
+        return batch.step < vertices ? fault_of(Field::step, Reason::overlap) : Fault{};
+    }
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const std::size_t element = element_of(batch, i);
+        if (batch.places[element] > last)
+            return {.field = Field::places, .reason = Reason::out_of_range, .instance = i};
+    }
+    return {};
+}
+
+template <class T>
+bool misaligned(const StridedView<T>& view) noexcept {
+    if (view.empty()) return false;
+    const bool paged = view.page_shift != StridedView<T>::one_stretch;
+    const std::size_t first = paged ? 0 : reinterpret_cast<std::uintptr_t>(view.data);
+    return (first + view.offset) % alignof(T) != 0 || view.stride % alignof(T) != 0;
+}
+
+/// How many elements of each column are read.
+struct Extent {
+    std::size_t elements = 0;
+    Fault fault;
+
+    template <class T>
+    void take(Field field, const StridedView<T>& view, bool required = false) noexcept {
+        if (!fault.none() || (view.empty() && !required)) return;
+        if (view.empty()) {
+            fault = fault_of(field, Reason::null);
+        } else if (view.count < elements) {
+            fault = fault_of(field, Reason::count);
+        } else if (misaligned(view)) {
+            fault = fault_of(field, Reason::alignment);
+        }
+    }
+};
+
+Fault check_columns(const Batch& batch) noexcept {
+    if (batch.poses.empty()) return fault_of(Field::poses, Reason::null);
+    if (!batch.indices.empty() && batch.indices.size() != batch.count)
+        return fault_of(Field::indices, Reason::count);
+    Extent extent;
+    extent.elements = batch.count;
+    for (std::size_t i = 0; i < batch.indices.size(); ++i) {
+        const std::size_t index = batch.indices[i];
+        if (index >= batch.poses.count)
+            return {.field = Field::indices, .reason = Reason::out_of_range, .instance = i};
+        extent.elements = i == 0 ? index + 1 : index >= extent.elements ? index + 1 : extent.elements;
+    }
+    const bool previous = !batch.previous_positions.empty();
+    extent.take(Field::poses, batch.poses, true);
+    extent.take(Field::transform, batch.transforms.first);
+    extent.take(Field::wrinkle_weight, batch.wrinkle_weights);
+    if (previous) extent.take(Field::previous_poses, batch.previous_poses, true);
+    if (previous) extent.take(Field::previous_transform, batch.previous_transforms.first);
+    extent.take(Field::visible, batch.visible);
+    extent.take(Field::changed, batch.changed);
+    extent.take(Field::update_intervals, batch.update_intervals);
+    extent.take(Field::places, batch.places);
+    if (extent.fault.none() && !batch.bounds.empty() && batch.bounds.size() < batch.count)
+        return fault_of(Field::bounds, Reason::count);
+    return extent.fault;
+}
+
+/// Squares of its numbers, and sums of such, stay within float's range.
+Reason check(const glm::mat4x3& matrix) noexcept {
+    for (int c = 0; c < 4; ++c) {
+        for (int row = 0; row < 3; ++row) {
+            if (!std::isfinite(matrix[c][row])) return Reason::not_finite;
+            if (!(std::fabs(matrix[c][row]) <= 1e18f)) return Reason::too_large;
+        }
+    }
+    return Reason::none;
+}
+
+Fault check_poses(Field field, const Pose* poses, std::size_t regions) noexcept {
+    for (std::size_t r = 0; r < regions; ++r) {
+        if (!std::isfinite(poses[r].angle) || !std::isfinite(poses[r].direction))
+            return {.field = field, .reason = Reason::not_finite, .region = r};
+    }
+    return {};
+}
+
+/// What instances hold beside the places.
+Fault check_instance(const Batch& batch, std::size_t element) noexcept {
+    const std::size_t regions = batch.body->region_count();
+    Fault fault = check_poses(Field::poses, batch.poses.at(element), regions);
+    if (!fault.none()) return fault;
+    if (!batch.transforms.empty()) fault = fault_of(Field::transform, check(batch.transforms[element]));
+    if (!fault.none()) return fault;
+    if (!batch.wrinkle_weights.empty()) {
+        const float weight = batch.wrinkle_weights[element];
+        if (!std::isfinite(weight)) return fault_of(Field::wrinkle_weight, Reason::not_finite);
+        if (weight < 0 || weight > 1) return fault_of(Field::wrinkle_weight, Reason::out_of_range);
+    }
+    if (!!batch.previous_positions.empty()) return {};
+    fault = check_poses(Field::previous_poses, batch.previous_poses.at(element), regions);
+    if (fault.none() && !batch.previous_transforms.empty())
+        fault = fault_of(Field::previous_transform, check(batch.previous_transforms[element]));
+    return fault.none() ? Fault{} : fault;
+}
+
+}  // namespace
+
+Fault check(const Batch& batch) noexcept {
+    if (batch.body == nullptr) return fault_of(Field::body, Reason::null);
+    if (batch.body->empty()) return fault_of(Field::body, Reason::empty);
+    const Streams streams(batch);
+    bool wanted = false;
+    for (const StreamMemory& stream : streams) wanted |= stream.wanted();
+    if (!wanted) return fault_of(Field::outputs, Reason::empty);
+    if (Fault fault = check(streams); !fault.none()) return fault;
+    if (!batch.tangents.empty() && !batch.body->has_tangents())
+        return fault_of(Field::tangents, Reason::not_supported);
+    if (batch.count == 0) return {};
+    if (Fault fault = check_columns(batch); !fault.none()) return fault;
+    if (Fault fault = check_places(batch, streams); !fault.none()) return fault;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        Fault fault = check_instance(batch, element_of(batch, i));
+        if (fault.none()) continue;
+        fault.instance = i;
+        return fault;
+    }
+    return {};
+}
+
+}  // namespace goffer::bend

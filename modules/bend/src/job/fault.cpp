@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/fault.hpp>
+
+#include <algorithm>
+#include <charconv>
+
+namespace goffer::bend {
+namespace {
+
+std::string_view name(Field field) noexcept {
+    switch (field) {
+        case Field::none:
+            return "";
+        case Field::body:
+            return "body";
+        case Field::poses:
+            return "poses";
+        case Field::transform:
+            return "transform";
+        case Field::wrinkle_weight:
+            return "wrinkle_weight";
+        case Field::positions:
+            return "positions";
+        case Field::normals:
+            return "normals";
+        case Field::tangents:
+            return "tangents";
+        case Field::packed:
+            return "packed";
+        case Field::bounds:
+            return "bounds";
+        case Field::previous_positions:
+            return "previous_positions";
+        case Field::previous_poses:
+            return "previous_poses";
+        case Field::previous_transform:
+            return "previous_transform";
+        case Field::outputs:
+            return "outputs";
+        case Field::places:
+            return "places";
+        case Field::step:
+            return "step";
+        case Field::indices:
+            return "indices";
+        case Field::visible:
+            return "visible";
+        case Field::changed:
+            return "changed";
+        case Field::update_intervals:
+            return "update_intervals";
+        case Field::isa:
+            return "isa";
+    }
+    return "unknown field";
+}
+
+std::string_view reason_of_empty(Field field) noexcept {
+    return field == Field::body ? "empty: it was moved from, or never made"
+                                : "all empty, nothing to write; give positions, normals, tangents, packed or "
+                                  "previous_positions";
+}
+
+std::string_view reason_of_count(Field field) noexcept {
+    return field == Field::poses || field == Field::previous_poses
+               ? "not one per region of the body, for every instance (a single pose is for a body of one "
+                 "region)"
+               : "fewer elements than instances, or than the indices ask for";
+}
+
+std::string_view words(Field field, Reason reason) noexcept {
+    switch (reason) {
+        case Reason::none:
+            return "no fault";
+        case Reason::null:
+            return field == Field::body || field == Field::poses || field == Field::previous_poses
+                       ? "not given"
+                       : "a component is null beside others that are not";
+        case Reason::empty:
+            return reason_of_empty(field);
+        case Reason::not_finite:
+            return "not finite: a NaN or an infinity";
+        case Reason::too_large:
+            return "a number in it is beyond 1e18";
+        case Reason::out_of_range:
+            return field == Field::places           ? "the instance would end behind the end of a stream"
+                   : field == Field::wrinkle_weight ? "not in 0..1"
+                                                    : "beyond the end of poses";
+        case Reason::count:
+            return reason_of_count(field);
+        case Reason::too_short:
+            return "its count is below what the instances' vertices take";
+        case Reason::stride:
+            return "the stride is not a multiple of 4, or below what one vertex takes";
+        case Reason::alignment:
+            return "not aligned to the type of its elements";
+        case Reason::overlap:
+            return field == Field::step ? "below the body's vertex_count(): instances would overlap"
+                                        : "writes to the same bytes as ";
+        case Reason::not_supported:
+            return field == Field::isa ? "not built, or this machine cannot run it"
+                                       : "the body was made without tangents";
+    }
+    return "unknown reason";
+}
+
+/// Text of limited length.
+class Line {
+public:
+    explicit Line(FaultText& to) noexcept : to_(to) {}
+
+    Line& operator<<(std::string_view text) noexcept {
+        const std::size_t room = sizeof to_.text - 1 - length_;
+        length_ += text.copy(to_.text + length_, std::min(room, text.size()));
+        return *this;
+    }
+    /// "name[index]", if there is an index.
+    Line& at(std::string_view text, std::size_t index) noexcept {
+        *this << text;
+        if (index == Fault::nowhere) return *this;
+        char digits[20] = {};
+        const auto end = std::to_chars(digits, digits + sizeof digits, index).ptr;
+        return *this << "[" << std::string_view(digits, static_cast<std::size_t>(end - digits)) << "]";
+    }
+
+private:
+    FaultText& to_;
+    std::size_t length_ = 0;
+};
+
+}  // namespace
+
+FaultText describe(const Fault& fault) noexcept {
+    FaultText text;
+    Line line(text);
+    if (fault.none()) {
+        line << "no fault";
+        return text;
+    }
+    if (fault.batch != Fault::nowhere) line.at("batches", fault.batch) << ".";
+    line.at(name(fault.field), fault.instance);
+    if (fault.region != Fault::nowhere) line.at("", fault.region);
+    line << ": " << words(fault.field, fault.reason);
+    if (fault.other != Field::none) line << name(fault.other);
+    return text;
+}
+
+}  // namespace goffer::bend

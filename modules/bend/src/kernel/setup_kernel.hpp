@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel/args.hpp"
+
+/// Set-up, over as many instances at a time as a register has lanes. Each lane's result depends on that lane
+/// alone, so that an instance's bits are the same alone and in any company. `L` is ScalarLanes or
+/// XsimdLanes<Arch>: single registers.
+
+namespace goffer::bend {
+
+/// Polynomials in x = delta^2, first coefficient exact, for delta up to a quarter and up to half of pi. Where
+/// delta is small, four terms are as good as float; over the whole range they are good enough.
+struct ArcTerms {
+    float sinc[arc_terms];     // sin(delta) / delta
+    float versine[arc_terms];  // (1 - cos(delta)) / delta^2
+};
+constexpr ArcTerms quarter_terms = {  // within 3.7e-9 and 3.7e-10
+    {1.0f, -0.16666654985053148f, 0.008332181044647887f, -0.00019517691414787331f},
+    {0.5f, -0.04166665496147368f, 0.0013887734570724405f, -2.4477587586018e-05f}};
+constexpr ArcTerms half_terms = {  // within 9.0e-7 and 9.1e-8
+    {1.0f, -0.1666594568164659f, 0.00831547072416514f, -0.00018576809626294315f},
+    {0.5f, -0.04166593982738049f, 0.0013870900027083285f, -2.3530552718089952e-05f}};
+
+constexpr float half_turn = 3.14159265f;
+
+/// Lanes of instances: three components.
+template <class L>
+struct Vector3 {
+    typename L::Vec x, y, z;
+};
+
+template <class L>
+struct SineCosine {
+    typename L::Vec sine, cosine;
+};
+
+template <class L>
+typename L::Vec horner(const float (&terms)[arc_terms], typename L::Vec x) {
+    typename L::Vec sum = L::set(terms[arc_terms - 1]);
+    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = L::madd(sum, x, L::set(terms[n]));
+    return sum;
+}
+
+/// Of twice the angle.
+template <class L>
+SineCosine<L> doubled(SineCosine<L> of) {
+    const typename L::Vec twice = of.sine + of.sine;
+    return {twice * of.cosine, L::nmadd(twice, of.sine, L::set(1.0f))};
+}
+
+/// Of an angle up to a quarter of pi either way.
+template <class L>
+SineCosine<L> sin_cos(typename L::Vec angle) {
+    const typename L::Vec x = angle * angle;
+    return {angle * horner<L>(quarter_terms.sinc, x),
+            L::nmadd(x, horner<L>(quarter_terms.versine, x), L::set(1.0f))};
+}
+
+/// How many of a register's lanes are instances.
+enum class Lanes { one, some, all };
+
+/// One register's instances.
+template <class L, Lanes lanes>
+class SetupLanes {
+public:
+    using Vec = typename L::Vec;
+
+    SetupLanes(const SetupRegion& region, SetupColumns& columns, std::size_t first, std::size_t count,
+               Coefficients* k, std::size_t step)
+        : region_(region), columns_(columns), first_(first), count_(count), k_(k), step_(step) {}
+
+    /// Sets all but the amplitudes. Of these it leaves, for each instance, where its row lies in the table
+    /// and what set_amplitude scales it by.
+    void run(float* table_place, float* scale) {
+        const Vec angle = L::load(columns_.angle + first_);
+        alpha_ = L::smaller(L::abs(angle), L::set(region_.max_angle));
+        set_direction(angle);
+        curvature_ = alpha_ * L::set(region_.per_length);
+        const Vec kappa = curvature_ * L::set(region_.radius);
+        one_minus_kappa_ = L::set(1.0f) - kappa;
+        put([](Coefficients& k) -> float* { return &k.cos_half_direction; }, half_.cosine, half_.sine,
+            one_minus_kappa_, curvature_);
+        set_arc();
+        set_frames();
+        if (region_.relative) set_squeeze(kappa);
+        if (region_.rows != nullptr) find_row(kappa, table_place, scale);
+    }
+
+private:
+    /// One row of every instance's coefficients: `row` says where it is.
+    template <class Row>
+    void put(const Row& row, Vec a, Vec b, Vec c, Vec d) {
+        if constexpr (lanes == Lanes::one) {
+            L::store_row(row(k_[first_ * step_]), L::first_row(a, b, c, d));
+        } else {
+            L::for_rows(a, b, c, d, [&](std::size_t i, typename L::Row values) {
+                if (lanes == Lanes::all || first_ + i < count_)
+                    L::store_row(row(k_[(first_ + i) * step_]), values);
+            });
+        }
+    }
+
+    /// Rows are at equal steps of the angle's root. Below least_kappa a relative row would be scaled by more
+    /// than float holds.
+    void find_row(Vec kappa, float* table_place, float* scale) const {
+        Vec angle = alpha_;
+        if (region_.relative) {
+            constexpr float least_kappa = 1e-4f;
+            kappa = L::larger(kappa, L::set(least_kappa));
+            angle = kappa * L::set(1 / (region_.per_length * region_.radius));
+        }
+        L::store(scale + first_, region_.relative ? kappa : L::sqrt(kappa));
+        const Vec fraction =
+            L::clamp(angle * L::set(1 / region_.table_max_angle), L::set(0.0f), L::set(1.0f));
+        L::store(table_place + first_, L::sqrt(fraction) * L::set(static_cast<float>(region_.row_count - 1)));
+    }
+
+    static SineCosine<L> half_of(Vec direction) { return doubled<L>(sin_cos<L>(direction * L::set(0.25f))); }
+    static SineCosine<L> whole_of(SineCosine<L> half) {
+        return {(half.sine + half.sine) * half.cosine, (half.cosine - half.sine) * (half.cosine + half.sine)};
+    }
+
+    /// A negative angle turns the direction by a half turn, half of which swaps sine and cosine.
+    void set_direction(Vec angle) {
+        const SineCosine<L> half = half_of(L::load(columns_.direction + first_));
+        const Vec zero = L::set(0.0f);
+        half_.sine = L::where_less(angle, zero, half.cosine, half.sine);
+        half_.cosine = L::where_less(angle, zero, zero - half.sine, half.cosine);
+        whole_ = whole_of(half_);
+    }
+
+    /// Beyond a half turn delta leaves the polynomials' range: they then serve a fraction of the angle,
+    /// doubled back.
+    void set_arc() {
+        const Vec limit = L::set(half_turn * 1.000001f), zero = L::set(0.0f), one = L::set(1.0f);
+        part_ = alpha_;
+        doublings_ = zero;
+        for (float halved = region_.max_angle; halved > half_turn * 1.000001f; halved *= 0.5f) {
+            doublings_ = doublings_ + L::where_less(limit, part_, one, zero);
+            part_ = L::where_less(limit, part_, part_ * L::set(0.5f), part_);
+        }
+        const Vec square = part_ * part_;
+        Vec power = L::set(region_.length);
+        Vec reach[arc_terms], rise[arc_terms];
+        const Vec quarter = L::set(half_turn / 2);
+        for (std::size_t n = 0; n < arc_terms; ++n) {
+            const auto term = [&](float large, float small) {
+                return L::where_less(quarter, part_, L::set(large), L::set(small));
+            };
+            reach[n] = power * term(half_terms.sinc[n], quarter_terms.sinc[n]);
+            rise[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
+            power = power * square;
+        }
+        put([](Coefficients& k) -> float* { return k.reach; }, reach[0], reach[1], reach[2], reach[3]);
+        put([](Coefficients& k) -> float* { return k.rise; }, rise[0], rise[1], rise[2], rise[3]);
+    }
+
+    [[nodiscard]] Vector3<L> frame(std::size_t from) const {
+        return {L::load(columns_.frame[from] + first_), L::load(columns_.frame[from + 1] + first_),
+                L::load(columns_.frame[from + 2] + first_)};
+    }
+
+    void set_frame(std::size_t to, const Vector3<L>& v) {
+        L::store(columns_.frame[to] + first_, v.x);
+        L::store(columns_.frame[to + 1] + first_, v.y);
+        L::store(columns_.frame[to + 2] + first_, v.z);
+    }
+
+    /// a u + b v
+    static Vector3<L> combined(Vec a, const Vector3<L>& u, Vec b, const Vector3<L>& v) {
+        return {L::madd(a, u.x, b * v.x), L::madd(a, u.y, b * v.y), L::madd(a, u.z, b * v.z)};
+    }
+
+    static Vector3<L> sum(const Vector3<L>& u, const Vector3<L>& v) {
+        return {u.x + v.x, u.y + v.y, u.z + v.z};
+    }
+
+    static Vec dot(const Vector3<L>& u, const Vector3<L>& v) {
+        return L::madd(u.x, v.x, L::madd(u.y, v.y, u.z * v.z));
+    }
+
+    static Vector3<L> cross(const Vector3<L>& u, const Vector3<L>& v) {
+        return {L::nmadd(u.z, v.y, u.y * v.z), L::nmadd(u.x, v.z, u.z * v.x), L::nmadd(u.y, v.x, u.x * v.y)};
+    }
+
+    /// The arc's halves: its turn, and its chord.
+    struct HalfArc {
+        Vec sine, cosine;  // of alpha / 2
+        Vec out, up;       // from the base to the middle, towards the bend and along the base's axis
+    };
+
+    [[nodiscard]] HalfArc half_arc() const {
+        const Vec x = L::set(0.25f) * part_;
+        const SineCosine<L> quarter = sin_cos<L>(x);
+        const Vec sinc = horner<L>(quarter_terms.sinc, x * x);
+        SineCosine<L> half = doubled<L>(quarter);
+        const Vec arc = one_minus_kappa_ * L::set(0.5f * region_.length);
+        // arc (1 - cos(alpha / 2)) / (alpha / 2) and arc sin(alpha / 2) / (alpha / 2), without cancelling
+        HalfArc result{half.sine, half.cosine, arc * quarter.sine * sinc, arc * sinc * quarter.cosine};
+        Vec left = doublings_;
+        const Vec zero = L::set(0.0f), one = L::set(1.0f);
+        for (float halved = region_.max_angle; halved > half_turn * 1.000001f; halved *= 0.5f) {
+            const SineCosine<L> twice = doubled<L>({result.sine, result.cosine});
+            result.sine = L::where_less(zero, left, twice.sine, result.sine);
+            result.cosine = L::where_less(zero, left, twice.cosine, result.cosine);
+            left = left - one;
+        }
+        if (region_.max_angle > half_turn) {
+            const Vec chord = one_minus_kappa_ * L::set(region_.length) / L::larger(alpha_, one);
+            result.out = L::where_less(zero, doublings_, chord * (one - result.cosine), result.out);
+            result.up = L::where_less(zero, doublings_, chord * result.sine, result.up);
+        }
+        return result;
+    }
+
+    /// The middle frame: the arc's point and axes at half height, where the arc has turned by alpha / 2. And
+    /// the frame at the end, by the same turn and chord once more.
+    void set_frames() {
+        const HalfArc half = half_arc();
+        const Vec zero = L::set(0.0f);
+        const Vector3<L> e1 = frame(0), e2 = frame(3), e3 = frame(6);
+        const Vector3<L> towards = combined(whole_.cosine, e1, whole_.sine, e2);
+        const Vector3<L> b = combined(whole_.cosine, e2, zero - whole_.sine, e1);
+        const Vector3<L> n = combined(half.cosine, towards, zero - half.sine, e3);
+        const Vector3<L> t = combined(half.sine, towards, half.cosine, e3);
+        const Vector3<L> origin = sum(frame(9), combined(half.out, towards, half.up, e3));
+        set_matrices(n, b, t, origin);
+        const Vector3<L> end_n = combined(half.cosine, n, zero - half.sine, t);
+        set_frame(0, combined(whole_.cosine, end_n, zero - whole_.sine, b));
+        set_frame(3, combined(whole_.sine, end_n, whole_.cosine, b));
+        set_frame(6, combined(half.sine, n, half.cosine, t));
+        set_frame(9, sum(origin, combined(half.out, n, half.up, t)));
+    }
+
+    [[nodiscard]] Vector3<L> linear(const Vector3<L>& v) const {
+        const auto row = [&](std::size_t r) {
+            return L::madd(L::load(columns_.transform[r] + first_), v.x,
+                           L::madd(L::load(columns_.transform[3 + r] + first_), v.y,
+                                   L::load(columns_.transform[6 + r] + first_) * v.z));
+        };
+        return {row(0), row(1), row(2)};
+    }
+
+    void set_matrices(const Vector3<L>& frame_n, const Vector3<L>& frame_b, const Vector3<L>& frame_t,
+                      const Vector3<L>& frame_origin) {
+        const Vec zero = L::set(0.0f);
+        const Vector3<L> shift = {L::load(columns_.transform[9] + first_),
+                                  L::load(columns_.transform[10] + first_),
+                                  L::load(columns_.transform[11] + first_)};
+        const Vector3<L> n = linear(frame_n), b = linear(frame_b), t = linear(frame_t);
+        const Vector3<L> origin = sum(linear(frame_origin), shift);
+        put([](Coefficients& k) -> float* { return k.matrix; }, n.x, n.y, n.z, zero);
+        put([](Coefficients& k) -> float* { return k.matrix + 4; }, b.x, b.y, b.z, zero);
+        put([](Coefficients& k) -> float* { return k.matrix + 8; }, t.x, t.y, t.z, zero);
+        put([](Coefficients& k) -> float* { return k.offset; }, origin.x, origin.y, origin.z, zero);
+        set_normal_matrix(n, b, t);
+    }
+
+    static Vec largest(const Vector3<L>& v) {
+        return L::larger(L::larger(L::abs(v.x), L::abs(v.y)), L::abs(v.z));
+    }
+
+    static Vector3<L> scaled(Vec by, const Vector3<L>& v) { return {by * v.x, by * v.y, by * v.z}; }
+
+    // Normals go with the cofactors, which are the inverse transpose times the determinant; a determinant
+    // below 0 would turn them inwards. Scaled, since kernels bound squared lengths from below, and first of
+    // all where the cofactors' squares would leave float's range.
+    void set_normal_matrix(Vector3<L> n, Vector3<L> b, Vector3<L> t) {
+        const Vec zero = L::set(0.0f), one = L::set(1.0f);
+        const Vec size = L::larger(L::larger(largest(n), largest(b)), largest(t));
+        const Vec inverse = one / L::larger(size, L::set(1e-37f));
+        const Vec scale =
+            L::where_less(L::set(1e-4f), size, L::where_less(size, L::set(1e4f), one, inverse), inverse);
+        n = scaled(scale, n), b = scaled(scale, b), t = scaled(scale, t);
+        const Vector3<L> cofactors[3] = {cross(b, t), cross(t, n), cross(n, b)};
+        const Vec handedness = L::where_less(dot(n, cofactors[0]), zero, L::set(-1.0f), one);
+        Vec squares = dot(cofactors[0], cofactors[0]);
+        squares = squares + dot(cofactors[1], cofactors[1]) + dot(cofactors[2], cofactors[2]);
+        const Vec to_unit =
+            L::where_less(zero, squares, handedness / L::sqrt(L::larger(squares, L::set(1e-37f))), zero);
+        const auto put_column = [&](const auto& row, const Vector3<L>& v) {
+            put(row, to_unit * v.x, to_unit * v.y, to_unit * v.z, zero);
+        };
+        put_column([](Coefficients& k) -> float* { return k.normal_matrix; }, cofactors[0]);
+        put_column([](Coefficients& k) -> float* { return k.normal_matrix + 4; }, cofactors[1]);
+        put_column([](Coefficients& k) -> float* { return k.normal_matrix + 8; }, cofactors[2]);
+        put([](Coefficients& k) -> float* { return &k.first_curvature; }, part_* L::set(region_.per_length),
+            doublings_, L::set(region_.radius * 0.5f), handedness);
+    }
+
+    /// The scale of a column is S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa
+    /// (cos theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), which makes q
+    /// linear in p. The differences vanish exactly at the rest pose.
+    void set_squeeze(Vec kappa) {
+        const Vec zero = L::set(0.0f);
+        // By the same operations as the pose's, so that they cancel.
+        const Vec rest_kappa =
+            L::set(region_.rest_angle) * L::set(region_.per_length) * L::set(region_.radius);
+        const SineCosine<L> rest = whole_of(half_of(L::set(region_.rest_direction)));
+        const Vec rest_cosine = rest_kappa * rest.cosine, rest_sine = rest_kappa * rest.sine;
+        const Vec change_cosine = kappa * whole_.cosine - rest_cosine;
+        const Vec change_sine = kappa * whole_.sine - rest_sine;
+        const Vec squeeze = (kappa - rest_kappa) / (L::set(1.0f) - rest_kappa);
+        put([](Coefficients& k) -> float* { return &k.cos_direction; }, whole_.cosine, whole_.sine,
+            rest_cosine, rest_sine);
+        put([](Coefficients& k) -> float* { return k.curl_change; }, change_cosine, change_sine,
+            L::set(region_.onset > 1e-12f ? region_.onset : 1e-12f), zero);
+        put([](Coefficients& k) -> float* { return k.squeeze; }, squeeze,
+            L::madd(squeeze, rest_cosine, change_cosine), L::madd(squeeze, rest_sine, change_sine), zero);
+    }
+
+    const SetupRegion& region_;
+    SetupColumns& columns_;
+    std::size_t first_, count_;
+    Coefficients* k_;
+    std::size_t step_;
+    Vec alpha_, part_, doublings_, curvature_, one_minus_kappa_;
+    SineCosine<L> half_, whole_;  // of half the direction, and of it
+};
+
+/// Two rows of the wrinkle table, and where between them an instance is.
+struct RowPlace {
+    const float *from, *to;
+    float weight;
+};
+
+template <class L>
+RowPlace row_place(const SetupRegion& region, float place) {
+    const auto last = static_cast<int>(region.row_count) - 2;
+    int low = static_cast<int>(place);
+    low = low < last ? low : last;
+    return {region.rows[low], region.rows[low + 1], place - static_cast<float>(low)};
+}
+
+/// The amplitude's coefficients in T, times the root of kappa, which is in `factor`.
+template <class L>
+void set_plain_amplitude(const RowPlace& row, float factor, Coefficients& k) {
+    static constexpr float slopes[amplitude_terms] = {-0.5f, -1.5f, -2.5f, -3.5f, -4.5f, -5.5f, -6.5f, -7.5f};
+    for (std::size_t n = 0; n < amplitude_terms; n += 4) {
+        const typename L::Row amplitude = L::mixed_row(row.from + n, row.to + n, row.weight, factor);
+        L::store_row(k.amplitude + n, amplitude);
+        L::store_row(k.amplitude_slope + n, L::row_times(amplitude, slopes + n));
+    }
+}
+
+/// From powers of q / kappa to powers of q.
+template <class L>
+void set_relative_amplitude(const RowPlace& row, float kappa, float factor, Coefficients& k) {
+    const float per_kappa = 1 / kappa;
+    for (std::size_t n = 0; n < amplitude_terms; ++n, factor *= per_kappa) {
+        k.amplitude[n] = factor * (row.from[n] + row.weight * (row.to[n] - row.from[n]));
+        k.amplitude_slope[n] = (1 + 2 * static_cast<float>(n)) * k.amplitude[n];
+    }
+}
+
+template <class L>
+GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, std::size_t count,
+                             const bool* wrinkled, Coefficients* k, std::size_t step) {
+    alignas(64) float place[setup_width], scale[setup_width];
+    for (std::size_t first = 0; first < count; first += L::width) {
+        if (first + L::width <= count) {
+            SetupLanes<L, Lanes::all>(region, columns, first, count, k, step).run(place, scale);
+        } else if (first + 1 == count) {
+            SetupLanes<L, Lanes::one>(region, columns, first, count, k, step).run(place, scale);
+        } else {
+            SetupLanes<L, Lanes::some>(region, columns, first, count, k, step).run(place, scale);
+        }
+    }
+    if (region.rows == nullptr) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!wrinkled[i]) continue;
+        const RowPlace row = row_place<L>(region, place[i]);
+        if (region.relative) {
+            set_relative_amplitude<L>(row, scale[i], columns.factor[i], k[i * step]);
+        } else {
+            set_plain_amplitude<L>(row, scale[i] * columns.factor[i], k[i * step]);
+        }
+    }
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "output/output_plan.hpp"
+
+#include "kernel/lines.hpp"
+#include "output/strips.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace goffer::bend {
+namespace {
+
+std::size_t values_of(StreamSet streams) noexcept {
+    switch (streams) {
+        case StreamSet::positions:
+        case StreamSet::packed:
+            return 3;
+        case StreamSet::positions_normals:
+            return 6;
+        case StreamSet::positions_normals_tangents:
+            return 10;
+    }
+    return 0;
+}
+
+Stream3 words_of(const PackedStream& packed) noexcept {
+    return interleaved<3>(reinterpret_cast<float*>(packed.first), packed.count, packed.stride);
+}
+
+/// Planes that are written past the cache side by side begin their cache lines at the same vertices, and do
+/// not compete for the same places of the first-level cache, as planes do that lie a multiple of a kilobyte
+/// apart (2 to 4 times as long as one plane after the other).
+bool side_by_side(std::span<float* const> planes) noexcept {
+    constexpr std::uintptr_t line = line_floats * sizeof(float), way = 1024, near = 2 * line;
+    for (std::size_t i = 1; i < planes.size(); ++i) {
+        const auto start = reinterpret_cast<std::uintptr_t>(planes[i]);
+        if ((start - reinterpret_cast<std::uintptr_t>(planes[0])) % line != 0) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+            const std::uintptr_t apart = (start - reinterpret_cast<std::uintptr_t>(planes[j])) % way;
+            if (apart < near || apart > way - near) return false;
+        }
+    }
+    return true;
+}
+
+/// A kernel's planes, and all of them in a row.
+class Planes {
+public:
+    /// Whether `stream` is planes; they are then the kernel's.
+    template <std::size_t N>
+    bool take(const Stream<N>& stream, float* (&out)[N]) noexcept {
+        if (stream.empty() || !stream.planar()) return false;
+        for (std::size_t c = 0; c < N; ++c) all_[count_++] = out[c] = stream.component[c];
+        return true;
+    }
+    [[nodiscard]] std::span<float* const> all() const noexcept { return {all_, count_}; }
+
+private:
+    float* all_[10];
+    std::size_t count_ = 0;
+};
+
+const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
+    return pass.pass == Pass::previous ? batch.previous_positions : batch.positions;
+}
+
+bool has_normals(const PassPlan& pass) noexcept {
+    return pass.streams == StreamSet::positions_normals ||
+           pass.streams == StreamSet::positions_normals_tangents;
+}
+
+bool has_tangents(const PassPlan& pass) noexcept {
+    return pass.streams == StreamSet::positions_normals_tangents;
+}
+
+}  // namespace
+
+std::size_t Record::to_line(std::size_t vertex) const noexcept {
+    const float* at = first + vertex * stride_floats();
+    if (plane()) return floats_to_line<Record>(at);
+    for (std::size_t head = 0; head < line_floats; ++head, at += stride_floats())
+        if (floats_to_line<Record>(at) == 0) return head;
+    return line_floats;
+}
+
+template <std::size_t N>
+void OutputPlan::add(Pass pass, StreamSet streams, std::size_t value, const Stream<N>& stream) noexcept {
+    if (pass_count_ == 0 || passes_[pass_count_ - 1].pass != pass) {
+        passes_[pass_count_++] = {.pass = pass, .streams = streams, .value = value_count_};
+        value_count_ += values_of(streams);
+    }
+    if (stream.empty()) return;
+    const std::size_t first = passes_[pass_count_ - 1].value + value;
+    for (std::size_t c = 0; c < N; ++c)
+        components_[component_count_++] = {stream.component[c], stream.stride, first + c};
+}
+
+OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_temporal_(non_temporal) {
+    if (!batch.previous_positions.empty())
+        add(Pass::previous, StreamSet::positions, 0, batch.previous_positions);
+    if (!batch.positions.empty() || !batch.normals.empty() || !batch.tangents.empty()) {
+        const StreamSet streams = !batch.tangents.empty()  ? StreamSet::positions_normals_tangents
+                                  : !batch.normals.empty() ? StreamSet::positions_normals
+                                                           : StreamSet::positions;
+        add(Pass::current, streams, 0, batch.positions);
+        add(Pass::current, streams, 3, batch.normals);
+        add(Pass::current, streams, 6, batch.tangents);
+    }
+    if (!batch.packed.empty()) add(Pass::packed, StreamSet::packed, 0, words_of(batch.packed));
+    find_records(batch.scratch_gaps);
+    find_strips();
+    bool staged = false;
+    for (PassPlan& pass : std::span(passes_, pass_count_)) {
+        pass.way = set_planes(pass, batch) ? Way::planes
+                   : set_rows(pass, batch) ? way_of_rows(pass)
+                                           : Way::staged;
+        staged |= pass.way == Way::staged;
+    }
+    if (staged) stage_all();
+    for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.way)] = true;
+    const auto lines = std::ranges::find_if(records(), &Record::in_lines);
+    if (lines != records().end()) lines_ = &*lines;
+}
+
+void OutputPlan::stage_all() noexcept {
+    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.way = Way::staged;
+    for (Record& record : std::span(records_, record_count_)) {
+        record.in_lines &= !record.has_gaps();
+        record.in_strip = false;
+    }
+}
+
+/// Records without gaps are made of planes, in registers: by a pass' own kernels, if they are made by it
+/// alone and in its order; else from the stage. Narrow stores would take twice as long.
+Way OutputPlan::way_of_rows(const PassPlan& pass) const noexcept {
+    Way way = Way::rows;
+    for (const RowStream& stream : pass.rows) {
+        if (stream.first != nullptr && !records_[stream.record].has_gaps()) way = Way::staged;
+    }
+    if (way == Way::rows || has_tangents(pass)) return way;
+    const Record& record = records_[pass.rows[0].record];
+    const bool alone = !record.has_gaps() && record.first == pass.rows[0].first &&
+                       record.floats == values_of(pass.streams) &&
+                       (!has_normals(pass) || pass.rows[1].first == record.first + 3);
+    return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? Way::records : way;
+}
+
+/// Sorts the components by stride and address; neighbours within a stride make a record.
+void OutputPlan::find_records(bool scratch_gaps) noexcept {
+    const std::span components(components_, component_count_);
+    std::ranges::sort(components, [](const Component& a, const Component& b) {
+        return a.stride != b.stride ? a.stride < b.stride : std::less<>()(a.first, b.first);
+    });
+    for (std::size_t from = 0, to = 0; from < components.size(); from = to) {
+        const Component& first = components[from];
+        const auto offset = [&](std::size_t i) {
+            return static_cast<std::size_t>(components[i].first - first.first);
+        };
+        const auto same_stride = [&](std::size_t i) {
+            return i < components.size() && components[i].stride == first.stride;
+        };
+        for (to = from + 1; same_stride(to) && offset(to) * sizeof(float) < first.stride;) ++to;
+        Record& record = records_[record_count_++];
+        record = {.first = first.first, .stride = first.stride, .component = from, .component_end = to};
+        record.floats = offset(to - 1) + 1;
+        // Of records of one struct whose members lie apart, each one's gaps are where the others write.
+        const bool alone = !same_stride(to) && (from == 0 || components[from - 1].stride != first.stride);
+        record.in_lines = non_temporal_ && (!record.has_gaps() || (scratch_gaps && alone));
+    }
+}
+
+/// Records for which there is no room are written without one.
+void OutputPlan::find_strips() noexcept {
+    std::size_t taken = 0;
+    for (Record& record : std::span(records_, record_count_)) {
+        if (!record.in_lines || !record.has_gaps()) continue;
+        const std::size_t floats = Strips::floats_of(record.stride_floats());
+        record.in_lines =
+            record.stride_floats() <= Strips::longest_record && taken + floats <= Strips::most_floats;
+        record.in_strip = record.in_lines;
+        record.strip = taken;
+        taken += record.in_lines ? floats : 0;
+    }
+}
+
+/// Sets pass.planes, if all that the pass makes goes to planes that its kernels can write themselves.
+bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
+    if (pass.pass == Pass::packed) return false;
+    Planes planes;
+    if (!planes.take(positions_of(pass, batch), pass.planes.position)) return false;
+    if (has_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
+    if (has_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
+    return !non_temporal_ || side_by_side(planes.all());
+}
+
+/// Sets `rows`, if the stream's components follow each other in records.
+template <std::size_t N>
+bool OutputPlan::set_rows(RowStream& rows, const Stream<N>& stream) const noexcept {
+    if (stream.empty() || stream.planar()) return false;
+    for (std::size_t c = 1; c < N; ++c) {
+        if (stream.component[c] != stream.component[0] + c) return false;
+    }
+    rows.first = stream.component[0];
+    for (rows.record = 0; rows.record < record_count_; ++rows.record) {
+        for (const Component& component : components(records_[rows.record]))
+            if (component.first == rows.first) return true;
+    }
+    return false;
+}
+
+bool OutputPlan::set_rows(PassPlan& pass, const Batch& batch) const noexcept {
+    if (pass.pass == Pass::packed) return set_rows(pass.rows[0], words_of(batch.packed));
+    return set_rows(pass.rows[0], positions_of(pass, batch)) &&
+           (!has_normals(pass) || set_rows(pass.rows[1], batch.normals)) &&
+           (!has_tangents(pass) || set_rows(pass.rows[2], batch.tangents));
+}
+
+std::size_t OutputPlan::head(std::size_t vertex) const noexcept {
+    const std::size_t head = lines_ == nullptr ? line_floats : lines_->to_line(vertex);
+    return head == line_floats ? 0 : head;
+}
+
+std::size_t vertex_bytes(const Batch& batch) noexcept {
+    constexpr std::size_t vector = 3 * sizeof(float);
+    return (batch.positions.empty() ? 0 : vector) + (batch.normals.empty() ? 0 : vector) +
+           (batch.tangents.empty() ? 0 : 4 * sizeof(float)) +
+           (batch.packed.empty() ? 0 : sizeof(PackedVertex)) +
+           (batch.previous_positions.empty() ? 0 : vector);
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel/args.hpp"
+#include "output/output_plan.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace goffer::bend {
+
+/// A block of one instance's vertices as planes in the first-level cache, on the way from kernels to outputs
+/// that these can't write themselves: planes that can't be written side by side, lines that two regions
+/// share, components in an order of their own.
+class Stage {
+public:
+    /// Of what the plan's passes make.
+    explicit Stage(const OutputPlan& plan) noexcept;
+
+    /// Vertices that it holds: whole lines.
+    [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+
+    /// The planes of a pass from the block's vertex `vertex` on, for a kernel to fill.
+    [[nodiscard]] PlaneOutput output(const PassPlan& pass, std::size_t vertex) noexcept;
+
+    /// Writes what passes that go the way `way` made of the first `count` vertices of the block, as vertices
+    /// `vertex` and on of the caller's buffer.
+    void write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
+               std::size_t count) const noexcept;
+
+private:
+    /// The vertices [first, last) of the block, value by value.
+    void write_values(const Record& record, std::span<const Component> components, std::size_t vertex,
+                      std::size_t first, std::size_t last) const noexcept;
+    /// All of them, as records without gaps.
+    void weave(const Record& record, std::span<const Component> components, const KernelSet& kernels,
+               std::size_t vertex, std::size_t count, bool non_temporal) const noexcept;
+
+    static constexpr std::size_t most_floats = 3072;
+    static constexpr std::size_t most_vertices = 256;
+    // Kernels write whole units; and planes do not begin at the same places of the cache.
+    static constexpr std::size_t spare = largest_unit + line_floats;
+    static_assert(most_floats / most_values > spare + 2 * line_floats);
+
+    std::size_t capacity_;
+    std::size_t stride_;  // floats from one plane to the next
+    alignas(64) float planes_[most_floats];
+};
+
+}  // namespace goffer::bend

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pose/centre_places.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::bend {
+
+/// The largest of the four.
+[[nodiscard]] inline float largest(Float4 a) noexcept {
+    return std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
+}
+
+/// Coordinates of four points, or components of four vectors.
+struct Three4 {
+    Float4 c[3];
+
+    /// Four times the same.
+    void set(const glm::vec3& v) noexcept {
+        for (int i = 0; i < 3; ++i) c[i] = splat(v[i]);
+    }
+
+    [[nodiscard]] Float4 square() const noexcept { return c[0] * c[0] + c[1] * c[1] + c[2] * c[2]; }
+};
+
+/// A stretch of a cubic curve, and of the straight line behind its end, in float, for four places at a time:
+/// seen from where a region begins, in lengths of the region, by a parameter that runs from 0 to 1 along it.
+struct BezierStretch {
+    Three4 from, linear, square, cubic;
+    Three4 end, onward;          // where the line begins, and its direction; where it is near
+    float begin_pace, end_pace;  // d parameter / d length
+    Float4 least, most;          // parameters on the curve that are near
+    bool ends;                   // the line is near
+
+    /// The parameters of places so far along, in lengths.
+    [[nodiscard]] Float4 parameters(Float4 along) const noexcept {
+        const float bend = begin_pace + end_pace - 2;
+        return along * (splat(begin_pace) + along * (splat(1 - begin_pace - bend) + along * splat(bend)));
+    }
+    /// From the region's places number `i` to `point`.
+    [[nodiscard]] static Three4 away(const Three4& point, const CentrePlaces& places, int i) noexcept {
+        Three4 away;
+        for (int c = 0; c < 3; ++c) {
+            away.c[c] = point.c[c] - places.rise[i] * splat(places.across[c]) -
+                        places.reach[i] * splat(places.onward[c]);
+        }
+        return away;
+    }
+    /// Moves `parameters` to the feet of the perpendiculars on the curve's tangents there. Squared distances
+    /// from these feet; `seen`: from the places to `from`.
+    [[nodiscard]] Float4 step(const Three4& seen, Float4& parameters) const noexcept;
+    /// Squared distances from the line; `seen`: from the places to `end`.
+    [[nodiscard]] Float4 from_line(const Three4& seen) const noexcept;
+};
+
+inline Float4 BezierStretch::step(const Three4& seen, Float4& parameters) const noexcept {
+    const Float4 u = min(max(parameters, least), most);
+    Three4 away, slope;
+    Float4 dot = splat(0);
+    for (int c = 0; c < 3; ++c) {  // Horner's scheme, of the value and of the slope
+        const Float4 k2 = square.c[c] + u * cubic.c[c], k1 = linear.c[c] + u * k2;
+        slope.c[c] = k1 + u * (k2 + u * cubic.c[c]);
+        away.c[c] = seen.c[c] + u * k1;
+        dot = dot + away.c[c] * slope.c[c];
+    }
+    const Float4 foot = u - dot / max(slope.square(), splat(1e-30f));
+    parameters = min(max(foot, least), most);
+    for (int c = 0; c < 3; ++c) away.c[c] = away.c[c] + (parameters - u) * slope.c[c];
+    return away.square();
+}
+
+inline Float4 BezierStretch::from_line(const Three4& seen) const noexcept {
+    Float4 dot = splat(0);
+    for (int c = 0; c < 3; ++c) dot = dot - seen.c[c] * onward.c[c];
+    const Float4 along = max(dot, splat(0)) / max(onward.square(), splat(1e-30f));
+    Three4 away;
+    for (int c = 0; c < 3; ++c) away.c[c] = seen.c[c] + along * onward.c[c];
+    return away.square();
+}
+
+/// A cubic Bezier curve, gone along by length. Beyond its end it goes straight on. Control points are finite;
+/// any of them may be equal.
+class Bezier {
+public:
+    explicit Bezier(const glm::vec3 (&control)[4]) noexcept;
+
+    /// The first point.
+    [[nodiscard]] glm::dvec3 start() const noexcept { return start_; }
+    /// The direction `ahead` >= 0 of where it has been gone to, as a vector of any length: of none where the
+    /// curve is one point, or at the tip of a cusp.
+    [[nodiscard]] glm::dvec3 heading(double ahead) noexcept {
+        const double t = at(gone_ + ahead).t;
+        return t > 0 ? slope(t) : first_;
+    }
+    /// Goes on by the length of a region. The largest squared distance of its places from the stretch of the
+    /// path between, or up to about as far again before and behind it.
+    [[nodiscard]] double go(const CentrePlaces& places) noexcept;
+
+private:
+    static constexpr int pieces = 16;  // equal in the parameter
+
+    struct Place {
+        double t, pace;  // the parameter, and d t / d length
+    };
+
+    void measure() noexcept;
+    [[nodiscard]] Place at(double length) noexcept;
+    [[nodiscard]] glm::dvec3 point(double t) const noexcept {
+        return start_ + t * (linear_ + t * (square_ + t * cubic_));
+    }
+    [[nodiscard]] glm::dvec3 slope(double t) const noexcept {
+        return t > 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
+    }
+    [[nodiscard]] BezierStretch stretch_to(const Place& to, const CentrePlaces& places) const noexcept;
+
+    glm::dvec3 start_, linear_, square_, cubic_;
+    glm::dvec3 first_;           // direction at the start
+    glm::dvec3 onward_;          // slope beyond the end
+    double before_[pieces + 1];  // length up to where each piece begins, and of the whole
+    double pace_[pieces + 1];    // there
+    int piece_ = 0;              // that at() found last
+    double gone_ = 0;
+    Place here_;       // gone to
+    float drift_ = 0;  // of the last place's foot, in its region's parameter, from where it was expected
+};
+
+inline Bezier::Bezier(const glm::vec3 (&control)[4]) noexcept {
+    const glm::dvec3 a(control[0]), b(control[1]), c(control[2]), d(control[3]);
+    start_ = a;
+    linear_ = 3.0 * (b - a);
+    square_ = 3.0 * (a - 2.0 * b + c);
+    cubic_ = d - a + 3.0 * (b - c);
+    first_ = b != a ? b - a : c != a ? c - a : d - a;
+    onward_ = 3.0 * (d != c ? d - c : d != b ? d - b : d - a);
+    measure();
+    here_ = at(0);
+}
+
+/// By Simpson's rule, piece by piece.
+inline void Bezier::measure() noexcept {
+    double speed[2 * pieces + 1];
+    for (int i = 0; i <= 2 * pieces; ++i) {
+        const glm::dvec3 v = slope(static_cast<double>(i) / (2 * pieces));
+        speed[i] = std::sqrt(glm::dot(v, v));
+    }
+    before_[0] = 0;
+    const double* at = speed;  // where the piece begins; its middle and its end follow
+    for (int i = 0; i < pieces; ++i, at += 2) {
+        const double mean = (at[0] + 4 * at[1] + at[2]) / 6;
+        before_[i + 1] = before_[i] + mean / pieces;
+        pace_[i] = 1 / std::max(at[0], least_square);
+    }
+    pace_[pieces] = 1 / std::max(at[0], least_square);
+}
+
+/// Between the ends of a piece the parameter is a cubic of the length, by its value and its pace at both;
+/// paces are cut to where the cubic is sure to increase.
+inline Bezier::Place Bezier::at(double length) noexcept {
+    if (length >= before_[pieces]) {
+        const double pace = 1 / std::max(glm::length(onward_), least_square);
+        return {1 + (length - before_[pieces]) * pace, pace};
+    }
+    while (before_[piece_ + 1] < length) ++piece_;
+    while (before_[piece_] > length) --piece_;
+    const double whole = std::max(before_[piece_ + 1] - before_[piece_], least_square), per_whole = 1 / whole;
+    const double x = (length - before_[piece_]) * per_whole;
+    const double from = std::min(pace_[piece_] * whole * pieces, 3.0);
+    const double to = std::min(pace_[piece_ + 1] * whole * pieces, 3.0);
+    const double square = 3 - 2 * from - to, cubic = from + to - 2;
+    const double t = (piece_ + x * (from + x * (square + x * cubic))) * (1.0 / pieces);
+    return {t, (from + x * (2 * square + 3 * x * cubic)) * (per_whole / pieces)};
+}
+
+inline BezierStretch Bezier::stretch_to(const Place& to, const CentrePlaces& places) const noexcept {
+    const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / places.length;
+    const double t = std::min(here_.t, 1.0), left = std::max(1 - here_.t, 0.0) * per_span;
+    BezierStretch stretch;
+    stretch.from.set(glm::vec3(unit * (point(t) - places.begin)));
+    stretch.linear.set(glm::vec3(unit * span * slope(t)));
+    stretch.square.set(glm::vec3(unit * span * span * (square_ + 3.0 * t * cubic_)));
+    stretch.cubic.set(glm::vec3(unit * span * span * span * cubic_));
+    stretch.begin_pace = static_cast<float>(std::min(here_.pace * places.length * per_span, 3.0));
+    stretch.end_pace = static_cast<float>(std::min(to.pace * places.length * per_span, 3.0));
+    stretch.least = splat(static_cast<float>(std::max(-t * per_span, -1.0)));
+    stretch.most = splat(static_cast<float>(std::min(left, 2.0)));
+    stretch.ends = left < 2;
+    if (stretch.ends) {
+        stretch.end.set(glm::vec3(unit * (point(1) - places.begin)));
+        stretch.onward.set(glm::vec3(unit * span * onward_));
+    }
+    return stretch;
+}
+
+inline double Bezier::go(const CentrePlaces& places) noexcept {
+    constexpr int most_steps = 4;
+    constexpr float near = 0.004f;  // of a step: what is left is its square
+    constexpr int fours = CentrePlaces::fours;
+    gone_ += places.length;
+    const Place to = at(gone_);
+    const BezierStretch stretch = stretch_to(to, places);
+    here_ = to;
+    Three4 seen[fours];
+    Float4 feet[fours], squares[fours];
+    for (int i = 0; i < fours; ++i) {
+        const Float4 shares = {0.0625f, 0.125f, 0.1875f, 0.25f};
+        seen[i] = stretch.away(stretch.from, places, i);
+        feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
+    }
+    Float4 moved = splat(1);
+    for (int step = 0; step < most_steps && largest(moved) > near; ++step) {
+        moved = splat(0);
+        for (int i = 0; i < fours; ++i) {
+            const Float4 before = feet[i];
+            squares[i] = stretch.step(seen[i], feet[i]);
+            moved = max(moved, abs(feet[i] - before));
+        }
+    }
+    drift_ = feet[fours - 1][3] - 1;
+    Float4 worst = splat(0);
+    for (int i = 0; i < fours; ++i) {
+        if (stretch.ends)
+            squares[i] = min(squares[i], stretch.from_line(stretch.away(stretch.end, places, i)));
+        worst = max(worst, squares[i]);
+    }
+    return places.length * places.length * static_cast<double>(largest(worst));
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/simd/float4.hpp>
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <limits>
+
+/// Where the centre line of a bent region runs, for comparing it with a path.
+
+namespace goffer::bend {
+
+using namespace simd;
+
+/// Below any squared length that coordinates in float can have, but 0: keeps quotients by one from being NaN.
+inline constexpr double least_square = std::numeric_limits<double>::min();
+
+/// An arc's angle, and sine and 1 - cosine of its sixteenth, eighth, quarter, half and whole.
+struct Arc {
+    static constexpr int doublings = 4;
+    double angle;  // up to pi; above 0, so that it can be divided by
+    double sine[doublings + 1], versine[doublings + 1];
+
+    explicit Arc(double of) noexcept : angle(std::max(of, 1e-30)) {
+        const double a = angle / (1 << doublings), aa = a * a;
+        constexpr auto one_over = [](double n) { return 1 / n; };
+        sine[0] = a * (1 - aa * one_over(6) * (1 - aa * one_over(20) * (1 - aa * one_over(42))));
+        versine[0] = aa * 0.5 * (1 - aa * one_over(12) * (1 - aa * one_over(30) * (1 - aa * one_over(56))));
+        for (int i = 0; i < doublings; ++i) {
+            sine[i + 1] = 2 * sine[i] * (1 - versine[i]);
+            versine[i + 1] = 2 * versine[i] * (2 - versine[i]);
+        }
+    }
+};
+
+/// Sixteen places at equal steps along a region's centre line, the last of them at its end.
+struct CentrePlaces {
+    static constexpr int fours = 4, count = 4 * fours;
+
+    glm::dvec3 begin;                  // of the region
+    double length;                     // of the centre line
+    glm::vec3 across, onward;          // the arc's plane: to its centre, and along the axis at its beginning
+    Float4 rise[fours], reach[fours];  // in lengths, a place's coordinates in it
+
+    /// By the sums of angles: the four first places, then twice as many each time.
+    CentrePlaces(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
+                 const Arc& arc) noexcept
+        : begin(from), length(whole), across(n), onward(t) {
+        const auto angle = static_cast<float>(arc.angle);
+        const double per_angle = 1 / arc.angle;
+        const auto sine = [&](int i) { return static_cast<float>(arc.sine[i] * per_angle); };
+        const auto versine = [&](int i) { return static_cast<float>(arc.versine[i] * per_angle); };
+        const float s1 = sine(0), s2 = sine(1), v1 = versine(0), v2 = versine(1);
+        reach[0] = Float4{s1, s2, s1 + s2 - angle * (s1 * v2 + v1 * s2), sine(2)};
+        rise[0] = Float4{v1, v2, v1 + v2 + angle * (s1 * s2 - v1 * v2), versine(2)};
+        for (int known = 1, doubling = 2; known < fours; known *= 2, ++doubling) {
+            const Float4 s = splat(sine(doubling)), v = splat(versine(doubling));
+            for (int i = 0; i < known; ++i) {
+                reach[known + i] = s + reach[i] - splat(angle) * (s * rise[i] + v * reach[i]);
+                rise[known + i] = v + rise[i] + splat(angle) * (s * reach[i] - v * rise[i]);
+            }
+        }
+    }
+
+    [[nodiscard]] glm::dvec3 operator[](int i) const noexcept {
+        return begin + length * glm::dvec3(rise[i / 4][i % 4] * across + reach[i / 4][i % 4] * onward);
+    }
+};
+
+}  // namespace goffer::bend

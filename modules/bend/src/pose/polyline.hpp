@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pose/centre_places.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace goffer::bend {
+
+/// A polyline, gone along by length. Beyond its end it goes straight on. At least one point, all finite;
+/// neighbours may be equal.
+class Polyline {
+public:
+    explicit Polyline(std::span<const glm::vec3> points) noexcept : points_(without_repeated_end(points)) {
+        here_ = near_ = piece(0, 0);
+    }
+
+    /// The first point.
+    [[nodiscard]] glm::dvec3 start() const noexcept { return glm::dvec3(points_[0]); }
+    /// The direction `ahead` >= 0 of where it has been gone to, as a vector of any length: of none where all
+    /// points are equal.
+    [[nodiscard]] glm::dvec3 heading(double ahead) const noexcept {
+        Piece at = here_;
+        while (!is_last(at) && (at.end < gone_ + ahead || at.square == 0)) at = next(at);
+        return at.step;
+    }
+    /// Goes on by the length of a region. The largest squared distance of its places from the part of the
+    /// path that is near: each place's foot is looked for half the region beyond the one before it.
+    /// So each piece is looked at for a few places only.
+    [[nodiscard]] double go(const CentrePlaces& places) noexcept;
+
+private:
+    /// From a point to the next.
+    struct Piece {
+        std::size_t index;
+        glm::dvec3 from, step;
+        double square;      // of its length
+        double begin, end;  // along the polyline
+    };
+    /// The point of the polyline that is nearest to a place.
+    struct Foot {
+        double along;
+        double square;  // of the distance
+    };
+
+    static std::span<const glm::vec3> without_repeated_end(std::span<const glm::vec3> points) noexcept {
+        std::size_t count = points.size();
+        while (count > 1 && points[count - 1] == points[count - 2]) --count;
+        return points.first(count);
+    }
+
+    [[nodiscard]] Piece piece(std::size_t index, double begin) const noexcept {
+        const glm::dvec3 from(points_[index]);
+        const glm::dvec3 step = glm::dvec3(points_[std::min(index + 1, points_.size() - 1)]) - from;
+        const double square = glm::dot(step, step);
+        return {index, from, step, square, begin, begin + std::sqrt(square)};
+    }
+    [[nodiscard]] Piece next(const Piece& at) const noexcept { return piece(at.index + 1, at.end); }
+    [[nodiscard]] bool is_last(const Piece& at) const noexcept { return at.index + 2 >= points_.size(); }
+    void move(Piece& at, double to) const noexcept {
+        while (!is_last(at) && at.end < to) at = next(at);
+    }
+    [[nodiscard]] Foot foot_on(const Piece& at, const glm::dvec3& place) const noexcept;
+    [[nodiscard]] Foot foot(const glm::dvec3& place, double ahead) const noexcept;
+
+    std::span<const glm::vec3> points_;
+    double gone_ = 0;
+    Piece here_;  // gone to
+    Piece near_;  // before the last place's foot
+};
+
+inline Polyline::Foot Polyline::foot_on(const Piece& at, const glm::dvec3& place) const noexcept {
+    const double most = is_last(at) ? std::numeric_limits<double>::infinity() : 1.0;
+    const double t =
+        std::clamp(glm::dot(place - at.from, at.step) / std::max(at.square, least_square), 0.0, most);
+    const glm::dvec3 away = at.from + t * at.step - place;
+    return {at.begin + t * (at.end - at.begin), glm::dot(away, away)};
+}
+
+/// From near_ on, until there is none nearer for a stretch of `ahead`.
+inline Polyline::Foot Polyline::foot(const glm::dvec3& place, double ahead) const noexcept {
+    Piece at = near_;
+    Foot nearest = foot_on(at, place);
+    while (!is_last(at) && at.end <= nearest.along + ahead) {
+        at = next(at);
+        const Foot other = foot_on(at, place);
+        if (other.square <= nearest.square) nearest = other;
+    }
+    return nearest;
+}
+
+inline double Polyline::go(const CentrePlaces& places) noexcept {
+    const double step = places.length / CentrePlaces::count;
+    double farthest = 0;
+    for (int i = 0; i < CentrePlaces::count; ++i) {
+        move(near_, gone_ + i * step - places.length);
+        const Foot nearest = foot(places[i], 8 * step);
+        farthest = std::max(farthest, nearest.square);
+        move(near_, nearest.along - 2 * step);
+    }
+    gone_ += places.length;
+    move(here_, gone_);
+    return farthest;
+}
+
+}  // namespace goffer::bend

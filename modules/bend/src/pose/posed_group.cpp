@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "pose/posed_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace goffer::bend {
+namespace {
+
+/// A finite direction within half a turn either way.
+float reduced(float direction) noexcept {
+    constexpr float half_turn = std::numbers::pi_v<float>;
+    if (std::fabs(direction) <= half_turn) [[likely]]
+        return direction;
+    constexpr double turn = 2 * std::numbers::pi;
+    const double value = static_cast<double>(direction);
+    double rest = 0;
+    if (std::fabs(direction) < 1e9f) {
+        const double turns = value * (1 / turn);
+        const auto whole = static_cast<long long>(turns + (turns < 0 ? -0.5 : 0.5));
+        rest = (turns - static_cast<double>(whole)) * turn;
+    } else {
+        rest = std::remainder(value, turn);
+    }
+    return std::clamp(static_cast<float>(rest), -half_turn, half_turn);
+}
+
+bool finite(std::span<const Pose> poses) noexcept {
+    float sum = 0;  // x * 0 is 0, or NaN of what is not finite
+    for (const Pose& pose : poses) sum += pose.angle * 0.0f + pose.direction * 0.0f;
+    return sum == 0;
+}
+
+/// 0..1, of any bits.
+float usable_weight(float weight) noexcept {
+    return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
+}
+
+/// Column after column, as set-up reads them.
+void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
+                    std::size_t i) noexcept {
+    using Layout = TransformColumn::Layout;
+    const float* const from = transforms.first.at(element);
+    std::size_t column = 3, row = 1;
+    if (transforms.layout == Layout::columns4) column = 4;
+    if (transforms.layout == Layout::rows4) column = 1, row = 4;
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t r = 0; r < 3; ++r) columns[3 * c + r][i] = from[column * c + row * r];
+    }
+}
+
+}  // namespace
+
+PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
+    PoseState state;
+    state.at_rest = !finite(poses);
+    if (state.at_rest) return state;
+    for (std::size_t r = 0; r < poses.size(); ++r)
+        state.clamped |= std::fabs(poses[r].angle) > body.regions[r].max_angle;
+    return state;
+}
+
+PosedGroup::PosedGroup(const BodyData& body, Setup setup) noexcept : body_(body), setup_(setup) {
+    // Set-up computes with lanes that hold no instance, too.
+    for (float* column : {columns_.angle, columns_.direction, columns_.factor})
+        std::fill_n(column, setup_width, 0.0f);
+    set_identities();
+}
+
+void PosedGroup::set_identities() noexcept {
+    for (std::size_t c = 0; c < 12; ++c)
+        std::fill_n(columns_.transform[c], setup_width, c % 4 == 0 && c < 9 ? 1.0f : 0.0f);
+    transformed_ = false;
+}
+
+PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
+                          float weight) noexcept {
+    const std::size_t i = count_++;
+    poses = poses.first(std::min(poses.size(), body_.regions.size()));
+    const PoseState state = state_of(body_, poses);
+    poses_[i] = poses.data();
+    pose_count_[i] = state.at_rest ? 0 : poses.size();
+    weight_[i] = usable_weight(weight);
+    if (!transforms.empty()) {
+        read_transform(transforms, element, columns_.transform, i);
+        transformed_ = true;
+    } else if (transformed_) {  // by instances of another column
+        set_identities();
+    }
+    return state;
+}
+
+PoseState PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {
+    const TransformColumn column(StridedView<float>{.data = &transform[0][0], .count = 1},
+                                 TransformColumn::Layout::columns3);
+    return add(poses, column, 0, weight);
+}
+
+PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) noexcept {
+    const bool now = time == Time::now;
+    const StridedView<Pose>& poses = now ? batch.poses : batch.previous_poses;
+    const float weight = batch.wrinkle_weights.empty() ? 1.0f : batch.wrinkle_weights[element];
+    return add({poses.at(element), body_.regions.size()}, now ? batch.transforms : batch.previous_transforms,
+               element, weight);
+}
+
+void PosedGroup::set_poses(std::size_t region) noexcept {
+    const Region& limits = body_.regions[region];
+    const FactorTable& factors = body_.details[region].factors;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Pose pose = region < pose_count_[i] ? poses_[i][region] : limits.rest;
+        columns_.angle[i] = pose.angle;
+        columns_.direction[i] = reduced(pose.direction);
+        columns_.factor[i] = weight_[i];
+        wrinkled_[i] = squeeze_ != Squeeze::none && weight_[i] > 0;
+        if (factors.empty() || !wrinkled_[i]) continue;
+        const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
+        columns_.factor[i] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
+                                         columns_.direction[i] - limits.rest.direction + turned);
+    }
+}
+
+void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
+    const Region& limits = body_.regions[region];
+    const RegionData& details = body_.details[region];
+    if (region == 0) {
+        for (std::size_t c = 0; c < 12; ++c)
+            std::fill_n(columns_.frame[c], setup_width,
+                        c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
+    }
+    SetupRegion setup = {};
+    setup.length = limits.length;
+    setup.per_length = details.per_length;
+    setup.radius = body_.radius_f;
+    setup.max_angle = limits.max_angle;
+    squeeze_ = Squeeze::none;
+    if (!details.table.empty()) {
+        squeeze_ = details.compares_with_rest ? Squeeze::relative : Squeeze::plain;
+        setup.rows = reinterpret_cast<const float(*)[amplitude_terms]>(details.table.rows.front().data());
+        setup.row_count = details.table.rows.size();
+        setup.table_max_angle = details.table.max_angle;
+    }
+    setup.relative = squeeze_ == Squeeze::relative;
+    setup.onset = limits.onset;
+    setup.rest_angle = limits.rest.angle;
+    setup.rest_direction = reduced(limits.rest.direction);
+    set_poses(region);
+    setup_(setup, columns_, count_, wrinkled_, k, step);
+}
+
+}  // namespace goffer::bend

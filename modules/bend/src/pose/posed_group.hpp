@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "body/body_data.hpp"
+#include "kernel/args.hpp"
+
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/pose.hpp>
+
+#include <glm/mat4x3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+/// From poses to coefficients: the part of set-up that looks at one instance at a time. The arithmetic is in
+/// kernel/setup_kernel.hpp.
+
+namespace goffer::bend {
+
+/// What became of an instance's poses.
+struct PoseState {
+    bool clamped = false;  ///< an angle was beyond its region's limit
+    bool at_rest = false;  ///< a number was not finite
+};
+
+/// Which of an instance's poses and transforms.
+enum class Time : std::uint8_t { now, before };
+
+/// Where instance `instance` of a batch has its elements.
+[[nodiscard]] inline std::size_t element_of(const Batch& batch, std::size_t instance) noexcept {
+    return batch.indices.empty() ? instance : batch.indices[instance];
+}
+
+/// What becomes of `poses`, which are as many as the body has regions, or fewer.
+[[nodiscard]] PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept;
+
+/// Up to setup_width instances of one body. Poses may hold any bits, and may be fewer than there are regions:
+/// regions without one are at rest, and an instance with one that isn't finite is at rest as a whole.
+class PosedGroup {
+public:
+    PosedGroup(const BodyData& body, Setup setup) noexcept;
+
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    void clear() noexcept { count_ = 0; }
+
+    /// Adds an instance; all that are added until clear() have a transform, or none has. The poses must stay
+    /// where they are until the last region is set up. `weight` may hold any bits.
+    PoseState add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
+
+    /// Adds the instance of a batch whose columns' elements are at `element`, as it is now or was before.
+    PoseState add(const Batch& batch, std::size_t element, Time time) noexcept;
+
+    /// Sets up region `region` of all instances, regions in order from 0: the coefficients of instance i go
+    /// to k + i * step.
+    void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
+
+    /// Which kernels serve instance i, in the region that was set up last.
+    [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {
+        return wrinkled_[i] ? squeeze_ : Squeeze::none;
+    }
+
+private:
+    PoseState add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
+                  float weight) noexcept;
+    void set_identities() noexcept;
+    void set_poses(std::size_t region) noexcept;
+
+    const BodyData& body_;
+    Setup setup_;
+    std::size_t count_ = 0;
+    Squeeze squeeze_ = Squeeze::none;
+    const Pose* poses_[setup_width];
+    std::size_t pose_count_[setup_width];  // 0: at rest
+    float weight_[setup_width];
+    bool wrinkled_[setup_width];
+    bool transformed_ = false;  // some instance's transform is not the identity
+    SetupColumns columns_;
+};
+
+/// Calls visit(region, k, squeeze) for each region of one instance, from base to tip.
+template <class Visit>
+PoseState each_region(const BodyData& body, Setup setup, std::span<const Pose> poses,
+                      const glm::mat4x3& transform, float weight, const Visit& visit) noexcept {
+    PosedGroup group(body, setup);
+    const PoseState state = group.add(poses, transform, weight);
+    Coefficients k;
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+        group.set_up(r, &k, 1);
+        visit(r, k, group.squeeze(0));
+    }
+    return state;
+}
+
+/// The poses of a job: its span, or its one pose.
+[[nodiscard]] inline std::span<const Pose> poses_of(const DeformJob& job) noexcept {
+    return job.poses.empty() ? std::span<const Pose>(&job.pose, 1) : job.poses;
+}
+
+[[nodiscard]] inline std::span<const Pose> previous_poses_of(const DeformJob& job) noexcept {
+    return job.previous_poses.empty() ? std::span<const Pose>(&job.previous_pose, 1) : job.previous_poses;
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "support/arena.hpp"
+#include "support/faults.hpp"
+#include "support/herd.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+/// P5 of columns: however a batch's instances are kept, and wherever they are deformed to, each has the bits
+/// of run() for it alone, and nothing else is written.
+
+namespace goffer::test {
+namespace {
+
+constexpr std::array both_stores = {bend::Stores::cached, bend::Stores::non_temporal};
+
+constexpr std::string_view pictures[] = {"x y z u v w a b c d p q r 123",
+                                         "xyz",
+                                         "xyzuvw",
+                                         "xyzuvwabcd",
+                                         "xyzuvwpqr",
+                                         "xyzpqr",
+                                         "123",
+                                         "x y z 123",
+                                         "xyz.uvw.",
+                                         "..123...pqr.",
+                                         "xyz uvw abcd pqr",
+                                         "zyx wvu",
+                                         "xyzuvw......",
+                                         "x y z"};
+
+using Matrix = bend::TransformColumn::Layout;
+
+/// Runs `crowd` by `run` on cleared herds, which must then hold what `expected` counts.
+template <class Run>
+void check(Herds& herds, const bend::CrowdJob& crowd, const bend::CrowdResult& expected, Run run) {
+    herds.clear();
+    const bend::CrowdResult result = run(crowd);
+    REQUIRE(herds.fault(crowd.frame) == "");
+    CHECK(result.deformed == expected.deformed);
+    CHECK(result.clamped == expected.clamped);
+    CHECK(result.at_rest == expected.at_rest);
+}
+
+bend::CrowdResult run_one(const bend::CrowdJob& crowd) {
+    return bend::run(crowd);
+}
+
+void add(bend::CrowdResult& sum, const bend::CrowdResult& part) {
+    sum.deformed += part.deformed;
+    sum.clamped += part.clamped;
+    sum.at_rest += part.at_rest;
+}
+
+/// In pieces that are dealt out to threads of the caller.
+bend::CrowdResult run_on_threads(const bend::CrowdJob& crowd, std::size_t threads, std::size_t pieces) {
+    std::vector<bend::CrowdResult> results(threads);
+    std::vector<std::thread> workers;
+    for (std::size_t i = 0; i < threads; ++i) {
+        workers.emplace_back([&, i] {
+            for (std::size_t piece = i; piece < pieces; piece += threads)
+                add(results[i], bend::run_piece(crowd, piece, pieces));
+        });
+    }
+    bend::CrowdResult sum;
+    for (std::size_t i = 0; i < threads; ++i) {
+        workers[i].join();
+        add(sum, results[i]);
+    }
+    return sum;
+}
+
+std::vector<bend::Body> bodies(Random& random) {
+    constexpr std::size_t few[] = {37}, many[] = {3000}, chain[] = {40, 1, 0, 7, 130}, pair[] = {300, 290};
+    std::vector<bend::Body> result;
+    result.push_back(loose_chain(random, few));
+    result.push_back(loose_chain(random, chain));
+    result.push_back(loose_chain(random, many));
+    result.push_back(loose_chain(random, pair));
+    result.push_back(loose_body(random, 1));
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("P5: columns in every storage give the bits of single jobs") {
+    Random random(101);
+    const std::vector<bend::Body> all = bodies(random);
+    std::size_t picture = 0;
+    for (const Isa isa : isas_here()) {
+        for (const Storage storage : all_storages) {
+            for (const Matrix matrix : {Matrix::columns3, Matrix::columns4, Matrix::rows4}) {
+                for (const unsigned ways : {0u, 1u, 2u, 3u}) {
+                    HerdStyle style{.storage = storage, .transforms = matrix};
+                    style.indices = (ways & 1) != 0;
+                    style.places = (ways & 2) != 0;
+                    style.picture = pictures[picture++ % std::size(pictures)];
+                    INFO(name(isa), ", storage ", static_cast<int>(storage), ", matrices ",
+                         static_cast<int>(matrix), ", ways ", ways, ", ", style.picture);
+                    Herds herds;
+                    herds.add(random, all[0], 9, style);
+                    herds.add(random, all[1], 6, style);
+                    const bend::CrowdResult expected = herds.expect(isa);
+                    CHECK(expected.deformed == 15);
+                    CHECK(expected.at_rest == 0);
+                    for (const bend::Stores stores : both_stores) {
+                        const bend::CrowdJob crowd{.batches = herds.batches, .stores = stores, .isa = isa};
+                        REQUIRE(told(bend::validate(crowd)) == "none");
+                        check(herds, crowd, expected, run_one);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of single jobs") {
+    Random random(102);
+    const std::vector<bend::Body> all = bodies(random);
+    for (const Isa isa : isas_here()) {
+        for (int trial = 0; trial < 6; ++trial) {
+            INFO(name(isa), ", trial ", trial);
+            Herds herds;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                HerdStyle style;
+                style.storage = all_storages[random() % 4];
+                style.transforms = static_cast<Matrix>(random() % 3);
+                style.indices = random() % 2 == 0;
+                style.places = random() % 2 == 0;
+                style.masks = trial % 2 == 1;
+                style.defaults = random() % 4 == 0;
+                style.hostile = trial == 5;
+                style.scratch_gaps = random() % 2 == 0;
+                style.picture = pictures[random() % std::size(pictures)];
+                herds.add(random, all[i], random() % 12, style);
+            }
+            bend::CrowdJob crowd{.batches = herds.batches, .frame = static_cast<std::uint32_t>(trial)};
+            crowd.stores = both_stores[static_cast<std::size_t>(trial) / 2 % 2];
+            crowd.isa = isa;
+            if (trial != 5) REQUIRE(told(bend::validate(crowd)) == "none");
+            const bend::CrowdResult expected = herds.expect(isa, crowd.frame);
+            check(herds, crowd, expected, run_one);
+            for (const int threads : {1, 3}) {
+                check(herds, crowd, expected, [&](const bend::CrowdJob& job) {
+                    bend::CrowdResult result;
+                    in_arena(threads, [&] { result = bend::run_parallel(job); });
+                    return result;
+                });
+            }
+            for (const std::size_t pieces : {1u, 2u, 7u, 100u}) {
+                for (const std::size_t threads : {1u, 3u}) {
+                    check(herds, crowd, expected,
+                          [&](const bend::CrowdJob& job) { return run_on_threads(job, threads, pieces); });
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("masks and intervals are read from columns, and what has no turn is not touched") {
+    Random random(103);
+    const std::vector<bend::Body> all = bodies(random);
+    for (const Storage storage : all_storages) {
+        for (const bool indices : {false, true}) {
+            Herds herds;
+            HerdStyle style{.storage = storage, .indices = indices, .masks = true};
+            herds.add(random, all[0], 60, style);
+            style.picture = "xyzuvw";
+            herds.add(random, all[1], 40, style);
+            std::size_t turns = 0;
+            // The last ones: a frame's number may wrap around, an instance's turn is told from the sum.
+            for (const std::uint32_t frame : {0u, 1u, 2u, 3u, 4u, 5u, 0xfffffffeu, 0xffffffffu}) {
+                CAPTURE(frame);
+                const bend::CrowdJob crowd{.batches = herds.batches, .frame = frame};
+                const bend::CrowdResult expected = herds.expect(Isa::automatic, frame);
+                turns += expected.deformed;
+                check(herds, crowd, expected, run_one);
+                check(herds, crowd, expected,
+                      [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
+                check(herds, crowd, expected,
+                      [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 9); });
+            }
+            CHECK((turns > 100 && turns < 500));
+        }
+    }
+}
+
+TEST_CASE("every n-th frame: each instance has its turn, and the turns are spread") {
+    Random random(86);
+    const bend::Body body = loose_body(random, 20);
+    const std::vector<std::uint8_t> intervals = {0, 1, 2, 3, 4, 4, 4, 4, 3, 3, 2, 255};
+    const std::vector<bend::Pose> poses(intervals.size(), {1, 0});
+    Columns out(3, intervals.size() * 20);
+    bend::Batch batch{.body = &body, .count = intervals.size()};
+    batch.poses = strided(std::span(poses));
+    batch.update_intervals = strided(std::span(intervals));
+    batch.positions = planar(out[0], out[1], out[2]);
+    batch.step = 20;
+    std::vector<int> turns(intervals.size());
+    for (std::uint32_t frame = 0; frame < 12; ++frame) {
+        std::ranges::fill(out[0], 99.0f);
+        const std::size_t deformed =
+            bend::run(bend::CrowdJob{.batches = {&batch, 1}, .frame = frame}).deformed;
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < turns.size(); ++i) {
+            const bool own = out[0][20 * i] != 99.0f;
+            turns[i] += own ? 1 : 0;
+            seen += own ? 1 : 0;
+        }
+        CHECK(seen == deformed);
+        CHECK(seen <= 7);  // of the four with n = 4, for one, there is one in each frame
+    }
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) CHECK(turns[i] == 12 / std::max<int>(intervals[i], 1));
+}
+
+TEST_CASE("columns that are not given stand for the identity, full wrinkles and every turn") {
+    Random random(104);
+    const std::vector<bend::Body> all = bodies(random);
+    Herds herds;
+    for (const std::string_view picture : pictures) {
+        HerdStyle style{.places = true, .defaults = true, .picture = picture};
+        style.transforms = static_cast<Matrix>(herds.herds.size() % 3);
+        herds.add(random, all[1], 7, style);
+    }
+    const bend::CrowdJob crowd{.batches = herds.batches, .frame = 3};
+    REQUIRE(told(bend::validate(crowd)) == "none");
+    check(herds, crowd, herds.expect(Isa::automatic), run_one);
+}
+
+TEST_CASE("instances may share the elements of columns") {
+    Random random(105);
+    const bend::Body body = loose_body(random, 50);
+    const std::vector<bend::Pose> poses{{1, 2}, {-2, 0.5f}, {3, 3}};
+    const std::vector<std::uint32_t> indices{2, 2, 0, 2, 0, 0, 2};
+    Layout out("xyzuvw", 50 * indices.size());
+    bend::Batch batch{.body = &body, .count = indices.size(), .indices = indices};
+    batch.poses = strided(std::span(poses));
+    batch.step = 50;  // by instance, not by element
+    out.attach(batch);
+    std::vector<Layout> planes;
+    for (const bend::Pose& pose : poses) {
+        bend::DeformJob job{.body = &body, .pose = pose};
+        planes.emplace_back("x y z u v w", 50).attach(job);
+        bend::run(job);
+    }
+    std::vector<Layout::Part> parts;
+    for (std::size_t i = 0; i < indices.size(); ++i) parts.push_back({&planes[indices[i]], 0, 50, 50 * i});
+    const bend::CrowdJob crowd{.batches = {&batch, 1}};
+    REQUIRE(told(bend::validate(crowd)) == "none");
+    CHECK(bend::run(crowd).deformed == indices.size());
+    CHECK(out.fault(parts) == "");
+}
+
+TEST_CASE("bounds of a batch are those of its instances' jobs, whatever its masks say") {
+    Random random(106);
+    const std::vector<bend::Body> all = bodies(random);
+    for (const Isa isa : isas_here()) {
+        for (const Storage storage : all_storages) {
+            for (const bool hostile : {false, true}) {
+                HerdStyle style{.storage = storage, .indices = true, .masks = true, .hostile = hostile};
+                style.defaults = storage == Storage::arrays;
+                Herd herd(random, all[1], 23, style);
+                std::vector<bend::Bounds> boxes(24, {glm::vec3(7), glm::vec3(-7)});
+                bend::bounds(herd.batch(), std::span(boxes).first(23), isa);
+                for (std::size_t i = 0; i < 23; ++i) {
+                    bend::DeformJob job = herd.job(i);
+                    job.isa = isa;
+                    const bend::Bounds box = bend::bounds(job);
+                    CHECK(std::memcmp(&box, &boxes[i], sizeof box) == 0);
+                    for (int axis = 0; axis < 3; ++axis) CHECK(box.low[axis] <= box.high[axis]);
+                }
+                CHECK(boxes[23].low == glm::vec3(7));
+            }
+        }
+    }
+}
+
+TEST_CASE("a batch of nobody is no fault and no work") {
+    Random random(107);
+    const std::vector<bend::Body> all = bodies(random);
+    Herds herds;
+    herds.add(random, all[0], 0, {});
+    herds.add(random, all[1], 4, {});
+    herds.add(random, all[0], 0, {.storage = Storage::arrays, .places = true});
+    const bend::CrowdJob crowd{.batches = herds.batches};
+    CHECK(bend::validate(crowd).none());
+    const bend::CrowdResult expected = herds.expect(Isa::automatic);
+    check(herds, crowd, expected, run_one);
+    check(herds, crowd, expected, [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 5); });
+    check(herds, crowd, expected, [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
+    const bend::CrowdJob nobody{.batches = std::span(herds.batches).first(1)};
+    CHECK(bend::run(nobody).deformed == 0);
+    CHECK(bend::run_parallel(nobody).deformed == 0);
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+#include "support/faults.hpp"
+
+#include <goffer/bend/crowd.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+/// P7 of crowds: validate() names the batch, the instance and the field at fault, whatever masks say.
+
+namespace goffer::test {
+namespace {
+
+using bend::Batch;
+using bend::Field;
+using bend::Reason;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t instances = 10;
+constexpr std::size_t vertices = 12;
+
+struct Worm {
+    bend::Pose poses[2] = {{0.5f, 1}, {1, 2}};
+    bend::Pose previous_poses[2] = {};
+    float weight = 0.5f;
+    glm::mat4x3 model{1}, previous_model{1};
+    std::uint8_t visible = 1, changed = 1, interval = 2;
+    std::uint32_t place = 0;
+};
+
+/// A crowd of two good batches of a body of two regions, the second of which tests spoil.
+struct Crowd {
+    Random random{111};
+    bend::Body body = two_regions(random);
+    std::vector<Worm> worms{instances};
+    std::vector<std::uint32_t> indices;
+    std::vector<float> memory = std::vector<float>(2 * instances * vertices * 6);
+    std::vector<bend::Bounds> boxes{instances};
+    Batch batches[2];
+
+    Crowd() {
+        for (std::size_t i = 0; i < instances; ++i) {
+            worms[i].place = static_cast<std::uint32_t>(i * vertices);
+            indices.push_back(static_cast<std::uint32_t>(instances - 1 - i));
+        }
+        const std::size_t half = instances * vertices;
+        for (std::size_t i = 0; i < 2; ++i) {
+            Batch& batch = batches[i];
+            batch.body = &body;
+            batch.count = instances;
+            batch.poses = strided(std::span(worms), &Worm::poses);
+            batch.positions = interleaved<3>(&memory[i * half * 6], half, 24);
+            batch.step = vertices;
+        }
+        Batch& batch = batches[1];
+        batch.indices = indices;
+        batch.transforms = strided(std::span(worms), &Worm::model);
+        batch.wrinkle_weights = strided(std::span(worms), &Worm::weight);
+        batch.previous_poses = strided(std::span(worms), &Worm::previous_poses);
+        batch.previous_transforms = strided(std::span(worms), &Worm::previous_model);
+        batch.visible = strided(std::span(worms), &Worm::visible);
+        batch.changed = strided(std::span(worms), &Worm::changed);
+        batch.update_intervals = strided(std::span(worms), &Worm::interval);
+        batch.previous_positions = interleaved<3>(&memory[half * 6 + 3], half, 24);
+        batch.bounds = boxes;
+        batch.places = strided(std::span(worms), &Worm::place);
+        batch.step = 0;
+    }
+
+    [[nodiscard]] bend::Fault fault() const { return bend::validate(bend::CrowdJob{.batches = batches}); }
+
+    static bend::Body two_regions(Random& random) {
+        const std::size_t counts[] = {5, 7};
+        return loose_chain(random, counts);
+    }
+};
+
+/// The fault of a good crowd after `change`.
+template <class Change>
+bend::Fault after(Change change) {
+    Crowd crowd;
+    change(crowd, crowd.batches[1]);
+    return crowd.fault();
+}
+
+template <class T>
+StridedView<T> shorter(StridedView<T> view) {
+    --view.count;
+    return view;
+}
+
+template <class T>
+StridedView<T> one_byte_on(StridedView<T> view) {
+    ++view.offset;
+    return view;
+}
+
+}  // namespace
+
+TEST_CASE("P7: a crowd's fault names batch, instance and region") {
+    CHECK(told(Crowd().fault()) == "none");
+    // Instance i reads element 9 - i.
+    CHECK(told(after([](Crowd& c, Batch&) {
+              c.worms[2].poses[1].angle = nan;
+              c.batches[0].count = 2;
+          })) == "poses not_finite, batch 1, instance 7, region 1");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[2].poses[1].angle = nan; })) ==
+          "poses not_finite, batch 0, instance 2, region 1");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[9].previous_poses[0].direction = -nan; })) ==
+          "previous_poses not_finite, batch 1, instance 0, region 0");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[0].weight = nan; })) ==
+          "wrinkle_weight not_finite, batch 1, instance 9");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[4].weight = -0.5f; })) ==
+          "wrinkle_weight out_of_range, batch 1, instance 5");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[4].model[3].y = nan; })) ==
+          "transform not_finite, batch 1, instance 5");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[4].model[0].z = 2e18f; })) ==
+          "transform too_large, batch 1, instance 5");
+    CHECK(told(after([](Crowd& c, Batch&) { c.worms[4].previous_model[2].x = nan; })) ==
+          "previous_transform not_finite, batch 1, instance 5");
+    // Nobody's elements need not make sense.
+    CHECK(told(after([](Crowd& c, Batch& b) {
+              c.batches[0].count = 2;
+              b.count = 7;
+              b.indices = b.indices.first(7);
+              c.worms[2].place = 0xffffffffu;
+              c.worms[2].weight = nan;
+          })) == "none");
+}
+
+TEST_CASE("P7: masks hide nothing from validate") {
+    const auto asleep = [](Crowd& c) {
+        for (Worm& worm : c.worms) worm.visible = worm.changed = 0, worm.interval = 255;
+    };
+    CHECK(told(after([&](Crowd& c, Batch&) { asleep(c); })) == "none");
+    CHECK(told(after([&](Crowd& c, Batch&) { asleep(c), c.worms[9].weight = 2; })) ==
+          "wrinkle_weight out_of_range, batch 1, instance 0");
+    CHECK(told(after([&](Crowd& c, Batch&) { asleep(c), c.worms[3].place = 0xffffffffu; })) ==
+          told(after([&](Crowd& c, Batch&) { c.worms[3].place = 0xffffffffu; })));
+    CHECK(told(after([&](Crowd& c, Batch& b) { asleep(c), b.body = nullptr; })) == "body null, batch 1");
+}
+
+TEST_CASE("P7: what a batch has for all its instances is named without an instance") {
+    CHECK(told(after([](Crowd&, Batch& b) { b.body = nullptr; })) == "body null, batch 1");
+    const bend::Body empty;
+    CHECK(told(after([&](Crowd&, Batch& b) { b.body = &empty; })) == "body empty, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.positions = {}, b.previous_positions = {}; })) ==
+          "outputs empty, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.positions.stride = 10; })) == "positions stride, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.positions.component[0] = nullptr; })) ==
+          "positions null, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_positions.component[2] = nullptr; })) ==
+          "previous_positions null, batch 1");
+    const bend::Fault overlap = after([](Crowd&, Batch& b) { --b.previous_positions.component[0]; });
+    CHECK(is_overlap(overlap, Field::positions, Field::previous_positions));
+    CHECK(overlap.batch == 1);
+    Crowd crowd;
+    const bend::CrowdJob job{.batches = crowd.batches, .isa = static_cast<Isa>(77)};
+    CHECK(told(bend::validate(job)) == "isa not_supported");
+    CHECK(told(after([](Crowd& c, Batch&) { c.batches[0].poses = {}; })) == "poses null, batch 0");
+    CHECK(told(after([](Crowd&, Batch& b) { b.poses = {}; })) == "poses null, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_poses = {}; })) == "previous_poses null, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_poses = {}, b.previous_positions = {}; })) == "none");
+}
+
+TEST_CASE("P7: columns that end too soon are named") {
+    const auto spoilt = [](auto column) {
+        return after([&](Crowd&, Batch& b) { b.*column = shorter(b.*column); });
+    };
+    // Instance 0 reads the last element.
+    CHECK(told(spoilt(&Batch::poses)) == "indices out_of_range, batch 1, instance 0");
+    CHECK(told(spoilt(&Batch::wrinkle_weights)) == "wrinkle_weight count, batch 1");
+    CHECK(told(spoilt(&Batch::previous_poses)) == "previous_poses count, batch 1");
+    CHECK(told(spoilt(&Batch::visible)) == "visible count, batch 1");
+    CHECK(told(spoilt(&Batch::changed)) == "changed count, batch 1");
+    CHECK(told(spoilt(&Batch::update_intervals)) == "update_intervals count, batch 1");
+    CHECK(told(spoilt(&Batch::places)) == "places count, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { --b.transforms.first.count; })) == "transform count, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { --b.previous_transforms.first.count; })) ==
+          "previous_transform count, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.bounds = b.bounds.first(9); })) == "bounds count, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.indices = b.indices.first(9); })) == "indices count, batch 1");
+    // Of a batch without indices.
+    CHECK(told(after([](Crowd& c, Batch&) { c.batches[0].poses.count = 9; })) == "poses count, batch 0");
+}
+
+TEST_CASE("P7: indices, places and steps that lead out of the buffers are named") {
+    CHECK(told(after([](Crowd& c, Batch&) { c.indices[5] = instances; })) ==
+          "indices out_of_range, batch 1, instance 5");
+    CHECK(told(after([](Crowd& c, Batch&) { c.indices[5] = 0xffffffffu; })) ==
+          "indices out_of_range, batch 1, instance 5");
+    const auto with_place = [](std::uint32_t place) {
+        return after([&](Crowd& c, Batch&) { c.worms[3].place = place; });
+    };
+    constexpr std::uint32_t last = (instances - 1) * vertices;
+    CHECK(told(with_place(last + 1)) == "places out_of_range, batch 1, instance 6");
+    CHECK(told(with_place(0xffffffffu)) == "places out_of_range, batch 1, instance 6");
+    CHECK(told(with_place(0xfffffff4u)) == "places out_of_range, batch 1, instance 6");  // + 12 is 0
+    const auto with_step = [](std::size_t step) {
+        return after([&](Crowd& c, Batch&) { c.batches[0].step = step; });
+    };
+    CHECK(told(with_step(vertices)) == "none");
+    CHECK(told(with_step(vertices - 1)) == "step overlap, batch 0");
+    CHECK(told(with_step(0)) == "step overlap, batch 0");
+    CHECK(told(with_step(vertices + 1)) == "positions too_short, batch 0");
+    for (int bits = 4; bits < 64; ++bits)
+        CHECK(told(with_step(std::size_t{1} << bits)) == "positions too_short, batch 0");
+    CHECK(told(with_step(~std::size_t{0})) == "positions too_short, batch 0");
+    // A stream that is too short for the last instance, though not for a single one.
+    CHECK(told(after([](Crowd& c, Batch&) { --c.batches[0].positions.count; })) ==
+          "positions too_short, batch 0");
+    CHECK(told(after([](Crowd&, Batch& b) { --b.previous_positions.count; })) ==
+          "places out_of_range, batch 1, instance 0");
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_positions.count = vertices - 1; })) ==
+          "previous_positions too_short, batch 1");
+    CHECK(told(after([](Crowd& c, Batch&) {
+              c.batches[0].count = 1, c.batches[0].step = ~std::size_t{0};
+          })) == "none");
+}
+
+TEST_CASE("P7: columns that are not aligned to what they hold are named") {
+    const auto spoilt = [](auto column) {
+        return after([&](Crowd&, Batch& b) { b.*column = one_byte_on(b.*column); });
+    };
+    CHECK(told(spoilt(&Batch::poses)) == "poses alignment, batch 1");
+    CHECK(told(spoilt(&Batch::previous_poses)) == "previous_poses alignment, batch 1");
+    CHECK(told(spoilt(&Batch::wrinkle_weights)) == "wrinkle_weight alignment, batch 1");
+    CHECK(told(spoilt(&Batch::places)) == "places alignment, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { ++b.transforms.first.offset; })) ==
+          "transform alignment, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.poses.stride += 2; })) == "poses alignment, batch 1");
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "support/chains.hpp"
+
+#include <goffer/bend/path.hpp>
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <limits>
+
+/// Poses along a path: what is said of their error, and paths that are hardly any.
+
+namespace goffer::test {
+namespace {
+
+using Control = glm::vec3[4];
+
+bend::Body body_of(Random& random, std::size_t regions) {
+    const Subject subject = random_subject(random, 30, 10, 12, 65, 0);
+    fit::BindOptions options;
+    options.folds = 0;
+    for (std::size_t i = 0; i < regions; ++i)
+        options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
+    return std::move(fit::bind(subject.geometry(), subject.cylinder, options).body);
+}
+
+glm::dvec3 random_vector(Random& random) {
+    return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+}
+
+/// A curve that turns by a right angle or so, about as long as `length`.
+void set_smooth(Random& random, double length, Control& control) {
+    glm::dvec3 point = random_vector(random), direction = glm::normalize(random_vector(random));
+    for (glm::vec3& p : control) {
+        p = glm::vec3(point);
+        direction = glm::normalize(direction + 0.8 * random_vector(random));
+        point += direction * (length / 3 * uniform(random, 0.7, 1.5));
+    }
+}
+
+glm::dvec3 point_of(const Control& control, double t) {
+    const double u = 1 - t;
+    return u * u * u * glm::dvec3(control[0]) + 3 * u * u * t * glm::dvec3(control[1]) +
+           3 * u * t * t * glm::dvec3(control[2]) + t * t * t * glm::dvec3(control[3]);
+}
+
+/// The curve as a polyline, and a long piece straight on from its end.
+std::vector<glm::dvec3> line_of(const Control& control, int pieces) {
+    std::vector<glm::dvec3> points;
+    for (int i = 0; i <= pieces; ++i) points.push_back(point_of(control, static_cast<double>(i) / pieces));
+    points.push_back(points.back() + 100.0 * glm::normalize(glm::dvec3(control[3]) - glm::dvec3(control[2])));
+    return points;
+}
+
+double distance(const glm::dvec3& p, std::span<const glm::dvec3> points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const glm::dvec3 step = points[i + 1] - points[i];
+        const double t = std::clamp(glm::dot(p - points[i], step) / glm::dot(step, step), 0.0, 1.0);
+        nearest = std::min(nearest, glm::distance(p, points[i] + t * step));
+    }
+    return nearest;
+}
+
+/// The centre line at 16 places of each region, by the poses.
+std::vector<glm::dvec3> centre_line(const bend::Body& body, const bend::PathFit& fit,
+                                    std::span<const bend::Pose> poses) {
+    glm::dmat3 axes = glm::dmat3(glm::mat3(fit.transform)) * body.axes();
+    glm::dvec3 begin = glm::dmat4x3(fit.transform) * glm::dvec4(body.origin(), 1);
+    std::vector<glm::dvec3> places;
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        const double angle = static_cast<double>(poses[r].angle);
+        const double direction = static_cast<double>(poses[r].direction);
+        const double length = static_cast<double>(body.regions()[r].length) - angle * body.radius();
+        const glm::dvec3 n = std::cos(direction) * axes[0] + std::sin(direction) * axes[1];
+        const glm::dvec3 b = std::cos(direction) * axes[1] - std::sin(direction) * axes[0];
+        const glm::dvec3 t = axes[2];
+        for (int i = 1; i <= 16; ++i) {
+            const double half = angle * i / 32, sinc = half != 0 ? std::sin(half) / half : 1;
+            places.push_back(begin + length * i / 16 * sinc * (std::sin(half) * n + std::cos(half) * t));
+        }
+        begin = places.back();
+        const glm::dvec3 turned = std::cos(angle) * n - std::sin(angle) * t;
+        axes = {std::cos(direction) * turned - std::sin(direction) * b,
+                std::sin(direction) * turned + std::cos(direction) * b,
+                std::sin(angle) * n + std::cos(angle) * t};
+    }
+    return places;
+}
+
+double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<const bend::Pose> poses,
+                std::span<const glm::dvec3> path) {
+    double worst = 0;
+    for (const glm::dvec3& place : centre_line(body, fit, poses))
+        worst = std::max(worst, distance(place, path));
+    return worst;
+}
+
+bool same(std::span<const bend::Pose> a, std::span<const bend::Pose> b) {
+    return std::ranges::equal(a, b, [](const bend::Pose& p, const bend::Pose& q) {
+        return p.angle == q.angle && p.direction == q.direction;
+    });
+}
+
+bool is_sane(const bend::PathFit& fit, std::span<const bend::Pose> poses) {
+    for (const bend::Pose& pose : poses) {
+        if (!std::isfinite(pose.angle) || !std::isfinite(pose.direction)) return false;
+    }
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) {
+            if (!std::isfinite(fit.transform[c][r])) return false;
+        }
+    }
+    return fit.error >= 0;
+}
+
+}  // namespace
+
+TEST_CASE("the error of a path's poses is what it is said to be") {
+    Random random(91);
+    for (const std::size_t regions : {1u, 3u, 8u, 16u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions);
+        for (int trial = 0; trial < 20; ++trial) {
+            CAPTURE(regions);
+            CAPTURE(trial);
+            Control control;
+            set_smooth(random, body.length(), control);
+            const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+            const double exact = error_of(body, fit, poses, line_of(control, 2000));
+            CHECK(static_cast<double>(fit.error) == doctest::Approx(exact).epsilon(0.01).scale(0.01));
+            std::vector<glm::vec3> points;
+            for (const glm::dvec3& p : line_of(control, 60)) points.emplace_back(p);
+            const std::vector<glm::dvec3> line(points.begin(), points.end());
+            const bend::PathFit along = bend::poses_along(body, points, poses);
+            CHECK(static_cast<double>(along.error) ==
+                  doctest::Approx(error_of(body, along, poses, line)).epsilon(0.01).scale(0.01));
+        }
+    }
+}
+
+TEST_CASE("a body of which few poses are asked for lies as the whole does") {
+    Random random(92);
+    const bend::Body body = body_of(random, 8);
+    Control control;
+    set_smooth(random, body.length(), control);
+    std::vector<bend::Pose> all(8), few(3), many(11, {7, 7});
+    bend::poses_along_bezier(body, control, all);
+    bend::poses_along_bezier(body, control, few);
+    bend::poses_along_bezier(body, control, many);
+    CHECK(same(few, std::span(all).first(3)));
+    CHECK(same(std::span(many).first(8), all));
+    CHECK(many[8].angle == 7);
+    CHECK(bend::poses_along_bezier(body, control, {}).error == 0);
+}
+
+TEST_CASE("repeated points are passed over") {
+    Random random(93);
+    const bend::Body body = body_of(random, 4);
+    const glm::vec3 a(1, 2, 3), b(3, 3, 3), c(6, 2, 4);
+    const glm::vec3 once[] = {a, b, c}, again[] = {a, a, b, b, b, c, c};
+    std::vector<bend::Pose> poses(4), repeated(4);
+    const bend::PathFit fit = bend::poses_along(body, once, poses);
+    CHECK(bend::poses_along(body, again, repeated).error == fit.error);
+    CHECK(same(repeated, poses));
+    const glm::vec3 point[] = {a, a, a};
+    const glm::vec3 control[] = {a, a, a, a};
+    for (const bend::PathFit& still :
+         {bend::poses_along(body, point, poses), bend::poses_along_bezier(body, control, poses)}) {
+        CHECK(still.error == 0);
+        CHECK(glm::distance(glm::dvec3(still.transform[3]), glm::dvec3(a) - body.origin()) < 1e-5);
+        CHECK(same(poses, std::vector<bend::Pose>(4)));
+    }
+}
+
+TEST_CASE("a path may hold any bits") {
+    Random random(94);
+    const float some[] = {0, 1, 2, 1e-45f, -1e20f, 3e38f, -3e38f, std::numeric_limits<float>::quiet_NaN()};
+    for (int trial = 0; trial < 6; ++trial) {
+        const bend::Body body = body_of(random, 1 + random() % 32);
+        std::vector<bend::Pose> poses(body.region_count());
+        for (int i = 0; i < 2000; ++i) {
+            Control control;
+            for (glm::vec3& p : control) {
+                for (int c = 0; c < 3; ++c)
+                    p[c] = i % 2 == 0 ? some[random() % (i % 4 == 0 ? 8 : 7)]
+                                      : std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+            }
+            REQUIRE(is_sane(bend::poses_along_bezier(body, control, poses), poses));
+            const std::span<const glm::vec3> points = std::span(control).first(random() % 5);
+            const bend::PathFit fit = bend::poses_along(body, points, poses);
+            REQUIRE(is_sane(fit, poses));
+            const bend::PathFault fault = bend::check_path(points);
+            if (fault == bend::PathFault::not_finite || fault == bend::PathFault::too_few_points)
+                CHECK(fit.error == std::numeric_limits<float>::infinity());
+        }
+    }
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "support/accuracy.hpp"
+#include "support/bodies.hpp"
+#include "support/layout.hpp"
+
+#include <goffer/bend/bounds.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+/// The wrinkles' weight: from the whole wrinkle to the bits of the bare bend.
+
+namespace goffer::test {
+namespace {
+
+struct Folded {
+    Subject subject;
+    fit::Bound bound, bare;  // the same mesh with folds and without
+};
+
+Folded folded(Random& random) {
+    Subject subject = random_subject(random, 12, 1);
+    fit::BindOptions options;
+    options.folds = 4;
+    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    options.folds = 0;
+    fit::Bound bare = fit::bind(subject.geometry(), subject.cylinder, options);
+    return {std::move(subject), std::move(bound), std::move(bare)};
+}
+
+bool same_bits(const Output& a, const Output& b) {
+    for (std::size_t c = 0; c < 10; ++c)
+        if (!std::ranges::equal(a.columns[c], b.columns[c])) return false;
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("without wrinkles a body bends as one that has no folds") {
+    Random random(69);
+    const Folded body = folded(random);
+    const std::size_t count = body.subject.positions.size();
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        Output a(count), b(count);
+        bend::DeformJob job = make_job(body.bound.body, {1.3f, 2.0f}, isa, a);
+        job.wrinkle_weight = 0;
+        bend::run(job);
+        bend::run(make_job(body.bare.body, {1.3f, 2.0f}, isa, b));
+        CHECK(same_bits(a, b));
+        job.wrinkle_weight = 1;
+        bend::run(job);
+        CHECK_FALSE(same_bits(a, b));
+    }
+}
+
+TEST_CASE("wrinkles grow in proportion to their weight") {
+    // A vertex moves along a straight line as its wrinkle grows: away from the axis.
+    Random random(70);
+    const Folded body = folded(random);
+    const std::size_t count = body.subject.positions.size();
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        Output none(count), all(count), some(count);
+        bend::DeformJob job = make_job(body.bound.body, {1.3f, 2.0f}, isa, none);
+        job.wrinkle_weight = 0;
+        bend::run(job);
+        bend::run(make_job(body.bound.body, {1.3f, 2.0f}, isa, all));
+        double deepest = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            deepest = std::max(deepest, glm::length(all.position(i) - none.position(i)));
+        CHECK(deepest > 0.01);
+        for (const float weight : {1e-6f, 0.01f, 0.25f, 0.5f, 0.9f, 0.999f}) {
+            CAPTURE(weight);
+            job = make_job(body.bound.body, {1.3f, 2.0f}, isa, some);
+            job.wrinkle_weight = weight;
+            REQUIRE(bend::validate(job).none());
+            bend::run(job);
+            const auto share = static_cast<double>(weight);
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::dvec3 expected = (1 - share) * none.position(i) + share * all.position(i);
+                REQUIRE(glm::length(some.position(i) - expected) < 2e-6);
+                REQUIRE(std::fabs(glm::length(some.normal(i)) - 1) < 1e-6);
+            }
+        }
+        // Normals fade as positions do: those of a weight near an end are near the end's.
+        for (const auto& [weight, end] : {std::pair{1e-5f, &none}, std::pair{1 - 1e-5f, &all}}) {
+            job.wrinkle_weight = weight;
+            bend::run(job);
+            for (std::size_t i = 0; i < count; ++i)
+                REQUIRE(angle_between(some.normal(i), end->normal(i)) < 0.1);
+        }
+    }
+}
+
+TEST_CASE("a weight that is no share is clamped, NaN to none") {
+    Random random(71);
+    const std::size_t counts[] = {40, 1, 60};
+    const bend::Body body = loose_chain(random, counts);
+    const std::vector<bend::Pose> poses{{1, 2}, {-2, 1}, {3, 0}};
+    constexpr std::string_view picture = "x y z u v w a b c d p q r 123";
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const Isa isa : isas_here()) {
+        const auto run_to = [&](Layout& out, float weight) {
+            bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = weight, .isa = isa};
+            job.previous_poses = std::span(poses);
+            out.attach(job);
+            bend::run(job);
+        };
+        Layout none(picture, 101), all(picture, 101);
+        run_to(none, 0);
+        run_to(all, 1);
+        CHECK(all.fault(none) != "");
+        for (const float weight : {nan, -nan, -0.0f, -1e-45f, -1.0f, -infinity}) {
+            Layout out(picture, 101);
+            run_to(out, weight);
+            CHECK(out.fault(none) == "");
+        }
+        for (const float weight : {1.0f, 1.0001f, 3e38f, infinity}) {
+            Layout out(picture, 101);
+            run_to(out, weight);
+            CHECK(out.fault(all) == "");
+        }
+    }
+}
+
+TEST_CASE("P10: bounds hold the vertices whatever the weight, and shrink with it") {
+    Random random(72);
+    const Folded body = folded(random);
+    const std::size_t count = body.subject.positions.size();
+    Output out(count);
+    double volume = 0;
+    for (const float weight : {0.0f, 0.2f, 0.7f, 1.0f}) {
+        bend::DeformJob job = make_job(body.bound.body, {1.9f, -0.4f}, Isa::automatic, out);
+        job.wrinkle_weight = weight;
+        bend::run(job);
+        const bend::Bounds box = bend::bounds(job);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 p(out.position(i));
+            REQUIRE(glm::all(glm::lessThanEqual(box.low, p)));
+            REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
+        }
+        const glm::dvec3 size(box.high - box.low);
+        CHECK(size.x * size.y * size.z >= volume);
+        volume = size.x * size.y * size.z;
+    }
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "support/arena.hpp"
+#include "support/faults.hpp"
+#include "support/herd.hpp"
+#include "support/layout_case.hpp"
+#include "support/sanitized.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+/// Wide records: all that a renderer keeps of a vertex side by side, up to 128 bytes, of bodies whose regions
+/// are shorter than a cache line has room for. Gaps are kept, or scratch; then they alone may change.
+
+namespace goffer::test {
+namespace {
+
+constexpr std::string_view named[] = {
+    // dense: 36, 24, 40, 52, 64 bytes; packed beside others; members in another order
+    "xyzuvwpqr",
+    "xyzpqr",
+    "xyzuvwabcd",
+    "xyzuvwabcdpqr",
+    "xyzuvwabcdpqr123",
+    "123xyz",
+    "xyzuvw123",
+    "pqr123uvw",
+    "pqrxyz",
+    "abcdpqruvwxyz",
+    "123pqrabcd uvwxyz",
+    // with gaps: 32, 48, 64, 80, 128 bytes
+    "xyzuvw..",
+    "xyz.pqr.",
+    "xyz.uvw.abcd",
+    "..xyzpqr........",
+    "xyzuvwabcdpqr...",
+    ".xyz.uvw.abcd.pqr.123",
+    "xyz.............................",
+    "......123...............xyz.....",
+    ".......xyzuvw.......abcd........ pqr.",
+};
+
+/// Streams in any mix and order, in one record or in two; with gaps the records are up to 128 bytes long.
+std::string any_picture(Random& random, bool gaps) {
+    std::vector<std::string> words{"xyz", "uvw", "abcd", "pqr", "123"};
+    std::ranges::shuffle(words, random);
+    words.resize(1 + random() % words.size());
+    std::string picture;
+    std::size_t size = 0, spare = 16;  // floats of the record; what gaps may take before its last stream
+    for (const std::string& word : words) {
+        if (!picture.empty() && random() % 5 == 0) picture += ' ', size = 0, spare = 16;
+        std::size_t gap = gaps && random() % 2 == 0 ? random() % 8 : 0;
+        gap = std::min(gap, spare);
+        picture.append(gap, '.').append(word);
+        size += gap + word.size();
+        spare -= gap;
+    }
+    if (gaps) picture.append(random() % (33 - size), '.');
+    return picture;
+}
+
+/// `count` vertices in regions of 1 to `most` each; the last one takes what is left.
+bend::Body cut_body(Random& random, std::size_t count, std::size_t most) {
+    std::vector<std::size_t> counts;
+    while (count > 0) {
+        const bool last = counts.size() + 1 == bend::max_regions;
+        counts.push_back(last ? count : std::min(count, 1 + random() % most));
+        count -= counts.back();
+    }
+    return loose_chain(random, counts);
+}
+
+/// By any stores, with gaps kept and with gaps that are scratch.
+void check(LayoutCase& subject, std::string_view picture, std::size_t shift, std::size_t skew, Isa isa) {
+    Layout out(picture, subject.count(), shift, skew);
+    for (const Layout::Gaps gaps : {Layout::Gaps::kept, Layout::Gaps::scratch}) {
+        for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
+            INFO(picture, ", ", subject.count(), " vertices, shift ", shift, ", skew ", skew, ", ", name(isa),
+                 ", scratch ", gaps == Layout::Gaps::scratch, ", cached ", stores == bend::Stores::cached);
+            bend::DeformJob& job = subject.job(out);
+            job.scratch_gaps = gaps == Layout::Gaps::scratch;
+            const bend::Batch batch = bend::batch_of(job);
+            const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = isa};
+            REQUIRE(told(bend::validate(crowd)) == "none");
+            bend::run(crowd);
+            REQUIRE(out.fault(subject.planes(), gaps) == "");
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("wide records hold the bits of planes: every alignment") {
+    Random random(141);
+    const std::vector<std::size_t> counts =
+        sanitized ? std::vector<std::size_t>{17, 70, 257}
+                  : std::vector<std::size_t>{1, 2, 15, 16, 17, 33, 70, 255, 256, 257, 511, 513};
+    for (const std::size_t count : counts) {
+        for (const std::size_t most : {std::size_t{3}, std::size_t{40}}) {
+            LayoutCase subject(random, cut_body(random, count, most));
+            for (const Isa isa : isas_here()) {
+                subject.make_planes(isa);
+                for (const std::string_view picture : named) {
+                    for (std::size_t shift = 0; shift < 16; ++shift)
+                        check(subject, picture, shift, random() % 16, isa);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("wide records hold the bits of planes: any records, every vertex count") {
+    Random random(142);
+    std::vector<std::size_t> counts{250, 255, 256, 257, 258, 270, 511, 512, 513, 530, 771};
+    for (std::size_t count = 1; count <= 70; ++count) counts.push_back(count);
+    for (const std::size_t count : counts) {
+        const std::size_t most = random() % 3 == 0 ? count : 1 + random() % 40;
+        LayoutCase subject(random, cut_body(random, count, most));
+        for (const Isa isa : isas_here()) {
+            subject.make_planes(isa);
+            for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial)
+                check(subject, any_picture(random, trial % 2 == 0), random() % 16, random() % 16, isa);
+        }
+    }
+}
+
+TEST_CASE("a range of wide records writes its own vertices alone, and its own gaps at most") {
+    Random random(143);
+    for (const std::size_t count : {35u, 300u}) {
+        LayoutCase subject(random, cut_body(random, count, 12));
+        for (const Isa isa : isas_here()) {
+            subject.make_planes(isa);
+            for (int trial = 0; trial < (sanitized ? 10 : 40); ++trial) {
+                const std::string picture = any_picture(random, trial % 4 != 0);
+                Layout out(picture, count, random() % 16, random() % 16);
+                for (int range = 0; range < 40; ++range) {
+                    const std::size_t first = random() % (count + 1);
+                    const std::size_t last = first + random() % (count - first + 1);
+                    const Layout::Gaps gaps = range % 2 == 0 ? Layout::Gaps::scratch : Layout::Gaps::kept;
+                    INFO(picture, ", [", first, ", ", last, "), ", name(isa));
+                    bend::DeformJob& job = subject.job(out);
+                    job.scratch_gaps = gaps == Layout::Gaps::scratch;
+                    bend::run_range(job, first, last);
+                    REQUIRE(out.fault(subject.planes(), first, last, gaps) == "");
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("wide records of a crowd: pieces and threads leave the bits of single jobs") {
+    Random random(144);
+    std::vector<bend::Body> bodies;
+    for (const std::size_t count : {23u, 400u}) bodies.push_back(cut_body(random, count, 9));
+    for (const Isa isa : isas_here()) {
+        for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial) {
+            Herds herds;
+            std::string pictures[2];
+            for (std::size_t i = 0; i < 2; ++i) {
+                pictures[i] = trial % 4 == 0 ? std::string(named[random() % std::size(named)])
+                                             : any_picture(random, trial % 4 != 1);
+                HerdStyle style{.storage = all_storages[random() % 4]};
+                style.places = random() % 2 == 0;
+                style.scratch_gaps = trial % 3 != 0;
+                style.picture = pictures[i];
+                herds.add(random, bodies[i], 1 + random() % 9, style);
+            }
+            INFO(pictures[0], " and ", pictures[1], ", ", name(isa), ", trial ", trial);
+            bend::CrowdJob crowd{.batches = herds.batches, .isa = isa};
+            crowd.stores = trial % 2 == 0 ? bend::Stores::non_temporal : bend::Stores::cached;
+            REQUIRE(told(bend::validate(crowd)) == "none");
+            const bend::CrowdResult expected = herds.expect(isa);
+            herds.clear();
+            in_arena(3, [&] { CHECK(bend::run_parallel(crowd).deformed == expected.deformed); });
+            REQUIRE(herds.fault() == "");
+            for (const std::size_t pieces : {2u, 5u, 60u}) {
+                herds.clear();
+                for (std::size_t piece = pieces; piece-- > 0;) bend::run_piece(crowd, piece, pieces);
+                REQUIRE(herds.fault() == "");
+            }
+        }
+    }
+}
+
+}  // namespace goffer::test

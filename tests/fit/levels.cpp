@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Levels of detail on one rig: vertices that levels share go to the same place, bit for bit.
+
+namespace goffer::test {
+namespace {
+
+constexpr std::uint32_t columns = 24, rows = 65;
+
+/// A coarser level: every other column and every fourth row of random_subject's skin, and all of its loose
+/// vertices, last to first.
+struct Level {
+    Subject subject;
+    std::vector<std::uint32_t> from;  // of each vertex: the one of the finer mesh
+
+    void take(const Subject& fine, std::uint32_t vertex) {
+        from.push_back(vertex);
+        subject.positions.push_back(fine.positions[vertex]);
+        subject.normals.push_back(fine.normals[vertex]);
+        subject.tangents.push_back(fine.tangents[vertex]);
+    }
+};
+
+Level decimated(const Subject& fine) {
+    Level level;
+    level.subject.cylinder = fine.cylinder;
+    for (std::uint32_t row = 0; row < rows; row += 4) {
+        for (std::uint32_t column = 0; column < columns; column += 2)
+            level.take(fine, row * columns + column);
+    }
+    for (auto i = static_cast<std::uint32_t>(fine.positions.size()); i-- > rows * columns;)
+        level.take(fine, i);
+    constexpr std::uint32_t around = columns / 2;
+    for (std::uint32_t row = 0; row + 4 < rows; row += 4) {
+        for (std::uint32_t column = 0; column < around; ++column) {
+            const std::uint32_t a = row / 4 * around + column, b = row / 4 * around + (column + 1) % around;
+            level.subject.triangles.insert(level.subject.triangles.end(),
+                                           {a, b, a + around, b, b + around, a + around});
+        }
+    }
+    return level;
+}
+
+/// Deformed positions, in the geometry's order.
+std::vector<glm::vec3> deformed(const fit::Bound& bound, std::span<const bend::Pose> poses, Isa isa) {
+    std::vector<glm::vec3> positions(bound.body.vertex_count()), sorted(positions.size());
+    bend::DeformJob job;
+    job.body = &bound.body;
+    job.poses = poses;
+    job.isa = isa;
+    job.positions = interleaved<3>(&positions[0].x, positions.size());
+    REQUIRE(bend::validate(job).none());
+    bend::run(job);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        sorted[bound.order.empty() ? i : bound.order[i]] = positions[i];
+    return sorted;
+}
+
+bool same_bits(const glm::vec3& a, const glm::vec3& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+void check_levels(const Subject& fine, const fit::BindOptions& options) {
+    const fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder, options);
+    const Level level = decimated(fine);
+    const fit::Bound coarse = fit::bind_level(level.subject.geometry(), rig);
+    REQUIRE(coarse.body.vertex_count() == level.from.size());
+    REQUIRE(coarse.body.region_count() == rig.body.region_count());
+    for (const Isa isa : isas_here()) {
+        for (const float share : {0.0f, 1e-3f, -0.3f, 0.8f, 1.0f, 2.0f}) {
+            std::vector<bend::Pose> poses;
+            for (std::size_t r = 0; r < rig.body.region_count(); ++r) {
+                const float sign = r % 2 == 0 ? 1.0f : -1.0f;
+                poses.push_back({sign * share * rig.body.max_angle(r), 0.7f + static_cast<float>(r)});
+            }
+            const std::vector<glm::vec3> all = deformed(rig, poses, isa), some = deformed(coarse, poses, isa);
+            std::size_t equal = 0;
+            for (std::size_t i = 0; i < some.size(); ++i)
+                equal += same_bits(some[i], all[level.from[i]]) ? 1 : 0;
+            CAPTURE(share);
+            CHECK(equal == some.size());
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("levels: shared vertices go to the same place, bit for bit") {
+    Random random(71);
+    const Subject fine = random_subject(random, 9, 3, columns, rows);
+    fit::BindOptions options;
+    options.folds = 3;
+    check_levels(fine, options);
+    options.amplitude = paper::Amplitude::none;
+    check_levels(fine, options);
+    options.amplitude = paper::Amplitude::paper;
+    options.onset = 0.01;
+    check_levels(fine, options);
+}
+
+TEST_CASE("levels: of several regions, and with factors for the rig's own area") {
+    Random random(72);
+    const Subject fine = random_subject(random, 12, 0.2, columns, rows);
+    fit::BindOptions options;
+    options.folds = 1;
+    options.regions = {{0.5, {}}, {0.2, 0}, {0.3, {}}};
+    check_levels(fine, options);
+    options.amplitude = paper::Amplitude::mesh;
+    check_levels(fine, options);
+    options.regions = {};
+    check_levels(fine, options);
+}
+
+TEST_CASE("levels: of a body that is bent at rest") {
+    Random random(73);
+    Subject fine = random_subject(random, 14, 2, columns, rows, 0);
+    fine.cylinder.rest_angle = 1.1;
+    fine.cylinder.rest_direction = 0.4;
+    const glm::dmat3 axes(fine.cylinder.zero, glm::cross(fine.cylinder.axis, fine.cylinder.zero),
+                          fine.cylinder.axis);
+    const paper::Body body{.length = fine.cylinder.length, .radius = fine.cylinder.radius};
+    const paper::ClosedForm bend(body, {fine.cylinder.rest_angle, fine.cylinder.rest_direction});
+    for (glm::vec3& p : fine.positions) {
+        const glm::dvec3 local = glm::transpose(axes) * (glm::dvec3(p) - fine.cylinder.origin);
+        p = fine.cylinder.origin + axes * bend.position(paper::to_cylindrical(local));
+    }
+    fit::BindOptions options;
+    options.regions = {{0.4, {}}, {0.6, {}}};
+    check_levels(fine, options);
+}
+
+TEST_CASE("levels: what is shared is the rig's, and what is found is the level's") {
+    Random random(74);
+    const Subject fine = random_subject(random, 10, 1, columns, rows);
+    fit::BindOptions options;
+    options.folds = 2;
+    options.profile = paper::Profile::smooth;
+    options.regions = {{0.5, {}}, {0.5, {}}};
+    const fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder, options);
+    Level level = decimated(fine);
+    level.subject.normals.clear();
+    level.subject.tangents.clear();
+    const fit::Bound coarse = fit::bind_level(level.subject.geometry(), rig);
+    CHECK(coarse.profile == paper::Profile::smooth);
+    CHECK(coarse.cylinder.length == rig.cylinder.length);
+    CHECK_FALSE(coarse.body.has_tangents());
+    const std::vector<bend::RegionInput> shared = coarse.body.region_inputs(), own = rig.body.region_inputs();
+    for (std::size_t r = 0; r < 2; ++r) {
+        CHECK(coarse.folds(r) == 2);
+        CHECK(coarse.folds_capacity(r) < rig.folds_capacity(r));
+        CHECK(shared[r].max_angle == own[r].max_angle);
+        CHECK(shared[r].table.rows == own[r].table.rows);
+        CHECK(shared[r].vertex_count < own[r].vertex_count);
+    }
+    const fit::Bound again = fit::bind_level(fine.geometry(), coarse);
+    CHECK(again.order == rig.order);
+    CHECK(again.folds_capacity(1) == rig.folds_capacity(1));
+}
+
+TEST_CASE("levels: what cannot be bound to a rig is named") {
+    Random random(75);
+    const Subject fine = random_subject(random, 10, 1, columns, rows, 0);
+    fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder);
+    Level beyond = decimated(fine);
+    beyond.subject.positions[0] -= glm::vec3(0.01 * fine.cylinder.axis);
+    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.subject.geometry(), rig), doctest::Contains("outside"),
+                         fit::Error);
+    beyond.subject.triangles.clear();
+    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.subject.geometry(), rig),
+                         doctest::Contains("triangles"), fit::Error);
+    const bend::Body taken = std::move(rig.body);
+    CHECK_THROWS_WITH_AS((void)fit::bind_level(fine.geometry(), rig), doctest::Contains("rig"), fit::Error);
+}
+
+}  // namespace goffer::test
