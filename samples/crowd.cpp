@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// A small crowd: one body, bound once, deformed for many instances in parallel, each with a pose of its own.
-// Writes crowd.png and crowd.glb into the given folder.
+// A small crowd: one body, bound once, deformed for many instances in parallel, each with a pose and a place
+// of its own. goffer reads both from the structs that this program keeps anyway, and writes into its vertex
+// buffer. Writes crowd.png and crowd.glb into the given folder.
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/fit/bind.hpp>
@@ -9,10 +10,14 @@
 #include <goffer/view/picture.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -22,42 +27,57 @@ using namespace goffer;
 constexpr std::size_t columns = 6;
 constexpr std::size_t rows = 4;
 
-bend::Pose pose_of(std::size_t instance) {
-    const auto phase = 2.4f * static_cast<float>(instance);
-    return {0.9f + 0.7f * std::sin(phase), std::numbers::pi_v<float> / 2 + 0.5f * std::cos(1.7f * phase)};
+/// What an engine keeps of an instance; it sets both in every frame.
+struct Worm {
+    bend::Pose pose;
+    glm::mat4x3 model{1};
+};
+
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+std::vector<Worm> make_worms() {
+    std::vector<Worm> worms(columns * rows);
+    for (std::size_t i = 0; i < worms.size(); ++i) {
+        const auto phase = 2.4f * static_cast<float>(i);
+        worms[i].pose.angle = 0.9f + 0.7f * std::sin(phase);
+        worms[i].pose.direction = std::numbers::pi_v<float> / 2 + 0.5f * std::cos(1.7f * phase);
+        worms[i].model[3] = {0.5f * static_cast<float>(i % columns), 0.0f,
+                             1.1f * static_cast<float>(i / columns)};
+    }
+    return worms;
 }
 
-glm::vec3 place_of(std::size_t instance) {
-    return {0.5f * static_cast<float>(instance % columns), 0.0f,
-            1.1f * static_cast<float>(instance / columns)};
-}
-
-std::vector<mesh::Records> deform_crowd(const bend::Body& body, const mesh::Records& rest) {
-    std::vector<mesh::Records> crowd(columns * rows, rest);
-    std::vector<bend::DeformJob> jobs;  // an engine keeps these, and sets poses in every frame
-    for (mesh::Records& instance : crowd) {
-        bend::DeformJob job{.body = &body, .pose = pose_of(jobs.size())};
-        job.positions = interleaved<3>(&instance.positions[0].x, instance.positions.size());
-        job.normals = interleaved<3>(&instance.normals[0].x, instance.normals.size());
-        jobs.push_back(job);
-    }
-    bend::run_parallel(bend::CrowdJob{.instances = jobs});
-    for (std::size_t i = 0; i < crowd.size(); ++i) {
-        for (glm::vec3& position : crowd[i].positions) position += place_of(i);
-    }
-    return crowd;
+/// The vertices of all instances, one behind the other.
+std::vector<Vertex> deform(const bend::Body& body, std::span<const Worm> worms) {
+    std::vector<Vertex> vertices(worms.size() * body.vertex_count());
+    bend::Batch batch{.body = &body, .count = worms.size()};
+    batch.poses = strided(worms, &Worm::pose);
+    batch.transforms = strided(worms, &Worm::model);
+    batch.positions = interleaved<3>(&vertices[0].position.x, vertices.size(), sizeof(Vertex));
+    batch.normals = interleaved<3>(&vertices[0].normal.x, vertices.size(), sizeof(Vertex));
+    batch.step = body.vertex_count();  // from one instance's first vertex to the next one's
+    const bend::CrowdJob crowd{.batches = {&batch, 1}};
+    if (const bend::Fault fault = bend::validate(crowd); !fault.none())  // once: a frame only runs
+        throw std::invalid_argument(bend::describe(fault).c_str());
+    bend::run_parallel(crowd);
+    return vertices;
 }
 
 /// All instances as one mesh. The model's attributes are one per vertex (a GLB's are).
-mesh::Mesh merge(const mesh::Mesh& model, const std::vector<mesh::Records>& crowd) {
+mesh::Mesh merge(const mesh::Mesh& model, std::span<const Vertex> vertices) {
     mesh::Mesh all;
     all.materials = model.materials;
     all.uvs.resize(model.uvs.size());
-    for (const mesh::Records& instance : crowd) {
-        const auto first_vertex = static_cast<std::uint32_t>(all.positions.size());
+    for (const Vertex& vertex : vertices) {
+        all.positions.push_back(vertex.position);
+        all.normals.values.push_back(vertex.normal);
+    }
+    for (std::size_t first = 0; first < vertices.size(); first += model.positions.size()) {
+        const auto first_vertex = static_cast<std::uint32_t>(first);
         const auto first_face = static_cast<std::uint32_t>(all.faces.size());
-        all.positions.insert(all.positions.end(), instance.positions.begin(), instance.positions.end());
-        all.normals.values.insert(all.normals.values.end(), instance.normals.begin(), instance.normals.end());
         for (std::size_t set = 0; set < model.uvs.size(); ++set) {
             const std::vector<glm::vec2>& uvs = model.uvs[set].values;
             all.uvs[set].values.insert(all.uvs[set].values.end(), uvs.begin(), uvs.end());
@@ -91,7 +111,7 @@ void run(const std::filesystem::path& model_file, const std::filesystem::path& f
     const mesh::Records rest = mesh::records(model);
     const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals};
     const fit::Bound bound = fit::bind(geometry, fit::fit_cylinder(geometry));
-    const mesh::Mesh all = merge(model, deform_crowd(bound.body, rest));
+    const mesh::Mesh all = merge(model, deform(bound.body, make_worms()));
     view::Camera camera;
     camera.towards = {-0.25f, -0.6f, -0.75f};
     camera.up = {0, 1, 0};

@@ -108,13 +108,22 @@ TEST_CASE("inspect: --axis names the direction from base to tip") {
 
 TEST_CASE("inspect: any unit") {
     const Folder folder;
-    for (const std::string exponent : {"-20", "-6", "-3", "3", "6", "17"}) {
+    for (const std::string exponent : {"-11", "-6", "-3", "3", "6", "11"}) {
         CAPTURE(exponent);
         const std::string long_one = std::string("8e") + exponent, thin = std::string("0.5e") + exponent;
         base(folder, "b.ply", {"--length", long_one, "--radius", thin});
         const json fit = report(folder, {"inspect", "b.ply"})["fit"];
         CHECK(fit["length"].get<double>() == doctest::Approx(std::stod(long_one)).epsilon(1e-4));
         CHECK(fit["radius"].get<double>() == doctest::Approx(std::stod(thin)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("inspect: beyond the working range is said") {
+    const Folder folder;
+    for (const std::string exponent : {"-20", "17"}) {
+        CAPTURE(exponent);
+        base(folder, "b.ply", {"--length", "8e" + exponent, "--radius", "0.5e" + exponent});
+        refused(folder, 1, {"inspect", "b.ply"}, {"1e-12"});
     }
 }
 

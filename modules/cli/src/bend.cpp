@@ -93,9 +93,8 @@ Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Reques
     job.positions = interleaved<3>(&result.records.positions.front().x, count);
     job.normals = interleaved<3>(&result.records.normals.front().x, count);
     if (body.has_tangents()) job.tangents = interleaved<4>(&result.records.tangents.front().x, count);
-    if (const bend::JobFault fault = bend::validate(job); fault != bend::JobFault::none) {
+    if (const bend::Fault fault = bend::validate(job); !fault.none())
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
-    }
     tbb::task_arena arena(request.threads);
     result.microseconds = median_microseconds([&] { arena.execute([&] { bend::run_parallel(job); }); });
     put_in_model_order(result.records.positions, bound);
@@ -129,12 +128,11 @@ double base_area_change(const BoundModel& model, const fit::BindOptions& options
 }
 
 /// A fit of another model can hold this one in a corner of itself.
-void warn_of_foreign_fit(Report& report, const bend::Body& body) {
-    double taken = 0;  // of the length
-    for (const bend::Region& region : body.regions()) {
-        const auto span = static_cast<double>(region.bands.highest - region.bands.lowest);
-        taken += span * static_cast<double>(region.length) / body.length();
-    }
+void warn_of_foreign_fit(Report& report, const BoundModel& model) {
+    std::vector<double> heights = fit::heights(model.rest.positions, model.cylinder);
+    for (double& height : heights) height = std::clamp(height, 0.0, model.cylinder.length);
+    const auto [lowest, highest] = std::ranges::minmax(heights);
+    const double taken = (highest - lowest) / model.cylinder.length;
     constexpr double least = 0.5;
     if (taken >= least) return;
     report.warn("the mesh takes up " + number(100 * taken) +
@@ -183,7 +181,7 @@ void run_bend(const BendOptions& options) {
     report_fit(report, model.cylinder);
     if (model.growth) report_growth(report, *model.growth);
     report_bend(report, options, request, model, bent, area_before);
-    if (!options.fit.empty()) warn_of_foreign_fit(report, body);
+    if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals,

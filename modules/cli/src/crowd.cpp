@@ -38,7 +38,7 @@ Layout parse_layout(const std::string& text) {
 
 bend::Stores parse_stores(const std::string& text) {
     if (text == "cached") return bend::Stores::cached;
-    return text == "streaming" ? bend::Stores::streaming : bend::Stores::automatic;
+    return text == "streaming" ? bend::Stores::non_temporal : bend::Stores::automatic;
 }
 
 /// Everything that can be refused by looking at the words alone.

@@ -46,25 +46,26 @@ std::size_t CrowdMemory::vertex_bytes(Layout layout, bool normals) noexcept {
     return (position_floats + (normals ? normal_floats : 0)) * sizeof(float);
 }
 
-void CrowdMemory::point(bend::DeformJob& job, std::size_t first) noexcept {
-    const std::size_t count = job.body->vertex_count();
+void CrowdMemory::point(bend::Batch& batch, std::size_t first) noexcept {
+    batch.step = batch.body->vertex_count();
+    const std::size_t count = batch.count * batch.step;
     const std::size_t stride = vertex_bytes(layout_, normals_);
     const auto plane = [&](std::size_t column) { return values_[column].subspan(first, count); };
     if (layout_ == Layout::planar) {
-        job.positions = planar(plane(0), plane(1), plane(2));
-        if (normals_) job.normals = planar(plane(3), plane(4), plane(5));
+        batch.positions = planar(plane(0), plane(1), plane(2));
+        if (normals_) batch.normals = planar(plane(3), plane(4), plane(5));
         return;
     }
     float* const record = values_[0].data() + first * stride / sizeof(float);
     if (layout_ == Layout::packed) {
-        job.packed = {reinterpret_cast<bend::PackedVertex*>(record), stride, count};
+        batch.packed = {reinterpret_cast<bend::PackedVertex*>(record), stride, count};
         return;
     }
-    job.positions = interleaved<position_floats>(record, count, stride);
-    if (normals_) job.normals = interleaved<normal_floats>(record + position_floats, count, stride);
+    batch.positions = interleaved<position_floats>(record, count, stride);
+    if (normals_) batch.normals = interleaved<normal_floats>(record + position_floats, count, stride);
 }
 
-void CrowdMemory::fill(float value, bool parallel) {
+void CrowdMemory::fill(float seed, bool parallel) {
     constexpr std::size_t block = 16384;  // floats: whole lines, and enough that handing it out costs nothing
     const std::size_t count = values_.count();
     const std::size_t blocks = (count + block - 1) / block;  // of a column
@@ -74,7 +75,7 @@ void CrowdMemory::fill(float value, bool parallel) {
             const std::size_t next = std::min(last, (column + 1) * blocks);
             const std::size_t begin = (first - column * blocks) * block;
             const std::size_t end = std::min((next - column * blocks) * block, count);
-            goffer::fill(values_[column].subspan(begin, end - begin), value, true);
+            goffer::fill(values_[column].subspan(begin, end - begin), seed, true);
             first = next;
         }
     };

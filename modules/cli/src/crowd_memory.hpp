@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/bend/job.hpp>
+#include <goffer/bend/crowd.hpp>
 #include <goffer/engine/columns.hpp>
 
 #include <cstddef>
@@ -26,17 +26,18 @@ public:
     /// Bytes that a vertex takes.
     [[nodiscard]] static std::size_t vertex_bytes(Layout layout, bool normals) noexcept;
 
-    /// Points the streams of `job` to its body's vertices, the first of which is vertex `first` of the crowd.
-    void point(bend::DeformJob& job, std::size_t first) noexcept;
+    /// Points the streams of `batch` to the vertices of its instances, the first of which is vertex `first`
+    /// of the crowd.
+    void point(bend::Batch& batch, std::size_t first) noexcept;
 
     /// Bytes that a frame writes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return values_.columns() * values_.count() * sizeof(float);
     }
 
-    /// Fills all of it past the cache: the least that a frame can cost. `parallel`: with oneTBB, in the
-    /// caller's arena.
-    void fill(float value, bool parallel);
+    /// Fills all of it past the cache with what `seed` makes (goffer::fill): the least that a frame can cost.
+    /// `parallel`: with oneTBB, in the caller's arena.
+    void fill(float seed, bool parallel);
 
     /// 64 bits of all bytes, in their order.
     [[nodiscard]] std::uint64_t hash() const noexcept;

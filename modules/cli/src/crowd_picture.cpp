@@ -89,9 +89,9 @@ Vertices vertices_of(const bend::DeformJob& job) {
     return {read(job.positions), job.normals.empty() ? make_normals(job) : read(job.normals)};
 }
 
-/// The instances to be shown, as indices into the crowd's job.
+/// The instances to be shown, as indices.
 std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> models) {
-    const std::size_t count = crowd.job().instances.size();
+    const std::size_t count = crowd.instances();
     std::size_t triangles = 0;
     for (std::size_t i = 0; i < count; ++i) triangles += models[crowd.model(i)].rest.triangles.size() / 3;
     const std::size_t fit = most_triangles / (triangles / count + 1);
@@ -118,7 +118,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     vertices.reserve(chosen.size());
     for (const std::size_t i : chosen) {
         const BoundModel& model = models[crowd.model(i)];
-        Vertices& own = vertices.emplace_back(vertices_of(crowd.job().instances[i]));
+        Vertices& own = vertices.emplace_back(vertices_of(crowd.instance(i)));
         put_in_model_order(own.positions, model.bound);
         put_in_model_order(own.normals, model.bound);
         const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);

@@ -61,7 +61,7 @@ std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instanc
 CrowdMemory memory_for(const CrowdPlan& plan, std::size_t vertices) {
     const std::uint64_t bytes =
         vertices * CrowdMemory::vertex_bytes(plan.layout, plan.normals) +
-        plan.instances * (sizeof(bend::DeformJob) + plan.poses.size() * sizeof(bend::Pose));
+        plan.instances * (sizeof(glm::mat4x3) + plan.poses.size() * sizeof(bend::Pose));
     if (const auto free = free_memory(); free && bytes > *free) {
         refuse(plan.instances, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
     }
@@ -82,6 +82,21 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
+/// `count` vertices of a stream from vertex `first` on.
+Stream3 part(Stream3 stream, std::size_t first, std::size_t count) {
+    if (stream.empty()) return {};
+    for (float*& component : stream.component) component += first * stream.stride / sizeof(float);
+    stream.count = count;
+    return stream;
+}
+
+bend::PackedStream part(bend::PackedStream stream, std::size_t first, std::size_t count) {
+    if (stream.empty()) return {};
+    stream.first += first * stream.stride / sizeof(bend::PackedVertex);
+    stream.count = count;
+    return stream;
+}
+
 }  // namespace
 
 Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
@@ -92,44 +107,66 @@ Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
       farthest_(plan.poses),
       poses_(plan.instances * plan.poses.size()) {
     members_.reserve(plan.instances);
-    jobs_.reserve(plan.instances);
-    std::size_t first = 0;
+    transforms_.reserve(plan.instances);
+    batches_.reserve(models.size());
+    std::size_t first_vertex = 0;
     for (std::size_t m = 0; m < models.size(); ++m) {
-        for (std::size_t place = m; place < plan.instances; place += models.size()) {
-            add(models[m], plan, {.model = m, .place = place});
-            memory_.point(jobs_.back(), first);
-            first += jobs_.back().body->vertex_count();
-        }
+        const std::size_t begin = members_.size();
+        for (std::size_t place = m; place < plan.instances; place += models.size()) add(models[m], m, place);
+        add_batch(models[m].bound.body, begin, first_vertex);
+        first_vertex += batches_.back().count * batches_.back().step;
     }
-    job_ = {.instances = jobs_, .stores = plan.stores};
+    job_ = {.batches = batches_, .stores = plan.stores, .isa = plan.isa};
     set_poses(0);
-    if (const bend::CrowdFault fault = bend::validate(job_); !fault.none())
+    if (const bend::Fault fault = bend::validate(job_); !fault.none())
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
 }
 
-void Crowd::add(const BoundModel& model, const CrowdPlan& plan, const Member& member) {
-    const bend::Body& body = model.bound.body;
-    const auto [column, row] = spot_of(member.place);
+void Crowd::add(const BoundModel& model, std::size_t index, std::size_t place) {
+    const auto [column, row] = spot_of(place);
     const double x = spacing_ * static_cast<double>(column);
     const double y = spacing_ * static_cast<double>(row);
-    const double yaw = scattered(member.place, 0.754877666);  // with the next: the plastic number's
-    const double own = scattered(member.place, 0.569840291);
-    members_.push_back({.model = member.model,
-                        .place = member.place,
+    const double yaw = scattered(place, 0.754877666);  // with the next: the plastic number's
+    const double own = scattered(place, 0.569840291);
+    members_.push_back({.model = index,
+                        .place = place,
                         .phase = 0.11 * x + 0.17 * y + 0.12 * own,
                         .direction = 0.05 * x - 0.04 * y + 0.10 * own - yaw});
-    bend::DeformJob job{.body = &body, .isa = plan.isa};
-    job.transform = transform_to(body, x, y, yaw);
-    job.poses = std::span(poses_).subspan(jobs_.size() * farthest_.size(), farthest_.size());
-    jobs_.push_back(job);
+    transforms_.push_back(transform_to(model.bound.body, x, y, yaw));
+}
+
+/// Of the instances from `begin` on.
+void Crowd::add_batch(const bend::Body& body, std::size_t begin, std::size_t first_vertex) {
+    bend::Batch& batch = batches_.emplace_back();
+    batch.body = &body;
+    batch.count = members_.size() - begin;
+    batch.poses = {.data = &poses_[begin * farthest_.size()],
+                   .count = batch.count,
+                   .stride = static_cast<std::uint32_t>(farthest_.size() * sizeof(bend::Pose))};
+    batch.transforms = strided(std::span(transforms_).subspan(begin));
+    memory_.point(batch, first_vertex);
+}
+
+bend::DeformJob Crowd::instance(std::size_t index) const noexcept {
+    const Member& member = members_[index];
+    const bend::Batch& batch = batches_[member.model];
+    const std::size_t count = batch.body->vertex_count();
+    const std::size_t first = member.place / batches_.size() * batch.step;  // models take turns on the grid
+    bend::DeformJob job{.body = batch.body};
+    job.poses = std::span(poses_).subspan(index * farthest_.size(), farthest_.size());
+    job.transform = transforms_[index];
+    job.positions = part(batch.positions, first, count);
+    job.normals = part(batch.normals, first, count);
+    job.packed = part(batch.packed, first, count);
+    job.isa = job_.isa;
+    return job;
 }
 
 void Crowd::set_poses(std::size_t frame) noexcept {
     const auto time = static_cast<double>(frame);
     auto pose = poses_.begin();
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
-        const Member& member = members_[i];
-        const bend::Body& body = *jobs_[i].body;
+    for (const Member& member : members_) {
+        const bend::Body& body = *batches_[member.model].body;
         const auto direction = static_cast<float>(turn * (time / frames_per_turn + member.direction));
         double start = 0;
         for (std::size_t r = 0; r < farthest_.size(); ++r, ++pose) {

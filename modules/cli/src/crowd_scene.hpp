@@ -6,6 +6,8 @@
 
 #include <goffer/bend/crowd.hpp>
 
+#include <glm/mat4x3.hpp>
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -43,13 +45,16 @@ public:
     /// Sets the poses of `frame`, which depend on nothing else. Does not allocate.
     void set_poses(std::size_t frame) noexcept;
 
-    /// All instances, sorted by body.
+    /// All instances: a batch for each model.
     [[nodiscard]] const bend::CrowdJob& job() const noexcept { return job_; }
+    [[nodiscard]] std::size_t instances() const noexcept { return members_.size(); }
+    /// Instance `index`, counted from batch to batch, as a job: with the streams that it has in the crowd.
+    [[nodiscard]] bend::DeformJob instance(std::size_t index) const noexcept;
     [[nodiscard]] CrowdMemory& memory() noexcept { return memory_; }
     [[nodiscard]] const CrowdMemory& memory() const noexcept { return memory_; }
     [[nodiscard]] std::size_t vertices() const noexcept { return vertices_; }
 
-    /// Of instance `index` of the job: which of the models it is, and where it stands.
+    /// Of instance `index`: which of the models it is, and where it stands.
     [[nodiscard]] std::size_t model(std::size_t index) const noexcept { return members_[index].model; }
     [[nodiscard]] Spot spot(std::size_t index) const noexcept;
     /// Instances that stand side by side.
@@ -63,7 +68,8 @@ private:
         double direction = 0;   // at frame 0, about the body's axis, in turns
     };
 
-    void add(const BoundModel& model, const CrowdPlan& plan, const Member& member);
+    void add(const BoundModel& model, std::size_t index, std::size_t place);
+    void add_batch(const bend::Body& body, std::size_t begin, std::size_t first_vertex);
     [[nodiscard]] Spot spot_of(std::size_t place) const noexcept;
 
     std::size_t columns_;
@@ -71,9 +77,10 @@ private:
     std::size_t vertices_;
     CrowdMemory memory_;
     std::vector<Member> members_;
-    std::vector<bend::Pose> farthest_;  // of a body's regions
-    std::vector<bend::Pose> poses_;     // of this frame, of each instance's regions
-    std::vector<bend::DeformJob> jobs_;
+    std::vector<bend::Pose> farthest_;     // of a body's regions
+    std::vector<bend::Pose> poses_;        // of this frame, of each instance's regions
+    std::vector<glm::mat4x3> transforms_;  // of each instance
+    std::vector<bend::Batch> batches_;     // of each model
     bend::CrowdJob job_;
 };
 
