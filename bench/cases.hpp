@@ -14,13 +14,13 @@ void register_deform(Stage& stage);
 /// sweep/<streams>/<instances>x<vertices>/<isa>/<threads>, for the widest instruction set
 void register_sweep(Stage& stage);
 
-/// setup/<instance|bounds>
+/// setup/<instance|batch|bounds|bounds_batch|path>
 void register_setup(Stage& stage);
 
 /// bind/<vertices>
 void register_bind();
 
-/// floor/<fill|fill_nt|copy|fill_cache>/<threads>
+/// floor/<fill|fill_nt|copy|copy_nt|fill_cache>/<threads>
 void register_floor(Stage& stage);
 
 /// naive/<streams>

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// goffer_count: what bench/gate counts instead of timing, the same in every run.
@@ -30,18 +31,27 @@ struct Size {
 };
 
 /// Instances in poses of their own, in the stage's memory.
-std::vector<bend::DeformJob> make_jobs(Stage& stage, const Layout& layout, Isa isa, const Size& size) {
-    const std::size_t capacity = capacity_for(layout, size.instances * size.vertices);
-    const CrowdMemory memory{stage.memory(capacity * layout.footprint()).data(), capacity};
-    std::vector<bend::DeformJob> jobs(size.instances);
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        jobs[i].body = &stage.body(size.vertices);
-        jobs[i].isa = isa;
-        jobs[i].pose = {1.0f, static_cast<float>(i)};
-        set_streams(jobs[i], layout, memory, i * size.vertices);
+class Crowd {
+public:
+    Crowd(Stage& stage, const Layout& layout, Isa isa, const Size& size) : isa_(isa) {
+        const std::size_t capacity = capacity_for(layout, size.instances * size.vertices);
+        for (std::size_t i = 0; i < size.instances; ++i) poses_.push_back({1.0f, static_cast<float>(i)});
+        batch_.body = &stage.body(size.vertices);
+        batch_.count = size.instances;
+        batch_.poses = strided(std::span(std::as_const(poses_)));
+        batch_.step = size.vertices;
+        set_streams(batch_, layout, {stage.memory(capacity * layout.footprint()).data(), capacity});
     }
-    return jobs;
-}
+    Crowd(const Crowd&) = delete;
+    Crowd& operator=(const Crowd&) = delete;
+
+    [[nodiscard]] bend::CrowdJob job() const { return {.batches = {&batch_, 1}, .isa = isa_}; }
+
+private:
+    Isa isa_;
+    std::vector<bend::Pose> poses_;
+    bend::Batch batch_;
+};
 
 /// Two sizes that differ in vertices alone and two that differ in instances alone, so that a difference
 /// leaves out what any frame costs. Whole blocks of vertices, whole groups of instances.
@@ -58,10 +68,9 @@ void count_work() {
         if (!runs_here(isa)) continue;
         for (const char* name : counted_layouts) {
             for (const Size& size : sizes) {
-                const auto jobs = make_jobs(stage, layout(name), isa, size);
-                const bend::CrowdJob crowd{.instances = jobs};
-                bend::run(crowd);  // what only a first frame does
-                goffer_counted_frame(crowd);
+                const Crowd crowd(stage, layout(name), isa, size);
+                bend::run(crowd.job());  // what only a first frame does
+                goffer_counted_frame(crowd.job());
                 std::printf("%s %s %zu %zu\n", std::string(goffer::name(isa)).c_str(), name, size.instances,
                             size.vertices);
             }
@@ -99,15 +108,13 @@ void print(const char* name, double value) {
 void count_memory() {
     Stage stage;
     const Size size{50, 200};
-    const auto crowd_of = [&](const char* name) {
-        return make_jobs(stage, layout(name), Isa::automatic, size);
-    };
-    const auto planes = crowd_of("positions+normals"), packed = crowd_of("packed");
-    print("allocations/run", allocations_of([&] { bend::run({.instances = planes}); }));
-    print("allocations/run/packed", allocations_of([&] { bend::run({.instances = packed}); }));
+    const Crowd planes(stage, layout("positions+normals"), Isa::automatic, size);
+    print("allocations/run", allocations_of([&] { bend::run(planes.job()); }));
     stage.with_threads(1, [&] {
-        print("allocations/run_parallel", allocations_of([&] { bend::run_parallel({.instances = planes}); }));
+        print("allocations/run_parallel", allocations_of([&] { bend::run_parallel(planes.job()); }));
     });
+    const Crowd packed(stage, layout("packed"), Isa::automatic, size);
+    print("allocations/run/packed", allocations_of([&] { bend::run(packed.job()); }));
     print("bytes_per_vertex/without_tangents", bytes_per_vertex(false));
     print("bytes_per_vertex/with_tangents", bytes_per_vertex(true));
 }

@@ -7,6 +7,7 @@
 #include <goffer/bend/crowd.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -29,43 +30,46 @@ struct DeformCase {
     Isa isa;
     int threads;
     Shape shape = Shape::plain;
-    bool wrinkles = true;
+    float wrinkle_weight = 1;
 };
 
 /// Instances whose poses change from sample to sample. Each begins on a cache line of every plane: what a
 /// user is advised to do.
 class Crowd {
 public:
-    Crowd(Stage& stage, const DeformCase& what) : jobs_(what.size.instances) {
-        const bend::Body& body = stage.body(what.size.vertices, what.shape);
-        poses_.resize(jobs_.size() * body.region_count());
+    Crowd(Stage& stage, const DeformCase& what)
+        : what_(what), body_(stage.body(what.size.vertices, what.shape)) {
+        poses_.resize(what.size.instances * body_.region_count());
         previous_poses_.resize(poses_.size());
-        const std::size_t padded = padded_vertices(what.size);
-        const CrowdMemory memory{stage.memory(memory_floats(what.layout, what.size)).data(),
-                                 capacity(what.layout, what.size)};
-        for (std::size_t i = 0; i < jobs_.size(); ++i) {
-            jobs_[i].body = &body;
-            jobs_[i].isa = what.isa;
-            jobs_[i].wrinkles = what.wrinkles;
-            const std::size_t regions = body.region_count();
-            jobs_[i].poses = std::span(poses_).subspan(i * regions, regions);
-            jobs_[i].previous_poses = std::span(previous_poses_).subspan(i * regions, regions);
-            set_streams(jobs_[i], what.layout, memory, i * padded);
-        }
+        weights_.resize(what.size.instances, what.wrinkle_weight);
+        memory_ = {stage.memory(memory_floats(what.layout, what.size)).data(),
+                   capacity(what.layout, what.size)};
+        set_batch();
+        set_single();
         next_poses();
     }
+    Crowd(const Crowd&) = delete;
+    Crowd& operator=(const Crowd&) = delete;
 
     void next_poses() {
         phase_ += 0.01f;
         previous_poses_ = poses_;
-        const std::size_t regions = poses_.size() / jobs_.size();
+        const std::size_t regions = body_.region_count();
         for (std::size_t i = 0; i < poses_.size(); ++i) {
             const auto at = static_cast<float>(i);
             poses_[i] = {(1.0f + 0.5f * std::sin(phase_ + at)) / static_cast<float>(regions), at};
         }
     }
 
-    [[nodiscard]] bend::CrowdJob job() const { return {.instances = jobs_}; }
+    /// One instance is validated and run as a job, more as a crowd.
+    [[nodiscard]] bend::Fault fault() const { return is_single() ? validate(single_) : validate(job()); }
+    void run() const {
+        if (is_single()) {
+            what_.threads == 1 ? bend::run(single_) : bend::run_parallel(single_);
+        } else {
+            what_.threads == 1 ? bend::run(job()) : bend::run_parallel(job());
+        }
+    }
 
     [[nodiscard]] static std::size_t memory_floats(const Layout& layout, const Size& size) {
         return capacity(layout, size) * layout.footprint();
@@ -81,24 +85,49 @@ private:
         return (size.vertices + line - 1) / line * line;
     }
 
-    std::vector<bend::DeformJob> jobs_;
-    std::vector<bend::Pose> poses_, previous_poses_;  // of one instance after the other
-    float phase_ = 0;
-};
-
-/// One instance is run as a job, more as a crowd.
-void run_once(const bend::CrowdJob& crowd, int threads) {
-    if (crowd.instances.size() == 1) {
-        threads == 1 ? bend::run(crowd.instances[0]) : bend::run_parallel(crowd.instances[0]);
-    } else {
-        threads == 1 ? bend::run(crowd) : bend::run_parallel(crowd);
+    void set_batch() {
+        batch_.body = &body_;
+        batch_.count = what_.size.instances;
+        batch_.poses = by_instance(poses_);
+        if (what_.layout.previous) batch_.previous_poses = by_instance(previous_poses_);
+        if (what_.wrinkle_weight != 1) batch_.wrinkle_weights = strided(std::span(weights_));
+        batch_.step = padded_vertices(what_.size);
+        set_streams(batch_, what_.layout, memory_);
     }
-}
+
+    void set_single() {
+        single_.body = &body_;
+        single_.poses = std::span(poses_).first(body_.region_count());
+        single_.previous_poses = std::span(previous_poses_).first(body_.region_count());
+        single_.wrinkle_weight = what_.wrinkle_weight;
+        single_.isa = what_.isa;
+        set_streams(single_, what_.layout, memory_, 0);
+    }
+
+    /// The poses of all regions of each instance.
+    [[nodiscard]] StridedView<bend::Pose> by_instance(std::span<const bend::Pose> poses) const {
+        return {.data = poses.data(),
+                .count = what_.size.instances,
+                .stride = static_cast<std::uint32_t>(body_.region_count() * sizeof(bend::Pose))};
+    }
+
+    [[nodiscard]] bool is_single() const { return what_.size.instances == 1; }
+    [[nodiscard]] bend::CrowdJob job() const { return {.batches = {&batch_, 1}, .isa = what_.isa}; }
+
+    DeformCase what_;
+    const bend::Body& body_;
+    CrowdMemory memory_;
+    std::vector<bend::Pose> poses_, previous_poses_;  // of one instance after the other
+    std::vector<float> weights_;
+    float phase_ = 0;
+    bend::Batch batch_;
+    bend::DeformJob single_;
+};
 
 void deform(benchmark::State& state, Stage& stage, const DeformCase& what) {
     Crowd crowd(stage, what);
-    if (const bend::CrowdFault fault = bend::validate(crowd.job()); !fault.none()) {
-        state.SkipWithError(std::string(bend::describe(fault)).c_str());
+    if (const bend::Fault fault = crowd.fault(); !fault.none()) {
+        state.SkipWithError(bend::describe(fault).c_str());
         return;
     }
     Task task;
@@ -107,14 +136,14 @@ void deform(benchmark::State& state, Stage& stage, const DeformCase& what) {
     task.prepare = [&] { crowd.next_poses(); };
     task.work = [&](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            run_once(crowd.job(), what.threads);
+            crowd.run();
             benchmark::ClobberMemory();
         }
     };
-    const std::size_t floats = what.size.total() * what.layout.floats;
-    task.floor = floor_of(stage, floats, what.threads);
+    task.floor = floor_of(stage, what.layout, what.size.total(), what.threads);
     stage.with_threads(what.threads, [&] {
-        report(state, measure(state, task), what.size.total(), floats * sizeof(float));
+        report(state, measure(state, task), what.size.total(),
+               what.size.total() * what.layout.floats * sizeof(float));
     });
 }
 
@@ -137,10 +166,10 @@ void register_deform(Stage& stage) {
     struct Like {
         std::string name;
         Shape shape;
-        bool wrinkles;
+        float wrinkle_weight;
     };
     const Like others[] = {
-        {"-regions8", Shape::regions, true}, {"-arc", Shape::arc, true}, {"-bare", Shape::plain, false}};
+        {"-regions8", Shape::regions, 1}, {"-arc", Shape::arc, 1}, {"-bare", Shape::plain, 0}};
     for (const Layout& layout : layouts()) {
         for (const Named& size : sizes) {
             for (const Isa isa : built_isas()) {
@@ -150,7 +179,7 @@ void register_deform(Stage& stage) {
                 if (layout.name != "positions" && layout.name != "positions+normals") continue;
                 for (const Like& like : others)
                     register_case(stage, "deform", size.name + like.name,
-                                  {layout, size.size, isa, 1, like.shape, like.wrinkles});
+                                  {layout, size.size, isa, 1, like.shape, like.wrinkle_weight});
             }
         }
     }

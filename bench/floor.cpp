@@ -9,7 +9,6 @@
 #include <goffer/engine/parallel.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace goffer::bench {
@@ -35,37 +34,50 @@ void share(std::size_t count, int threads, const Part& part) {
     });
 }
 
-void fill_shared(std::span<float> to, float value, bool streaming, int threads) {
+void fill_shared(std::span<float> to, float seed, bool non_temporal, int threads) {
     share(to.size(), threads, [&](std::size_t first, std::size_t last) {
-        fill(to.subspan(first, last - first), value, streaming);
+        fill(to.subspan(first, last - first), seed, non_temporal);
     });
 }
 
-void copy_shared(std::span<const float> from, std::span<float> to, int threads) {
-    share(to.size(), threads, [&](std::size_t first, std::size_t last) {
-        std::memcpy(&to[first], &from[first], (last - first) * sizeof(float));
+void copy_shared(std::span<const float> from, std::span<float> to, bool non_temporal, int threads) {
+    share(from.size(), threads, [&](std::size_t first, std::size_t last) {
+        copy_floats(from.subspan(first, last - first), to.subspan(first, last - first), non_temporal);
     });
 }
 
-std::function<void(std::size_t)> filling(std::span<float> to, bool streaming, int threads) {
+std::function<void(std::size_t)> filling(std::span<float> to, bool non_temporal, int threads) {
     return [=](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            fill_shared(to, static_cast<float>(i), streaming, threads);
+            fill_shared(to, static_cast<float>(i), non_temporal, threads);
             benchmark::ClobberMemory();
         }
     };
 }
 
-std::function<void(std::size_t)> copying(std::span<const float> from, std::span<float> to, int threads) {
+std::function<void(std::size_t)> copying(std::span<const float> from, std::span<float> to, bool non_temporal,
+                                         int threads) {
     return [=](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            copy_shared(from, to, threads);
+            copy_shared(from, to, non_temporal, threads);
             benchmark::ClobberMemory();
         }
     };
 }
 
-enum class Kind { fill, fill_nt, copy, fill_cache };
+/// One half of the memory is copied to the other and back: all of it is read and written once.
+std::function<void(std::size_t)> swapping(std::span<float> memory, bool non_temporal, int threads) {
+    const std::span<float> low = memory.first(memory.size() / 2), high = memory.subspan(low.size());
+    return [=](std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            copy_shared(low, high, non_temporal, threads);
+            copy_shared(high.first(low.size()), low, non_temporal, threads);
+            benchmark::ClobberMemory();
+        }
+    };
+}
+
+enum class Kind { fill, fill_nt, copy, copy_nt, fill_cache };
 
 struct FloorCase {
     std::string name;
@@ -80,7 +92,9 @@ std::function<void(std::size_t)> work_of(Kind kind, std::span<float> memory, int
         case Kind::fill_nt:
             return filling(crowd, true, threads);
         case Kind::copy:
-            return copying(memory.last(crowd.size()), crowd, threads);
+            return copying(memory.last(crowd.size()), crowd, false, threads);
+        case Kind::copy_nt:
+            return copying(memory.last(crowd.size()), crowd, true, threads);
         case Kind::fill_cache:
             return filling(crowd.first(cache_vertices * floats), false, threads);
     }
@@ -97,15 +111,19 @@ void run_case(benchmark::State& state, Stage& stage, Kind kind, int threads) {
 
 }  // namespace
 
-std::function<void(std::size_t)> floor_of(Stage& stage, std::size_t count, int threads) {
-    const bool streaming = count * sizeof(float) >= bend::streaming_threshold;
-    return filling(stage.memory(count), streaming, threads);
+std::function<void(std::size_t)> floor_of(Stage& stage, const Layout& layout, std::size_t vertices,
+                                          int threads) {
+    const std::span<float> memory = stage.memory(vertices * layout.footprint());
+    const bool non_temporal = memory.size_bytes() >= bend::non_temporal_threshold;
+    return layout.keeps_gaps() ? swapping(memory, non_temporal, threads)
+                               : filling(memory, non_temporal, threads);
 }
 
 void register_floor(Stage& stage) {
     const FloorCase cases[] = {{"fill", Kind::fill},
                                {"fill_nt", Kind::fill_nt},
                                {"copy", Kind::copy},
+                               {"copy_nt", Kind::copy_nt},
                                {"fill_cache", Kind::fill_cache}};
     for (const FloorCase& floor : cases) {
         for (const int threads : Stage::thread_counts()) {

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "layout.hpp"
 #include "stage.hpp"
 
 #include <cstddef>
 #include <functional>
 
-/// The floor: a fill of the bytes that a case writes, by as many threads, which no output can be had for
-/// less than.
+/// The floor: what no output can be had for less than, by as many threads. That is a fill of the bytes that a
+/// case writes. Where it leaves gaps in what it writes, cache lines are read, and written back whole: then it
+/// is a copy of as many.
 
 namespace goffer::bench {
 
-/// How many times the floor of a case is run: fills `floats` floats of the stage's memory, in the arena that
-/// it is called from where `threads` > 1. As bend::Stores::automatic does, it goes past the cache where the
-/// output is larger than the cache.
-[[nodiscard]] std::function<void(std::size_t)> floor_of(Stage& stage, std::size_t floats, int threads);
+/// The floor of a case: a function of how many times it is run, in the arena that it is called from where
+/// `threads` > 1. Into `vertices` vertices of the stage's memory, in `layout`; past the cache where
+/// bend::Stores::automatic goes there.
+[[nodiscard]] std::function<void(std::size_t)> floor_of(Stage& stage, const Layout& layout,
+                                                        std::size_t vertices, int threads);
 
 }  // namespace goffer::bench

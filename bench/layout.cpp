@@ -12,7 +12,19 @@ constexpr Layout all[] = {
     {.name = "positions+normals+tangents", .floats = 10, .normals = true, .tangents = true},
     {.name = "interleaved-positions", .record = 3},
     {.name = "interleaved-positions+normals", .floats = 6, .record = 6, .normals = true},
+    {.name = "interleaved-positions+normals+tangents",
+     .floats = 10,
+     .record = 10,
+     .normals = true,
+     .tangents = true},
+    {.name = "interleaved-previous", .floats = 6, .record = 6, .previous = true},
+    {.name = "interleaved-previous+normals", .floats = 9, .record = 9, .normals = true, .previous = true},
+    {.name = "record16-positions", .record = 4},
+    {.name = "record16-packed", .record = 4, .packed = true},
     {.name = "record32-positions+normals", .floats = 6, .record = 8, .normals = true},
+    {.name = "scratch16-positions", .record = 4, .scratch = true},
+    {.name = "scratch16-packed", .record = 4, .packed = true, .scratch = true},
+    {.name = "scratch32-positions+normals", .floats = 6, .record = 8, .normals = true, .scratch = true},
     {.name = "paged-positions+normals", .floats = 6, .normals = true, .paged = true},
     {.name = "packed", .record = 3, .packed = true},
     {.name = "previous", .floats = 6, .previous = true},
@@ -64,18 +76,33 @@ std::size_t capacity_for(const Layout& layout, std::size_t vertices) {
     return vertices + (past + page - vertices % page) % page;
 }
 
-void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
-    const std::size_t count = job.body->vertex_count();
+namespace {
+
+/// `to`: a job or a batch.
+template <class To>
+void set_all(To& to, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
+    to.scratch_gaps = layout.scratch;
+    const std::size_t count = memory.capacity - first;
     if (layout.packed) {
-        auto* const vertices = reinterpret_cast<bend::PackedVertex*>(memory.values);
-        job.packed = {.first = vertices + first, .count = count};
+        float* const record = memory.values + first * layout.record;
+        to.packed = {reinterpret_cast<bend::PackedVertex*>(record), layout.record * sizeof(float), count};
         return;
     }
     Cursor cursor(layout, memory, first, count);
-    job.positions = cursor.take<3>();
-    if (layout.normals) job.normals = cursor.take<3>();
-    if (layout.tangents) job.tangents = cursor.take<4>();
-    if (layout.previous) job.previous_positions = cursor.take<3>();
+    to.positions = cursor.take<3>();
+    if (layout.normals) to.normals = cursor.take<3>();
+    if (layout.tangents) to.tangents = cursor.take<4>();
+    if (layout.previous) to.previous_positions = cursor.take<3>();
+}
+
+}  // namespace
+
+void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
+    set_all(job, layout, memory, first);
+}
+
+void set_streams(bend::Batch& batch, const Layout& layout, const CrowdMemory& memory) {
+    set_all(batch, layout, memory, 0);
 }
 
 }  // namespace goffer::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/bend/job.hpp>
+#include <goffer/bend/crowd.hpp>
 
 #include <cstddef>
 #include <span>
@@ -21,9 +21,12 @@ struct Layout {
     bool previous = false;  ///< positions at the previous pose as well
     bool paged = false;     ///< planes a multiple of 4096 bytes apart; else none is
     bool packed = false;    ///< bend::PackedVertex, and nothing else
+    bool scratch = false;   ///< what lies in the gaps of records may be written over
 
     /// Floats of memory per vertex: with the gaps.
     [[nodiscard]] std::size_t footprint() const { return record != 0 ? record : floats; }
+    /// Whether records have gaps that must stay as they are.
+    [[nodiscard]] bool keeps_gaps() const { return footprint() != floats && !scratch; }
 };
 
 /// All of them.
@@ -45,5 +48,8 @@ struct CrowdMemory {
 
 /// Sets the streams of `job`, whose first vertex is vertex `first` of the crowd's memory.
 void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first);
+
+/// Sets those of a batch: over all of the crowd's memory.
+void set_streams(bend::Batch& batch, const Layout& layout, const CrowdMemory& memory);
 
 }  // namespace goffer::bench

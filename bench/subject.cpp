@@ -68,8 +68,15 @@ bend::Body bind_model(const Model& model) {
     cylinder.length = length;
     cylinder.radius = radius;
     fit::BindOptions options;
-    options.folds = model.shape == Shape::regions ? 1 : folds;
-    if (model.shape == Shape::regions) options.regions.assign(8, {1.0 / 8, std::nullopt});
+    options.folds = folds;
+    if (model.shape == Shape::regions) {
+        options.folds = 1;
+        options.regions.assign(8, {1.0 / 8, std::nullopt});
+    }
+    if (model.shape == Shape::regions16) {
+        options.folds = 0;
+        options.regions.assign(16, {1.0 / 16, std::nullopt});
+    }
     if (model.shape == Shape::arc) cylinder.rest_angle = rest_angle;
     const fit::Geometry geometry{
         .positions = model.positions, .triangles = model.triangles, .tangents = model.tangents};

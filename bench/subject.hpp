@@ -21,9 +21,10 @@ inline constexpr int folds = 5;
 
 /// What the body is like: each is another way through the kernels.
 enum class Shape {
-    plain,    ///< one region, straight at rest
-    regions,  ///< eight regions of a fold each
-    arc,      ///< bent at rest by one radian
+    plain,      ///< one region, straight at rest
+    regions,    ///< eight regions of a fold each
+    regions16,  ///< sixteen without folds
+    arc,        ///< bent at rest by one radian
 };
 
 /// The vertices' places: columns about the axis, about four times as many rows along it.

@@ -10,7 +10,10 @@ ISAS = ("avx512", "avx2", "neon", "sse4.2", "scalar")
 
 PAIRED = (
     "setup/instance",
+    "setup/batch",
     "setup/bounds",
+    "setup/bounds_batch",
+    "setup/path",
     "deform/positions/cache/{widest}/1",
     "deform/positions+normals/cache/{widest}/1",
     "deform/interleaved-positions+normals/cache/{widest}/1",
