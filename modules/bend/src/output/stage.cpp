@@ -13,9 +13,7 @@ Stage::Stage(const OutputPlan& plan) noexcept {
 
 PlaneOutput Stage::output(const PassPlan& pass, std::size_t vertex) noexcept {
     PlaneOutput out = {};
-    const auto plane = [&](std::size_t value) {
-        return planes_ + (pass.value + value) * stride_ + vertex;
-    };
+    const auto plane = [&](std::size_t value) { return planes_ + (pass.value + value) * stride_ + vertex; };
     for (std::size_t c = 0; c < 3; ++c) out.position[c] = plane(c);
     if (pass.streams == StreamSet::positions_normals || pass.streams == StreamSet::positions_normals_tangents)
         for (std::size_t c = 0; c < 3; ++c) out.normal[c] = plane(3 + c);
@@ -31,8 +29,8 @@ void Stage::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std
         if (way == Way::planes && !record.plane()) continue;
         const std::span<const Component> components = plan.components(record);
         if (record.plane()) {
-            kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex,
-                               count, plan.non_temporal());
+            kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
+                               plan.non_temporal());
         } else if (!record.has_gaps() && components.size() <= most_woven &&
                    kernels.weave[components.size()] != nullptr) {
             weave(record, components, kernels, vertex, count, plan.non_temporal());

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel/args.hpp"
+
+/// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
+/// XsimdLanes<Arch>, or two of them in step.
+///
+/// Half angles are stored, and used here, times the root of two: h = sqrt(2) cos((beta - theta) / 2) and
+/// h' = sqrt(2) sin((beta - theta) / 2) come from the columns by a rotation, and give T = h^2 = 1 + c with
+/// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root, unless
+/// the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
+
+namespace goffer::bend {
+
+template <class L, std::size_t N>
+typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
+    typename L::Vec sum = L::set(coefficients[N - 1]);
+    for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::set(coefficients[n]));
+    return sum;
+}
+
+/// The same for an even N, even and odd powers side by side: one operation more, half the wait.
+template <class L, std::size_t N>
+typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec x) {
+    const typename L::Vec xx = x * x;
+    typename L::Vec even = L::set(coefficients[N - 2]);
+    typename L::Vec odd = L::set(coefficients[N - 1]);
+    for (std::size_t n = N - 2; n > 0; n -= 2) {
+        even = L::madd(even, xx, L::set(coefficients[n - 2]));
+        odd = L::madd(odd, xx, L::set(coefficients[n - 1]));
+    }
+    return L::madd(odd, x, even);
+}
+
+/// 1 / crease_width, of a cosine that is stored times the root of two.
+constexpr float per_crease_width = 0.70710678f / crease_width;
+
+/// What positions, normals and tangents of one batch share.
+template <class L>
+struct Bent {
+    using Vec = typename L::Vec;
+    Vec c, s;          // cos and sin of beta - theta
+    Vec amplitude;     // A; A / S_0 where the squeeze is relative
+    Vec slope;         // of the same over beta
+    Vec rho_c, rho_s;  // rho' c, rho' s
+    Vec rise, reach;   // L (1 - cos delta) / alpha, L sin delta / alpha
+    Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
+};
+
+/// Cosine and sine of an angle.
+template <class L>
+struct Turn {
+    typename L::Vec cosine, sine;
+};
+
+/// The columns' angles less the instance's. Of half angles times the root of two: the half difference, times
+/// that root.
+template <class L>
+Turn<L> turned_by(Turn<L> columns, float cos_direction, float sin_direction) {
+    const typename L::Vec ct = L::set(cos_direction);
+    const typename L::Vec st = L::set(sin_direction);
+    return {L::madd(columns.sine, st, columns.cosine * ct), L::nmadd(columns.cosine, st, columns.sine * ct)};
+}
+
+/// The directions of columns, and the wrinkle of those that are squeezed by q = kappa T, if by any.
+template <class L, Squeeze squeeze, bool slope>
+void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    using Vec = typename L::Vec;
+    const auto [h, h_prime] = turned_by<L>({L::load(rest.cos_half_beta + i), L::load(rest.sin_half_beta + i)},
+                                           k.cos_half_direction, k.sin_half_direction);
+    const Vec t = h * h;
+    b.c = t - L::set(1.0f);
+    b.s = h * h_prime;
+    if constexpr (squeeze == Squeeze::none) return;
+    b.amplitude = L::abs(h) * long_polynomial<L>(k.amplitude, t);
+    if constexpr (slope) {
+        // A has a corner where h changes sign, on the outer line; across it the two slopes are blended.
+        const Vec sign = L::clamp(h * L::set(per_crease_width), L::set(-1.0f), L::set(1.0f));
+        b.slope = sign * h_prime * long_polynomial<L>(k.amplitude_slope, t);
+    }
+}
+
+/// The same of columns whose squeeze is compared with that at rest.
+template <class L, bool slope>
+void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    using Vec = typename L::Vec;
+    const Turn<L> turn = turned_by<L>({L::load(rest.cos_beta + i), L::load(rest.sin_beta + i)},
+                                      k.cos_direction, k.sin_direction);
+    b.c = turn.cosine;
+    b.s = turn.sine;
+    const Vec rest_cosine = L::load(rest.rest_cosine + i);
+    const Vec rest_sine = L::load(rest.rest_sine + i);
+    const Vec zero = L::set(0.0f);
+    const Vec q = L::larger(L::madd(L::set(k.squeeze[2]), rest_sine,
+                                    L::madd(L::set(k.squeeze[1]), rest_cosine, L::set(k.squeeze[0]))),
+                            zero);
+    const Vec per_root = L::rsqrt(q + L::set(k.onset));
+    const Vec root = q * per_root;
+    const Vec x = root * root;
+    b.amplitude = root * long_polynomial<L>(k.amplitude, x);
+    if constexpr (slope) {
+        const Vec rest_slope =
+            L::nmadd(L::set(k.rest_curl[1]), rest_cosine, L::set(k.rest_curl[0]) * rest_sine);
+        const Vec turned =
+            L::nmadd(L::set(k.curl_change[0]), rest_sine, L::set(k.curl_change[1]) * rest_cosine);
+        const Vec q_slope = L::nmadd(q, rest_slope, turned);
+        const Vec root_slope = per_root * L::nmadd(L::set(0.5f) * root, per_root, L::set(1.0f)) *
+                               L::where_less(zero, q, q_slope, zero);
+        b.slope = L::madd(b.amplitude, rest_slope, root_slope * long_polynomial<L>(k.amplitude_slope, x));
+    }
+}
+
+/// What depends on a vertex's column. `slope`: normals or tangents are wanted.
+template <class L, Squeeze squeeze, bool slope>
+Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i) {
+    using Vec = typename L::Vec;
+    Bent<L> b;
+    if constexpr (squeeze == Squeeze::relative) {
+        set_relative_wrinkle<L, slope>(rest, k, b, i);
+    } else {
+        set_plain_wrinkle<L, squeeze, slope>(rest, k, b, i);
+    }
+    Vec rho = L::load(rest.rho + i);
+    if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(rest.lift + i), rho);
+    b.rho_c = rho * b.c;
+    b.rho_s = rho * b.s;
+    return b;
+}
+
+/// What depends on its height, too.
+template <class L>
+void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec v = L::load(rest.height + i);
+    const Vec vv = v * v;
+    b.rise = vv * polynomial<L>(k.rise, vv);
+    b.reach = v * polynomial<L>(k.reach, vv);
+    float curvature = k.first_curvature;
+    for (float n = 0; n < k.doublings; ++n) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
+        const Vec cosine = L::nmadd(L::set(curvature), b.rise, L::set(1.0f));
+        b.rise = L::set(curvature) * b.reach * b.reach;
+        b.reach = b.reach * cosine;
+        curvature += curvature;
+    }
+    b.stretch = L::nmadd(L::set(k.curvature), b.rho_c, L::set(k.one_minus_kappa));
+}
+
+/// What positions need of batches that were turned ahead. A relative squeeze's operations are a longer chain
+/// than processors look ahead over, and too many numbers for their registers; in a loop of their own they
+/// take 1.2 times a plain squeeze's time, in one loop with the rest 1.3 times. (Plain squeezes, and normals,
+/// lose by it.)
+template <class L>
+struct Ahead {
+    static constexpr std::size_t vertices = 256;
+    alignas(64) float rho_c[vertices + L::width];
+    alignas(64) float rho_s[vertices + L::width];
+};
+
+/// Turns the vertices [first, last), and less than a batch beyond; at most Ahead::vertices.
+template <class L, Squeeze squeeze>
+void turn_ahead(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
+                Ahead<L>& ahead) {
+    for (std::size_t i = first; i < last; i += L::width) {
+        const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, i);
+        L::store(ahead.rho_c + (i - first), b.rho_c);
+        L::store(ahead.rho_s + (i - first), b.rho_s);
+    }
+}
+
+/// A vector per lane, in model space.
+template <class L>
+struct Vector {
+    typename L::Vec component[3];
+};
+
+/// Turns (x, y, z) from the middle frame to model space and adds `offset` unless null.
+template <class L>
+Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
+                typename L::Vec z) {
+    Vector<L> result;
+    for (int row = 0; row < 3; ++row) {
+        typename L::Vec sum =
+            offset ? L::madd(L::set(matrix[row]), x, L::set(offset[row])) : L::set(matrix[row]) * x;
+        sum = L::madd(L::set(matrix[4 + row]), y, sum);
+        result.component[row] = L::madd(L::set(matrix[8 + row]), z, sum);
+    }
+    return result;
+}
+
+/// A vector given in the bent frame (n, b, t) at the vertex, in the streams' space and of no particular
+/// length.
+template <class L>
+Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent<L>& b, typename L::Vec n,
+                          typename L::Vec bt, typename L::Vec t) {
+    using Vec = typename L::Vec;
+    const Vec cosine = L::nmadd(L::set(k.curvature), b.rise, L::set(1.0f));
+    const Vec sine = L::set(k.curvature) * b.reach;
+    const Vec p = L::nmadd(b.s, bt, b.c * n);
+    const Vec x = L::madd(p, cosine, t * sine);
+    const Vec y = L::madd(b.c, bt, b.s * n);
+    const Vec z = L::nmadd(p, sine, t * cosine);
+    return place<L>(matrix, nullptr, x, y, z);
+}
+
+/// To unit length. Last of all, so that a transform's scale and all roundings go out with it. A vector that
+/// the map squeezed to nothing stays zero: the bound keeps its root finite.
+template <class L>
+Vector<L> normalised(const Vector<L>& v) {
+    using Vec = typename L::Vec;
+    const auto& [x, y, z] = v.component;
+    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::set(1e-30f));
+    return {{x * inverse, y * inverse, z * inverse}};
+}
+
+/// The Jacobian's entries in the bent frame: rows (a, b, d), (0, growth,
+/// 0), (0, 0, stretch). Without a wrinkle only stretch is set: a and growth are 1, b and d 0.
+template <class L>
+struct Jacobian {
+    typename L::Vec growth;  // rho' / rho
+    typename L::Vec a, b, d;
+};
+
+template <class L>
+Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec wrinkle = L::load(rest.wrinkle + i);
+    const Vec growth = L::madd(bent.amplitude, wrinkle, L::set(1.0f));
+    // Below half the radius the depth weight grows like rho, so the wrinkle stretches rho as it stretches the
+    // circle.
+    return {growth, L::where_less(L::load(rest.rho + i), L::set(k.half_radius), growth, L::set(1.0f)),
+            bent.slope * wrinkle, bent.amplitude * L::load(rest.slope + i)};
+}
+
+template <class L, Squeeze squeeze>
+Vector<L> bend_normals(const RestColumns& rest, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
+                       std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec rho = L::load(rest.normal[0] + i);
+    const Vec beta = L::load(rest.normal[1] + i);
+    const Vec z = L::load(rest.normal[2] + i);
+    if constexpr (squeeze == Squeeze::none) {
+        return place_direction<L>(k, k.normal_matrix, b, b.stretch * rho, b.stretch * beta, z);
+    } else {
+        const Vec n = j.growth * b.stretch * rho;
+        const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
+        const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
+        return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
+    }
+}
+
+template <class L, Squeeze squeeze>
+Vector<L> bend_tangents(const RestColumns& rest, const Coefficients& k, const Bent<L>& b,
+                        const Jacobian<L>& j, std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec rho = L::load(rest.tangent[0] + i);
+    const Vec beta = L::load(rest.tangent[1] + i);
+    const Vec z = L::load(rest.tangent[2] + i);
+    if constexpr (squeeze == Squeeze::none) {
+        return place_direction<L>(k, k.matrix, b, rho, beta, b.stretch * z);
+    } else {
+        const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
+        return place_direction<L>(k, k.matrix, b, n, j.growth * beta, b.stretch * z);
+    }
+}
+
+/// PackedVertex's three words. `position` is in steps of the bounds, 0..65535; `normal` of any length.
+template <class L>
+Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
+    using Vec = typename L::Vec;
+    const Vec zero = L::set(0.0f);
+    const auto step = [&](Vec value) { return L::clamp(value, zero, L::set(65535.0f)); };
+    const auto& [x, y, z] = normal.component;
+    // Octahedral: onto |x| + |y| + |z| = 1; the lower half is folded outwards over the upper, to where
+    // |x| + |z| and |y| + |z| say.
+    const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::set(1e-30f);
+    const Vec scale = L::reciprocal(sum) * L::set(32767.0f);
+    const Vec below = L::larger(L::nmadd(z, scale, zero), zero);
+    const Vec u = x * scale;
+    const Vec v = y * scale;
+    return {{L::pair_words(step(position.component[0]), step(position.component[1])),
+             L::word(step(position.component[2])),
+             L::pair_words(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
+}
+
+/// What is wanted of one batch; only the wanted parts are set and used.
+template <class L>
+struct Results {
+    Vector<L> position, normal, tangent;
+    typename L::Vec tangent_sign;
+};
+
+constexpr bool has_normals(StreamSet streams) {
+    return streams != StreamSet::positions;
+}
+
+constexpr bool has_tangents(StreamSet streams) {
+    return streams == StreamSet::positions_normals_tangents;
+}
+
+/// `b` is what turn_batch made of it.
+template <class L, Squeeze squeeze, StreamSet streams>
+Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> b, std::size_t i) {
+    Results<L> results;
+    set_arc<L>(rest, k, b, i);
+    results.position =
+        place<L>(k.matrix, k.offset, L::madd(b.rise, b.stretch, b.rho_c), b.rho_s, b.reach * b.stretch);
+    if constexpr (has_normals(streams)) {
+        Jacobian<L> j;
+        if constexpr (squeeze != Squeeze::none) j = jacobian<L>(rest, k, b, i);
+        results.normal = bend_normals<L, squeeze>(rest, k, b, j, i);
+        if constexpr (has_tangents(streams)) {
+            results.tangent = normalised<L>(bend_tangents<L, squeeze>(rest, k, b, j, i));
+            results.tangent_sign = L::set(k.handedness) * L::load(rest.tangent_sign + i);
+        }
+    }
+    if constexpr (streams == StreamSet::packed) {
+        results.position = pack<L>(results.position, results.normal);
+    } else if constexpr (has_normals(streams)) {
+        results.normal = normalised<L>(results.normal);
+    }
+    return results;
+}
+
+}  // namespace goffer::bend
