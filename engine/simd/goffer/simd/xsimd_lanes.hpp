@@ -111,7 +111,11 @@ struct XsimdLanes {
         return xsimd::min(a, b);
     }
     static Vec sqrt(Vec a) {
+#if defined(__aarch64__)
+        return Vec(vsqrtq_f32(a));  // xsimd's is an estimate there
+#else
         return xsimd::sqrt(a);
+#endif
     }
 
     /// Four values that belong to one lane; and of four lanes, that lane by lane. Wider registers have lanes
