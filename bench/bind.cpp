@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cases.hpp"
 #include "measure.hpp"
-#include "subject.hpp"
+#include "model.hpp"
 
 #include <string>
 

@@ -5,8 +5,8 @@
 # report.py writes the data, names the data sets and calls this.
 streams = "positions positions+normals"
 instances = "1 10 100 1000 10000"
-colours = "#d55e00 #c98a00 #009e73 #0072b2 #5b2a86"
-grey = "#555555"
+colors = "#d55e00 #c98a00 #009e73 #0072b2 #5b2a86"
+gray = "#555555"
 
 set terminal svg size 470 * words(threads) + 60, 840 font "sans-serif,13" background "white"
 set output chart
@@ -26,10 +26,10 @@ set key off
 place(i) = 0.07 + 0.125 * (i - 1)
 do for [i = 1:words(instances)] {
     set label i "● ".word(instances, i).(i == 1 ? " instance" : " instances") at screen place(i), 0.03 \
-        textcolor rgb word(colours, i)
+        textcolor rgb word(colors, i)
 }
-set label 6 "- - fill past cache" at screen place(6) + 0.02, 0.03 textcolor rgb grey
-set label 7 "···· fill in cache" at screen place(7) + 0.04, 0.03 textcolor rgb grey
+set label 6 "- - fill past cache" at screen place(6) + 0.02, 0.03 textcolor rgb gray
+set label 7 "···· fill in cache" at screen place(7) + 0.04, 0.03 textcolor rgb gray
 
 do for [row = 1:words(streams)] {
     do for [column = 1:words(threads)] {
@@ -38,12 +38,12 @@ do for [row = 1:words(streams)] {
         set title word(streams, row).", ".word(threads, column).(word(threads, column) eq "1" ? " thread" : " threads")
         set xlabel (row == words(streams) ? "vertices per instance" : "")
         set ylabel (column == 1 ? "ns per vertex" : "") offset 1
-        plot data index panel."fill_nt" using 1:2 with lines lw 1.5 dt 2 lc rgb grey, \
-             data index panel."fill_cache" using 1:2 with lines lw 1.5 dt 3 lc rgb grey, \
+        plot data index panel."fill_nt" using 1:2 with lines lw 1.5 dt 2 lc rgb gray, \
+             data index panel."fill_cache" using 1:2 with lines lw 1.5 dt 3 lc rgb gray, \
              for [i = 1:words(instances)] data index lines(i) using 1:2 with linespoints \
-                 lw 2 pt 7 ps 0.5 lc rgb word(colours, i), \
+                 lw 2 pt 7 ps 0.5 lc rgb word(colors, i), \
              for [i = 1:words(instances)] data index lines(i) using 1:2:(strcol(3)) with labels \
-                 left offset 0.6, 0 font ",11" textcolor rgb word(colours, i)
+                 left offset 0.6, 0 font ",11" textcolor rgb word(colors, i)
         unset label
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "fixture.hpp"
 #include "layout.hpp"
-#include "stage.hpp"
-#include "subject.hpp"
+#include "model.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
@@ -30,17 +30,17 @@ struct Size {
     std::size_t vertices;  // of each
 };
 
-/// Instances in poses of their own, in the stage's memory.
+/// Instances in poses of their own, in the fixture's memory.
 class Crowd {
 public:
-    Crowd(Stage& stage, const Layout& layout, Isa isa, const Size& size) : isa_(isa) {
+    Crowd(Fixture& fixture, const StreamLayout& layout, Isa isa, const Size& size) : isa_(isa) {
         const std::size_t capacity = capacity_for(layout, size.instances * size.vertices);
         for (std::size_t i = 0; i < size.instances; ++i) poses_.push_back({1.0f, static_cast<float>(i)});
-        batch_.body = &stage.body(size.vertices);
+        batch_.body = &fixture.body(size.vertices);
         batch_.count = size.instances;
         batch_.poses = strided(std::span(std::as_const(poses_)));
-        batch_.step = size.vertices;
-        set_streams(batch_, layout, {stage.memory(capacity * layout.footprint()).data(), capacity});
+        batch_.vertex_step = size.vertices;
+        set_streams(batch_, layout, {fixture.memory(capacity * layout.footprint()).data(), capacity});
     }
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
@@ -63,12 +63,12 @@ constexpr const char* counted_layouts[] = {"positions", "positions+normals", "po
 /// Makes a counted frame for each kernel, layout and size, and prints a line for each, in order:
 /// <isa> <layout> <instances> <vertices>
 void count_work() {
-    Stage stage;
+    Fixture fixture;
     for (const Isa isa : built_isas()) {
         if (!runs_here(isa)) continue;
         for (const char* name : counted_layouts) {
             for (const Size& size : sizes) {
-                const Crowd crowd(stage, layout(name), isa, size);
+                const Crowd crowd(fixture, layout(name), isa, size);
                 bend::run(crowd.job());  // what only a first frame does
                 goffer_counted_frame(crowd.job());
                 std::printf("%s %s %zu %zu\n", std::string(goffer::name(isa)).c_str(), name, size.instances,
@@ -106,14 +106,14 @@ void print(const char* name, double value) {
 
 /// Prints a line for each count: <name> <number>
 void count_memory() {
-    Stage stage;
+    Fixture fixture;
     const Size size{50, 200};
-    const Crowd planes(stage, layout("positions+normals"), Isa::automatic, size);
+    const Crowd planes(fixture, layout("positions+normals"), Isa::automatic, size);
     print("allocations/run", allocations_of([&] { bend::run(planes.job()); }));
-    stage.with_threads(1, [&] {
+    fixture.with_threads(1, [&] {
         print("allocations/run_parallel", allocations_of([&] { bend::run_parallel(planes.job()); }));
     });
-    const Crowd packed(stage, layout("packed"), Isa::automatic, size);
+    const Crowd packed(fixture, layout("packed"), Isa::automatic, size);
     print("allocations/run/packed", allocations_of([&] { bend::run(packed.job()); }));
     print("bytes_per_vertex/without_tangents", bytes_per_vertex(false));
     print("bytes_per_vertex/with_tangents", bytes_per_vertex(true));

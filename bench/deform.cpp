@@ -25,7 +25,7 @@ struct Size {
 };
 
 struct DeformCase {
-    Layout layout;
+    StreamLayout layout;
     Size size;
     Isa isa;
     int threads;
@@ -37,12 +37,12 @@ struct DeformCase {
 /// user is advised to do.
 class Crowd {
 public:
-    Crowd(Stage& stage, const DeformCase& what)
-        : what_(what), body_(stage.body(what.size.vertices, what.shape)) {
+    Crowd(Fixture& fixture, const DeformCase& what)
+        : what_(what), body_(fixture.body(what.size.vertices, what.shape)) {
         poses_.resize(what.size.instances * body_.region_count());
         previous_poses_.resize(poses_.size());
         weights_.resize(what.size.instances, what.wrinkle_weight);
-        memory_ = {stage.memory(memory_floats(what.layout, what.size)).data(),
+        memory_ = {fixture.memory(memory_floats(what.layout, what.size)).data(),
                    capacity(what.layout, what.size)};
         set_batch();
         set_single();
@@ -71,12 +71,12 @@ public:
         }
     }
 
-    [[nodiscard]] static std::size_t memory_floats(const Layout& layout, const Size& size) {
+    [[nodiscard]] static std::size_t memory_floats(const StreamLayout& layout, const Size& size) {
         return capacity(layout, size) * layout.footprint();
     }
 
 private:
-    [[nodiscard]] static std::size_t capacity(const Layout& layout, const Size& size) {
+    [[nodiscard]] static std::size_t capacity(const StreamLayout& layout, const Size& size) {
         return capacity_for(layout, size.instances * padded_vertices(size));
     }
 
@@ -91,7 +91,7 @@ private:
         batch_.poses = by_instance(poses_);
         if (what_.layout.previous) batch_.previous_poses = by_instance(previous_poses_);
         if (what_.wrinkle_weight != 1) batch_.wrinkle_weights = strided(std::span(weights_));
-        batch_.step = padded_vertices(what_.size);
+        batch_.vertex_step = padded_vertices(what_.size);
         set_streams(batch_, what_.layout, memory_);
     }
 
@@ -124,8 +124,8 @@ private:
     bend::DeformJob single_;
 };
 
-void deform(benchmark::State& state, Stage& stage, const DeformCase& what) {
-    Crowd crowd(stage, what);
+void deform(benchmark::State& state, Fixture& fixture, const DeformCase& what) {
+    Crowd crowd(fixture, what);
     if (const bend::Fault fault = crowd.fault(); !fault.none()) {
         state.SkipWithError(bend::describe(fault).c_str());
         return;
@@ -140,23 +140,24 @@ void deform(benchmark::State& state, Stage& stage, const DeformCase& what) {
             benchmark::ClobberMemory();
         }
     };
-    task.floor = floor_of(stage, what.layout, what.size.total(), what.threads);
-    stage.with_threads(what.threads, [&] {
+    task.floor = floor_of(fixture, what.layout, what.size.total(), what.threads);
+    fixture.with_threads(what.threads, [&] {
         report(state, measure(state, task), what.size.total(),
                what.size.total() * what.layout.floats * sizeof(float));
     });
 }
 
-void register_case(Stage& stage, const std::string& group, const std::string& size, const DeformCase& what) {
+void register_case(Fixture& fixture, const std::string& group, const std::string& size,
+                   const DeformCase& what) {
     const std::string name = group + "/" + std::string(what.layout.name) + "/" + size + "/" +
                              std::string(goffer::name(what.isa)) + "/" + std::to_string(what.threads);
     benchmark::RegisterBenchmark(name.c_str(),
-                                 [&stage, what](benchmark::State& state) { deform(state, stage, what); });
+                                 [&fixture, what](benchmark::State& state) { deform(state, fixture, what); });
 }
 
 }  // namespace
 
-void register_deform(Stage& stage) {
+void register_deform(Fixture& fixture) {
     struct Named {
         std::string name;
         Size size;
@@ -170,22 +171,22 @@ void register_deform(Stage& stage) {
     };
     const Like others[] = {
         {"-regions8", Shape::regions, 1}, {"-arc", Shape::arc, 1}, {"-bare", Shape::plain, 0}};
-    for (const Layout& layout : layouts()) {
+    for (const StreamLayout& layout : layouts()) {
         for (const Named& size : sizes) {
             for (const Isa isa : built_isas()) {
                 if (!runs_here(isa)) continue;
-                for (const int threads : Stage::thread_counts())
-                    register_case(stage, "deform", size.name, {layout, size.size, isa, threads});
+                for (const int threads : Fixture::thread_counts())
+                    register_case(fixture, "deform", size.name, {layout, size.size, isa, threads});
                 if (layout.name != "positions" && layout.name != "positions+normals") continue;
                 for (const Like& like : others)
-                    register_case(stage, "deform", size.name + like.name,
+                    register_case(fixture, "deform", size.name + like.name,
                                   {layout, size.size, isa, 1, like.shape, like.wrinkle_weight});
             }
         }
     }
 }
 
-void register_sweep(Stage& stage) {
+void register_sweep(Fixture& fixture) {
     constexpr std::size_t most_bytes = 500'000'000;
     for (const char* streams : {"positions", "positions+normals"}) {
         for (const std::size_t vertices : {200, 500, 2'000, 10'000, 50'000, 200'000, 1'000'000}) {
@@ -193,8 +194,8 @@ void register_sweep(Stage& stage) {
                 const Size size{instances, vertices};
                 if (Crowd::memory_floats(layout(streams), size) * sizeof(float) > most_bytes) continue;
                 const std::string name = std::to_string(instances) + "x" + std::to_string(vertices);
-                for (const int threads : Stage::thread_counts())
-                    register_case(stage, "sweep", name,
+                for (const int threads : Fixture::thread_counts())
+                    register_case(fixture, "sweep", name,
                                   {layout(streams), size, resolve(Isa::automatic), threads});
             }
         }

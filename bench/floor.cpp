@@ -101,34 +101,34 @@ std::function<void(std::size_t)> work_of(Kind kind, std::span<float> memory, int
     return {};
 }
 
-void run_case(benchmark::State& state, Stage& stage, Kind kind, int threads) {
+void run_case(benchmark::State& state, Fixture& fixture, Kind kind, int threads) {
     const std::size_t vertices = kind == Kind::fill_cache ? cache_vertices : crowd_vertices;
-    const std::span<float> memory = stage.memory(2 * crowd_vertices * floats);
+    const std::span<float> memory = fixture.memory(2 * crowd_vertices * floats);
     const Task task{.batch = batch_for(vertices), .threads = threads, .work = work_of(kind, memory, threads)};
-    stage.with_threads(
+    fixture.with_threads(
         threads, [&] { report(state, measure(state, task), vertices, vertices * floats * sizeof(float)); });
 }
 
 }  // namespace
 
-std::function<void(std::size_t)> floor_of(Stage& stage, const Layout& layout, std::size_t vertices,
+std::function<void(std::size_t)> floor_of(Fixture& fixture, const StreamLayout& layout, std::size_t vertices,
                                           int threads) {
-    const std::span<float> memory = stage.memory(vertices * layout.footprint());
+    const std::span<float> memory = fixture.memory(vertices * layout.footprint());
     const bool non_temporal = memory.size_bytes() >= bend::non_temporal_threshold;
     return layout.keeps_gaps() ? swapping(memory, non_temporal, threads)
                                : filling(memory, non_temporal, threads);
 }
 
-void register_floor(Stage& stage) {
+void register_floor(Fixture& fixture) {
     const FloorCase cases[] = {{"fill", Kind::fill},
                                {"fill_nt", Kind::fill_nt},
                                {"copy", Kind::copy},
                                {"copy_nt", Kind::copy_nt},
                                {"fill_cache", Kind::fill_cache}};
     for (const FloorCase& floor : cases) {
-        for (const int threads : Stage::thread_counts()) {
+        for (const int threads : Fixture::thread_counts()) {
             const std::string name = "floor/" + floor.name + "/" + std::to_string(threads);
-            benchmark::RegisterBenchmark(name.c_str(), run_case, std::ref(stage), floor.kind, threads);
+            benchmark::RegisterBenchmark(name.c_str(), run_case, std::ref(fixture), floor.kind, threads);
         }
     }
 }

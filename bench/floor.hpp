@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "fixture.hpp"
 #include "layout.hpp"
-#include "stage.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -14,9 +14,9 @@
 namespace goffer::bench {
 
 /// The floor of a case: a function of how many times it is run, in the arena that it is called from where
-/// `threads` > 1. Into `vertices` vertices of the stage's memory, in `layout`; past the cache where
+/// `threads` > 1. Into `vertices` vertices of the fixture's memory, in `layout`; past the cache where
 /// bend::Stores::automatic goes there.
-[[nodiscard]] std::function<void(std::size_t)> floor_of(Stage& stage, const Layout& layout,
+[[nodiscard]] std::function<void(std::size_t)> floor_of(Fixture& fixture, const StreamLayout& layout,
                                                         std::size_t vertices, int threads);
 
 }  // namespace goffer::bench

@@ -6,7 +6,7 @@
 namespace goffer::bench {
 namespace {
 
-constexpr Layout all[] = {
+constexpr StreamLayout all[] = {
     {.name = "positions"},
     {.name = "positions+normals", .floats = 6, .normals = true},
     {.name = "positions+normals+tangents", .floats = 10, .normals = true, .tangents = true},
@@ -33,7 +33,7 @@ constexpr Layout all[] = {
 /// Hands out the streams of an instance, one after the other: planes, or places in a record.
 class Cursor {
 public:
-    Cursor(const Layout& layout, const CrowdMemory& memory, std::size_t first, std::size_t count)
+    Cursor(const StreamLayout& layout, const CrowdMemory& memory, std::size_t first, std::size_t count)
         : step_(layout.record == 0 ? memory.capacity : 1),
           stride_(layout.record == 0 ? sizeof(float) : layout.record * sizeof(float)),
           count_(count),
@@ -60,15 +60,15 @@ private:
 
 }  // namespace
 
-std::span<const Layout> layouts() {
+std::span<const StreamLayout> layouts() {
     return all;
 }
 
-const Layout& layout(std::string_view name) {
-    return *std::ranges::find(all, name, &Layout::name);
+const StreamLayout& layout(std::string_view name) {
+    return *std::ranges::find(all, name, &StreamLayout::name);
 }
 
-std::size_t capacity_for(const Layout& layout, std::size_t vertices) {
+std::size_t capacity_for(const StreamLayout& layout, std::size_t vertices) {
     if (layout.record != 0) return vertices;
     constexpr std::size_t page = 4096 / sizeof(float);
     const std::size_t past =
@@ -80,7 +80,7 @@ namespace {
 
 /// `to`: a job or a batch.
 template <class To>
-void set_all(To& to, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
+void set_all(To& to, const StreamLayout& layout, const CrowdMemory& memory, std::size_t first) {
     to.scratch_gaps = layout.scratch;
     const std::size_t count = memory.capacity - first;
     if (layout.packed) {
@@ -97,11 +97,12 @@ void set_all(To& to, const Layout& layout, const CrowdMemory& memory, std::size_
 
 }  // namespace
 
-void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first) {
+void set_streams(bend::DeformJob& job, const StreamLayout& layout, const CrowdMemory& memory,
+                 std::size_t first) {
     set_all(job, layout, memory, first);
 }
 
-void set_streams(bend::Batch& batch, const Layout& layout, const CrowdMemory& memory) {
+void set_streams(bend::Batch& batch, const StreamLayout& layout, const CrowdMemory& memory) {
     set_all(batch, layout, memory, 0);
 }
 

@@ -12,7 +12,7 @@
 namespace goffer::bench {
 
 /// A set of streams. The name is the <streams> of a case.
-struct Layout {
+struct StreamLayout {
     std::string_view name;
     std::size_t floats = 3;  ///< written per vertex, in units of 4 bytes
     std::size_t record = 0;  ///< floats from one vertex to the next; 0: planes, each over the whole crowd
@@ -30,15 +30,15 @@ struct Layout {
 };
 
 /// All of them.
-[[nodiscard]] std::span<const Layout> layouts();
+[[nodiscard]] std::span<const StreamLayout> layouts();
 
 /// The one of that name, which must be there.
-[[nodiscard]] const Layout& layout(std::string_view name);
+[[nodiscard]] const StreamLayout& layout(std::string_view name);
 
 /// Vertices that memory for `vertices` is made for: planes are longer than that, so that they lie as the
 /// layout says. Where planes are a page's multiple apart, lines on their way to memory get into each other's
 /// way.
-[[nodiscard]] std::size_t capacity_for(const Layout& layout, std::size_t vertices);
+[[nodiscard]] std::size_t capacity_for(const StreamLayout& layout, std::size_t vertices);
 
 /// The memory of a crowd: `capacity` vertices in `values`, which holds capacity * footprint() floats.
 struct CrowdMemory {
@@ -47,9 +47,10 @@ struct CrowdMemory {
 };
 
 /// Sets the streams of `job`, whose first vertex is vertex `first` of the crowd's memory.
-void set_streams(bend::DeformJob& job, const Layout& layout, const CrowdMemory& memory, std::size_t first);
+void set_streams(bend::DeformJob& job, const StreamLayout& layout, const CrowdMemory& memory,
+                 std::size_t first);
 
 /// Sets those of a batch: over all of the crowd's memory.
-void set_streams(bend::Batch& batch, const Layout& layout, const CrowdMemory& memory);
+void set_streams(bend::Batch& batch, const StreamLayout& layout, const CrowdMemory& memory);
 
 }  // namespace goffer::bench

@@ -37,13 +37,13 @@ int main(int count, char** words) {
     const bool sweep = take("--sweep", count, words);
     benchmark::Initialize(&count, words, print_help);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
-    Stage stage;
+    Fixture fixture;
     register_naive();
-    register_floor(stage);
-    register_setup(stage);
+    register_floor(fixture);
+    register_setup(fixture);
     register_bind();
-    register_deform(stage);
-    if (sweep) register_sweep(stage);
+    register_deform(fixture);
+    if (sweep) register_sweep(fixture);
     RatioReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "naive.hpp"
 
-#include "subject.hpp"
+#include "model.hpp"
 
 #include <goffer/paper/wrinkle.hpp>
 
@@ -47,10 +47,10 @@ void deform_naive(const NaiveBody& body, double angle, double direction, std::ve
         const double f = body.amplitude[static_cast<std::size_t>(v.column)] * (1 - u) *
                          std::cos(2 * std::numbers::pi * folds * u);
         const double rho = v.rho + f;
-        const double towards = rho * std::cos(v.beta - direction);
+        const double toward = rho * std::cos(v.beta - direction);
         const double across = rho * std::sin(v.beta - direction);
-        const double x = arc_radius - (arc_radius - towards) * std::cos(phi);
-        const double z = (arc_radius - towards) * std::sin(phi);
+        const double x = arc_radius - (arc_radius - toward) * std::cos(phi);
+        const double z = (arc_radius - toward) * std::sin(phi);
         positions[i] = {x * std::cos(direction) - across * std::sin(direction),
                         x * std::sin(direction) + across * std::cos(direction), z};
     }

@@ -55,7 +55,7 @@ struct Plush {
 };
 
 /// A closed skin: `rings` rings of `columns` vertices between two poles. `point(u, v)` is a place on it, u
-/// once around and v from pole to pole, and looks outwards where u turns right-handed about the way from pole
+/// once around and v from pole to pole, and looks outward where u turns right-handed about the way from pole
 /// to pole. The texture runs up one side and down the other, so there is no seam.
 template <class Point, class PaintAt>
 void add_skin(Plush& plush, int columns, int rings, const Point& point, const PaintAt& paint_at) {
@@ -87,9 +87,9 @@ void add_skin(Plush& plush, int columns, int rings, const Point& point, const Pa
 }
 
 /// An ellipsoid; the columns of `axes` are its half-axes, right-handed, the last from pole to pole.
-void add_ball(Plush& plush, int columns, int rings, const vec3& centre, const glm::mat3& axes, Paint paint) {
+void add_ball(Plush& plush, int columns, int rings, const vec3& center, const glm::mat3& axes, Paint paint) {
     const auto point = [&](float u, float v) {
-        return centre + axes * vec3(std::sin(pi * v) * std::cos(2 * pi * u),
+        return center + axes * vec3(std::sin(pi * v) * std::cos(2 * pi * u),
                                     std::sin(pi * v) * std::sin(2 * pi * u), -std::cos(pi * v));
     };
     add_skin(plush, columns, rings, point, [&](float) { return paint; });

@@ -58,7 +58,7 @@ std::vector<Vertex> deform(const bend::Body& body, std::span<const Worm> worms) 
     batch.transforms = strided(worms, &Worm::model);
     batch.positions = interleaved<3>(&vertices[0].position.x, vertices.size(), sizeof(Vertex));
     batch.normals = interleaved<3>(&vertices[0].normal.x, vertices.size(), sizeof(Vertex));
-    batch.step = body.vertex_count();  // from one instance's first vertex to the next one's
+    batch.vertex_step = body.vertex_count();  // from one instance's first vertex to the next one's
     const bend::CrowdJob crowd{.batches = {&batch, 1}};
     if (const bend::Fault fault = bend::validate(crowd); !fault.none())  // once: a frame only runs
         throw std::invalid_argument(bend::describe(fault).c_str());
@@ -108,16 +108,16 @@ std::vector<view::Model> view_models(const mesh::Mesh& all) {
 
 void run(const std::filesystem::path& model_file, const std::filesystem::path& folder) {
     const mesh::Mesh model = mesh::load(model_file);
-    const mesh::Records rest = mesh::records(model);
+    const mesh::VertexArrays rest = mesh::vertex_arrays(model);
     const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals};
-    const fit::Bound bound = fit::bind(geometry, fit::fit_cylinder(geometry));
-    const mesh::Mesh all = merge(model, deform(bound.body, make_worms()));
+    const fit::Binding binding = fit::bind(geometry, fit::fit_cylinder(geometry));
+    const mesh::Mesh all = merge(model, deform(binding.body, make_worms()));
     view::Camera camera;
-    camera.towards = {-0.25f, -0.6f, -0.75f};
+    camera.toward = {-0.25f, -0.6f, -0.75f};
     camera.up = {0, 1, 0};
     view::save_png(view::render(view_models(all), camera), folder / "crowd.png");
     mesh::save(all, folder / "crowd.glb");
-    std::printf("%zu instances of %zu vertices\n", columns * rows, bound.body.vertex_count());
+    std::printf("%zu instances of %zu vertices\n", columns * rows, binding.body.vertex_count());
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 int main() {
     using namespace goffer;
     const mesh::Mesh model = mesh::load("worm.glb");
-    mesh::Records shape = mesh::records(model);
+    mesh::VertexArrays shape = mesh::vertex_arrays(model);
     const fit::Geometry geometry{shape.positions, shape.triangles, shape.normals};
-    const fit::Bound worm = fit::bind(geometry, fit::fit_cylinder(geometry));             // once, offline
+    const fit::Binding worm = fit::bind(geometry, fit::fit_cylinder(geometry));           // once, offline
     bend::DeformJob job{.body = &worm.body, .pose = {.angle = 1.5f, .direction = 0.5f}};  // in radians
     job.positions = interleaved<3>(&shape.positions[0].x, shape.positions.size());
     if (!shape.normals.empty()) job.normals = interleaved<3>(&shape.normals[0].x, shape.normals.size());
     bend::run(job);  // every frame: no allocation, no lock
-    mesh::save(mesh::with_records(model, shape), "bent.glb");
+    mesh::save(mesh::with_vertex_arrays(model, shape), "bent.glb");
 }

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What bench/gate is made of: trees and pairs, counts, ratios, their judgement, reports and history."""
+"""What bench/gate is made of: trees and pairs, counts, ratios, their judgment, reports and history."""

@@ -12,7 +12,7 @@ import statistics
 import time
 from collections.abc import Callable
 
-from .judgement import Estimate, estimates
+from .judgment import Estimate, estimates
 from .machine import Others, one_core
 from .outcome import Part, Row, Unmeasured, Verdict
 from .programs import Run, cases_of, time_of

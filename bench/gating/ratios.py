@@ -50,7 +50,7 @@ KINDS: dict[str, tuple[Callable[[str, Counters], float], Callable[[str], list[st
 }
 
 
-class Bound:
+class Binding:
     """One ratio, and what was seen of it."""
 
     def __init__(self, kind: str, case: str, at_least: float):
@@ -84,10 +84,10 @@ class Bound:
         return row
 
 
-def bounds_of(baseline: dict, names: list[str]) -> list[Bound]:
+def bounds_of(baseline: dict, names: list[str]) -> list[Binding]:
     """The bounds in a baseline, given the cases that the program has."""
     isa = cases.widest(names)
-    return [Bound(kind, cases.resolve(case, isa), at_least)
+    return [Binding(kind, cases.resolve(case, isa), at_least)
             for kind, of_kind in baseline.get("ratios", {}).items() if kind in KINDS
             for case, at_least in of_kind.items()]
 
@@ -111,7 +111,7 @@ def judge(baseline: dict, program: str, progress: Callable[[str], None]) -> Part
     return part
 
 
-def _try(bounds: list[Bound], program: str, progress: Callable[[str], None]) -> None:
+def _try(bounds: list[Binding], program: str, progress: Callable[[str], None]) -> None:
     """Measures what these bounds need: those of one thread in one run, those of more each in one of their own."""
     groups = [[bound for bound in bounds if not bound.threads], *([bound] for bound in bounds if bound.threads)]
     for group in groups:

@@ -40,25 +40,25 @@ TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
     std::vector<Worst> worst(built_isas().size());
     for (int trial = 0; trial < 40; ++trial) {
         const double scale = std::pow(10, uniform(random, -4, 4));
-        const Subject subject = random_subject(random, uniform(random, 3, 40), scale);
-        const fit::BindOptions options = random_options(random, subject.cylinder);
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        Output out(subject.positions.size());
+        const TestMesh test_mesh = random_mesh(random, uniform(random, 3, 40), scale);
+        const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        Output out(test_mesh.positions.size());
         for (int k = 0; k < 5; ++k) {
-            const bend::Pose pose = random_pose(random, static_cast<double>(bound.body.max_angle()));
-            INFO("trial ", trial, " angle ", pose.angle, " of ", bound.body.max_angle(), " direction ",
-                 pose.direction, " folds ", bound.folds(), " L/r ",
-                 subject.cylinder.length / subject.cylinder.radius);
-            const Expected expected(Reference(subject, options, bound.folds(), pose),
-                                    subject.positions.size());
+            const bend::Pose pose = random_pose(random, static_cast<double>(binding.body.max_angle()));
+            INFO("trial ", trial, " angle ", pose.angle, " of ", binding.body.max_angle(), " direction ",
+                 pose.direction, " folds ", binding.folds(), " L/r ",
+                 test_mesh.cylinder.length / test_mesh.cylinder.radius);
+            const Expected expected(Reference(test_mesh, options, binding.folds(), pose),
+                                    test_mesh.positions.size());
             for (std::size_t i = 0; i < worst.size(); ++i) {
                 const Isa isa = built_isas()[i];
                 if (!runs_here(isa)) continue;
                 CAPTURE(name(isa));
-                const bend::DeformJob job = make_job(bound.body, pose, isa, out);
+                const bend::DeformJob job = make_job(binding.body, pose, isa, out);
                 REQUIRE(bend::validate(job).none());
                 bend::run(job);
-                const Worst one(expected, out, subject.cylinder.length);
+                const Worst one(expected, out, test_mesh.cylinder.length);
                 CHECK(one.position <= 5e-6);
                 CHECK(one.normal <= 0.01);
                 CHECK(one.tangent <= 0.01);
@@ -80,18 +80,18 @@ TEST_CASE("P1: the straight pose returns the rest mesh") {
         if (!runs_here(isa)) continue;
         Random random(2);
         for (int trial = 0; trial < 20; ++trial) {
-            const Subject subject =
-                random_subject(random, uniform(random, 3, 40), std::pow(10, uniform(random, -4, 4)));
-            const fit::Bound bound =
-                fit::bind(subject.geometry(), subject.cylinder, random_options(random, subject.cylinder));
-            Output out(subject.positions.size());
-            bend::run(make_job(bound.body, {0, static_cast<float>(uniform(random, -9, 9))}, isa, out));
-            for (std::size_t i = 0; i < subject.positions.size(); ++i) {
-                const double error = glm::length(out.position(i) - glm::dvec3(subject.positions[i]));
-                REQUIRE(error <= 1e-6 * subject.cylinder.length);
-                REQUIRE(angle_between(out.normal(i), glm::dvec3(subject.normals[i])) < 1e-4);
-                REQUIRE(angle_between(out.tangent(i), glm::dvec3(subject.tangents[i])) < 1e-4);
-                REQUIRE(out.columns[9][i] == subject.tangents[i].w);
+            const TestMesh test_mesh =
+                random_mesh(random, uniform(random, 3, 40), std::pow(10, uniform(random, -4, 4)));
+            const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder,
+                                                   random_options(random, test_mesh.cylinder));
+            Output out(test_mesh.positions.size());
+            bend::run(make_job(binding.body, {0, static_cast<float>(uniform(random, -9, 9))}, isa, out));
+            for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
+                const double error = glm::length(out.position(i) - glm::dvec3(test_mesh.positions[i]));
+                REQUIRE(error <= 1e-6 * test_mesh.cylinder.length);
+                REQUIRE(angle_between(out.normal(i), glm::dvec3(test_mesh.normals[i])) < 1e-4);
+                REQUIRE(angle_between(out.tangent(i), glm::dvec3(test_mesh.tangents[i])) < 1e-4);
+                REQUIRE(out.columns[9][i] == test_mesh.tangents[i].w);
             }
         }
     }
@@ -100,31 +100,31 @@ TEST_CASE("P1: the straight pose returns the rest mesh") {
 TEST_CASE("P8: bending a body of revolution another way is turning the result") {
     Random random(3);
     constexpr int columns = 36;
-    Subject subject;
-    subject.cylinder.length = 10;
-    subject.cylinder.radius = 1;
+    TestMesh test_mesh;
+    test_mesh.cylinder.length = 10;
+    test_mesh.cylinder.radius = 1;
     for (int row = 0; row <= 80; ++row) {
         for (int column = 0; column < columns; ++column) {
             const double beta = 2 * std::numbers::pi * column / columns, z = row / 8.0;
             const double rho = 1 + 0.1 * std::sin(z);
-            subject.positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), z);
+            test_mesh.positions.emplace_back(rho * std::cos(beta), rho * std::sin(beta), z);
             if (row == 80) continue;
             const auto index = [&](int r, int k) {
                 return static_cast<std::uint32_t>(r * columns + k % columns);
             };
-            subject.triangles.insert(subject.triangles.end(),
-                                     {index(row, column), index(row, column + 1), index(row + 1, column)});
+            test_mesh.triangles.insert(test_mesh.triangles.end(),
+                                       {index(row, column), index(row, column + 1), index(row + 1, column)});
         }
     }
     fit::BindOptions options;
     options.folds = 5;
-    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-    const std::size_t count = subject.positions.size();
+    const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+    const std::size_t count = test_mesh.positions.size();
     Output straight(count), turned(count);
-    bend::run(make_job(bound.body, {1.4f, 0}, Isa::automatic, straight));
+    bend::run(make_job(binding.body, {1.4f, 0}, Isa::automatic, straight));
     for (const int step : {1, 7, 18, 35}) {
         const double theta = 2 * std::numbers::pi * step / columns;
-        bend::run(make_job(bound.body, {1.4f, static_cast<float>(theta)}, Isa::automatic, turned));
+        bend::run(make_job(binding.body, {1.4f, static_cast<float>(theta)}, Isa::automatic, turned));
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t row = i / columns, column = i % columns;
             const glm::dvec3 p = straight.position(
@@ -138,25 +138,26 @@ TEST_CASE("P8: bending a body of revolution another way is turning the result") 
 
 TEST_CASE("a negative angle is the same bend the other way") {
     Random random(4);
-    const Subject subject = random_subject(random, 10, 1);
-    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-    Output there(subject.positions.size()), back(subject.positions.size());
-    bend::run(make_job(bound.body, {-0.8f, 0.5f}, Isa::automatic, there));
-    bend::run(make_job(bound.body, {0.8f, 0.5f + std::numbers::pi_v<float>}, Isa::automatic, back));
-    for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+    const TestMesh test_mesh = random_mesh(random, 10, 1);
+    const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
+    Output there(test_mesh.positions.size()), back(test_mesh.positions.size());
+    bend::run(make_job(binding.body, {-0.8f, 0.5f}, Isa::automatic, there));
+    bend::run(make_job(binding.body, {0.8f, 0.5f + std::numbers::pi_v<float>}, Isa::automatic, back));
+    for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         REQUIRE(glm::length(there.position(i) - back.position(i)) < 2e-6);
     }
 }
 
 TEST_CASE("beyond the largest angle the pose is clamped, flagged and finite") {
     Random random(5);
-    const Subject subject = random_subject(random, 8, 1);
-    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-    Output limit(subject.positions.size()), beyond(subject.positions.size());
-    CHECK_FALSE(bend::run(make_job(bound.body, {bound.body.max_angle(), 1}, Isa::automatic, limit)).clamped);
-    for (const float angle : {bound.body.max_angle() * 1.01f, 100.0f, 1e30f}) {
-        CHECK(bend::run(make_job(bound.body, {angle, 1}, Isa::automatic, beyond)).clamped);
-        for (std::size_t i = 0; i < subject.positions.size(); ++i)
+    const TestMesh test_mesh = random_mesh(random, 8, 1);
+    const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
+    Output limit(test_mesh.positions.size()), beyond(test_mesh.positions.size());
+    CHECK_FALSE(
+        bend::run(make_job(binding.body, {binding.body.max_angle(), 1}, Isa::automatic, limit)).clamped);
+    for (const float angle : {binding.body.max_angle() * 1.01f, 100.0f, 1e30f}) {
+        CHECK(bend::run(make_job(binding.body, {angle, 1}, Isa::automatic, beyond)).clamped);
+        for (std::size_t i = 0; i < test_mesh.positions.size(); ++i)
             REQUIRE(limit.position(i) == beyond.position(i));
     }
 }

@@ -3,9 +3,9 @@
 
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
-#include "support/herd.hpp"
-#include "support/layout.hpp"
 #include "support/locks.hpp"
+#include "support/output_buffer.hpp"
+#include "support/test_batch.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -50,9 +50,9 @@ public:
             bend::Batch& batch = batches_.emplace_back(bend::batch_of(jobs_[i]));
             batch.visible = strided(std::span(visible_).subspan(i, 1));
         }
-        const HerdStyle style{
+        const BatchStyle style{
             .storage = Storage::paged_members, .indices = true, .places = true, .masks = true};
-        batches_.push_back(herd_.emplace(random, bodies_[0], 30, style).batch());
+        batches_.push_back(test_batch_.emplace(random, bodies_[0], 30, style).batch());
     }
 
     /// On the calling thread.
@@ -96,12 +96,12 @@ private:
     }
 
     std::vector<bend::Body> bodies_;
-    std::vector<Layout> outputs_;
+    std::vector<OutputBuffer> outputs_;
     std::vector<bend::Bounds> boxes_{30};
     std::vector<bend::DeformJob> jobs_;
     std::vector<std::uint8_t> visible_;
-    std::optional<Herd> herd_;
-    std::vector<bend::Batch> batches_;  // of one job each; and of the herd
+    std::optional<TestBatch> test_batch_;
+    std::vector<bend::Batch> batches_;  // of one job each; and of the test_batch
     int faults_ = 0, texts_ = 0;
 };
 

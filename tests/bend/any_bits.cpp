@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "support/herd.hpp"
 #include "support/sanitized.hpp"
+#include "support/test_batch.hpp"
 
 #include <goffer/bend/capsules.hpp>
 #include <goffer/bend/sockets.hpp>
@@ -83,7 +83,7 @@ std::vector<bend::Pose> any_poses(Random& random, std::size_t regions) {
 
 /// What every function makes of poses.
 struct Results {
-    Layout out;
+    OutputBuffer out;
     bend::DeformResult result;
     bend::Bounds box;
     std::vector<bend::Capsule> capsules;
@@ -188,18 +188,18 @@ TEST_CASE("P11: crowds of poses and weights of any bits give the bits of single 
     std::size_t at_rest = 0;
     for (int round = 0; round < (sanitized ? 8 : 60); ++round) {
         const Isa isa = isas_here()[random() % isas_here().size()];
-        Herds herds;
+        TestBatches tested;
         for (const bend::Body& body : bodies) {
-            HerdStyle style{.storage = all_storages[random() % 4], .hostile = true};
+            BatchStyle style{.storage = all_storages[random() % 4], .hostile = true};
             style.indices = random() % 2 == 0;
             style.picture = random() % 2 == 0 ? planes : "xyzuvw.pqr";
-            herds.add(random, body, 30, style);
+            tested.add(random, body, 30, style);
         }
-        const bend::CrowdResult expected = herds.expect(isa);
+        const bend::CrowdResult expected = tested.expect(isa);
         at_rest += expected.at_rest;
-        herds.clear();
-        const bend::CrowdResult result = bend::run(bend::CrowdJob{.batches = herds.batches, .isa = isa});
-        REQUIRE(herds.fault() == "");
+        tested.clear();
+        const bend::CrowdResult result = bend::run(bend::CrowdJob{.batches = tested.batches, .isa = isa});
+        REQUIRE(tested.fault() == "");
         CHECK(result.clamped == expected.clamped);
         CHECK(result.at_rest == expected.at_rest);
     }
@@ -213,11 +213,11 @@ TEST_CASE("P11: a crowd that validated is safe with other transforms, whatever t
     std::vector<glm::mat4x3> transforms(6, glm::mat4x3(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0));
     for (const std::string_view picture :
          {planes, std::string_view("xyz.uvw.123."), std::string_view("xyzuvw")}) {
-        Layout out(picture, 6 * 40);
+        OutputBuffer out(picture, 6 * 40);
         bend::Batch batch{.body = &body, .count = 6};
         batch.poses = batch.previous_poses = strided(std::span(poses));
         batch.transforms = batch.previous_transforms = strided(std::span(transforms));
-        batch.step = 40;
+        batch.vertex_step = 40;
         out.attach(batch);
         for (int round = 0; round < 200; ++round) {
             for (glm::mat4x3& matrix : transforms)
@@ -226,7 +226,7 @@ TEST_CASE("P11: a crowd that validated is safe with other transforms, whatever t
             const bend::Stores stores = round % 2 == 0 ? bend::Stores::cached : bend::Stores::non_temporal;
             CHECK(bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = stores}).deformed == 6);
             // Whatever was written, it was written where it belongs.
-            const Layout::Part all{&out, 0, 6 * 40, 0};
+            const OutputBuffer::Part all{&out, 0, 6 * 40, 0};
             REQUIRE(out.fault({&all, 1}) == "");
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/arena.hpp"
 #include "support/faults.hpp"
-#include "support/herd.hpp"
+#include "support/test_batch.hpp"
 
 #include <doctest/doctest.h>
 
@@ -33,14 +33,14 @@ constexpr std::string_view pictures[] = {"x y z u v w a b c d p q r 123",
                                          "xyzuvw......",
                                          "x y z"};
 
-using Matrix = bend::TransformColumn::Layout;
+using Matrix = bend::TransformColumn::MatrixLayout;
 
-/// Runs `crowd` by `run` on cleared herds, which must then hold what `expected` counts.
+/// Runs `crowd` by `run` on cleared batches, which must then hold what `expected` counts.
 template <class Run>
-void check(Herds& herds, const bend::CrowdJob& crowd, const bend::CrowdResult& expected, Run run) {
-    herds.clear();
+void check(TestBatches& tested, const bend::CrowdJob& crowd, const bend::CrowdResult& expected, Run run) {
+    tested.clear();
     const bend::CrowdResult result = run(crowd);
-    REQUIRE(herds.fault(crowd.frame) == "");
+    REQUIRE(tested.fault(crowd.frame) == "");
     CHECK(result.deformed == expected.deformed);
     CHECK(result.clamped == expected.clamped);
     CHECK(result.at_rest == expected.at_rest);
@@ -95,22 +95,22 @@ TEST_CASE("P5: columns in every storage give the bits of single jobs") {
         for (const Storage storage : all_storages) {
             for (const Matrix matrix : {Matrix::columns3, Matrix::columns4, Matrix::rows4}) {
                 for (const unsigned ways : {0u, 1u, 2u, 3u}) {
-                    HerdStyle style{.storage = storage, .transforms = matrix};
+                    BatchStyle style{.storage = storage, .transforms = matrix};
                     style.indices = (ways & 1) != 0;
                     style.places = (ways & 2) != 0;
                     style.picture = pictures[picture++ % std::size(pictures)];
                     INFO(name(isa), ", storage ", static_cast<int>(storage), ", matrices ",
                          static_cast<int>(matrix), ", ways ", ways, ", ", style.picture);
-                    Herds herds;
-                    herds.add(random, all[0], 9, style);
-                    herds.add(random, all[1], 6, style);
-                    const bend::CrowdResult expected = herds.expect(isa);
+                    TestBatches tested;
+                    tested.add(random, all[0], 9, style);
+                    tested.add(random, all[1], 6, style);
+                    const bend::CrowdResult expected = tested.expect(isa);
                     CHECK(expected.deformed == 15);
                     CHECK(expected.at_rest == 0);
                     for (const bend::Stores stores : both_stores) {
-                        const bend::CrowdJob crowd{.batches = herds.batches, .stores = stores, .isa = isa};
+                        const bend::CrowdJob crowd{.batches = tested.batches, .stores = stores, .isa = isa};
                         REQUIRE(told(bend::validate(crowd)) == "none");
-                        check(herds, crowd, expected, run_one);
+                        check(tested, crowd, expected, run_one);
                     }
                 }
             }
@@ -124,9 +124,9 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
     for (const Isa isa : isas_here()) {
         for (int trial = 0; trial < 6; ++trial) {
             INFO(name(isa), ", trial ", trial);
-            Herds herds;
+            TestBatches tested;
             for (std::size_t i = 0; i < all.size(); ++i) {
-                HerdStyle style;
+                BatchStyle style;
                 style.storage = all_storages[random() % 4];
                 style.transforms = static_cast<Matrix>(random() % 3);
                 style.indices = random() % 2 == 0;
@@ -136,16 +136,16 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
                 style.hostile = trial == 5;
                 style.scratch_gaps = random() % 2 == 0;
                 style.picture = pictures[random() % std::size(pictures)];
-                herds.add(random, all[i], random() % 12, style);
+                tested.add(random, all[i], random() % 12, style);
             }
-            bend::CrowdJob crowd{.batches = herds.batches, .frame = static_cast<std::uint32_t>(trial)};
+            bend::CrowdJob crowd{.batches = tested.batches, .frame = static_cast<std::uint32_t>(trial)};
             crowd.stores = both_stores[static_cast<std::size_t>(trial) / 2 % 2];
             crowd.isa = isa;
             if (trial != 5) REQUIRE(told(bend::validate(crowd)) == "none");
-            const bend::CrowdResult expected = herds.expect(isa, crowd.frame);
-            check(herds, crowd, expected, run_one);
+            const bend::CrowdResult expected = tested.expect(isa, crowd.frame);
+            check(tested, crowd, expected, run_one);
             for (const int threads : {1, 3}) {
-                check(herds, crowd, expected, [&](const bend::CrowdJob& job) {
+                check(tested, crowd, expected, [&](const bend::CrowdJob& job) {
                     bend::CrowdResult result;
                     in_arena(threads, [&] { result = bend::run_parallel(job); });
                     return result;
@@ -153,7 +153,7 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
             }
             for (const std::size_t pieces : {1u, 2u, 7u, 100u}) {
                 for (const std::size_t threads : {1u, 3u}) {
-                    check(herds, crowd, expected,
+                    check(tested, crowd, expected,
                           [&](const bend::CrowdJob& job) { return run_on_threads(job, threads, pieces); });
                 }
             }
@@ -166,22 +166,22 @@ TEST_CASE("masks and intervals are read from columns, and what has no turn is no
     const std::vector<bend::Body> all = bodies(random);
     for (const Storage storage : all_storages) {
         for (const bool indices : {false, true}) {
-            Herds herds;
-            HerdStyle style{.storage = storage, .indices = indices, .masks = true};
-            herds.add(random, all[0], 60, style);
+            TestBatches tested;
+            BatchStyle style{.storage = storage, .indices = indices, .masks = true};
+            tested.add(random, all[0], 60, style);
             style.picture = "xyzuvw";
-            herds.add(random, all[1], 40, style);
+            tested.add(random, all[1], 40, style);
             std::size_t turns = 0;
             // The last ones: a frame's number may wrap around, an instance's turn is told from the sum.
             for (const std::uint32_t frame : {0u, 1u, 2u, 3u, 4u, 5u, 0xfffffffeu, 0xffffffffu}) {
                 CAPTURE(frame);
-                const bend::CrowdJob crowd{.batches = herds.batches, .frame = frame};
-                const bend::CrowdResult expected = herds.expect(Isa::automatic, frame);
+                const bend::CrowdJob crowd{.batches = tested.batches, .frame = frame};
+                const bend::CrowdResult expected = tested.expect(Isa::automatic, frame);
                 turns += expected.deformed;
-                check(herds, crowd, expected, run_one);
-                check(herds, crowd, expected,
+                check(tested, crowd, expected, run_one);
+                check(tested, crowd, expected,
                       [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
-                check(herds, crowd, expected,
+                check(tested, crowd, expected,
                       [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 9); });
             }
             CHECK((turns > 100 && turns < 500));
@@ -199,7 +199,7 @@ TEST_CASE("every n-th frame: each instance has its turn, and the turns are sprea
     batch.poses = strided(std::span(poses));
     batch.update_intervals = strided(std::span(intervals));
     batch.positions = planar(out[0], out[1], out[2]);
-    batch.step = 20;
+    batch.vertex_step = 20;
     std::vector<int> turns(intervals.size());
     for (std::uint32_t frame = 0; frame < 12; ++frame) {
         std::ranges::fill(out[0], 99.0f);
@@ -220,15 +220,15 @@ TEST_CASE("every n-th frame: each instance has its turn, and the turns are sprea
 TEST_CASE("columns that are not given stand for the identity, full wrinkles and every turn") {
     Random random(104);
     const std::vector<bend::Body> all = bodies(random);
-    Herds herds;
+    TestBatches tested;
     for (const std::string_view picture : pictures) {
-        HerdStyle style{.places = true, .defaults = true, .picture = picture};
-        style.transforms = static_cast<Matrix>(herds.herds.size() % 3);
-        herds.add(random, all[1], 7, style);
+        BatchStyle style{.places = true, .defaults = true, .picture = picture};
+        style.transforms = static_cast<Matrix>(tested.batches.size() % 3);
+        tested.add(random, all[1], 7, style);
     }
-    const bend::CrowdJob crowd{.batches = herds.batches, .frame = 3};
+    const bend::CrowdJob crowd{.batches = tested.batches, .frame = 3};
     REQUIRE(told(bend::validate(crowd)) == "none");
-    check(herds, crowd, herds.expect(Isa::automatic), run_one);
+    check(tested, crowd, tested.expect(Isa::automatic), run_one);
 }
 
 TEST_CASE("instances may share the elements of columns") {
@@ -236,18 +236,18 @@ TEST_CASE("instances may share the elements of columns") {
     const bend::Body body = loose_body(random, 50);
     const std::vector<bend::Pose> poses{{1, 2}, {-2, 0.5f}, {3, 3}};
     const std::vector<std::uint32_t> indices{2, 2, 0, 2, 0, 0, 2};
-    Layout out("xyzuvw", 50 * indices.size());
+    OutputBuffer out("xyzuvw", 50 * indices.size());
     bend::Batch batch{.body = &body, .count = indices.size(), .indices = indices};
     batch.poses = strided(std::span(poses));
-    batch.step = 50;  // by instance, not by element
+    batch.vertex_step = 50;  // by instance, not by element
     out.attach(batch);
-    std::vector<Layout> planes;
+    std::vector<OutputBuffer> planes;
     for (const bend::Pose& pose : poses) {
         bend::DeformJob job{.body = &body, .pose = pose};
         planes.emplace_back("x y z u v w", 50).attach(job);
         bend::run(job);
     }
-    std::vector<Layout::Part> parts;
+    std::vector<OutputBuffer::Part> parts;
     for (std::size_t i = 0; i < indices.size(); ++i) parts.push_back({&planes[indices[i]], 0, 50, 50 * i});
     const bend::CrowdJob crowd{.batches = {&batch, 1}};
     REQUIRE(told(bend::validate(crowd)) == "none");
@@ -261,13 +261,13 @@ TEST_CASE("bounds of a batch are those of its instances' jobs, whatever its mask
     for (const Isa isa : isas_here()) {
         for (const Storage storage : all_storages) {
             for (const bool hostile : {false, true}) {
-                HerdStyle style{.storage = storage, .indices = true, .masks = true, .hostile = hostile};
+                BatchStyle style{.storage = storage, .indices = true, .masks = true, .hostile = hostile};
                 style.defaults = storage == Storage::arrays;
-                Herd herd(random, all[1], 23, style);
+                TestBatch test_batch(random, all[1], 23, style);
                 std::vector<bend::Bounds> boxes(24, {glm::vec3(7), glm::vec3(-7)});
-                bend::bounds(herd.batch(), std::span(boxes).first(23), isa);
+                bend::bounds(test_batch.batch(), std::span(boxes).first(23), isa);
                 for (std::size_t i = 0; i < 23; ++i) {
-                    bend::DeformJob job = herd.job(i);
+                    bend::DeformJob job = test_batch.job(i);
                     job.isa = isa;
                     const bend::Bounds box = bend::bounds(job);
                     CHECK(std::memcmp(&box, &boxes[i], sizeof box) == 0);
@@ -282,17 +282,17 @@ TEST_CASE("bounds of a batch are those of its instances' jobs, whatever its mask
 TEST_CASE("a batch of nobody is no fault and no work") {
     Random random(107);
     const std::vector<bend::Body> all = bodies(random);
-    Herds herds;
-    herds.add(random, all[0], 0, {});
-    herds.add(random, all[1], 4, {});
-    herds.add(random, all[0], 0, {.storage = Storage::arrays, .places = true});
-    const bend::CrowdJob crowd{.batches = herds.batches};
+    TestBatches tested;
+    tested.add(random, all[0], 0, {});
+    tested.add(random, all[1], 4, {});
+    tested.add(random, all[0], 0, {.storage = Storage::arrays, .places = true});
+    const bend::CrowdJob crowd{.batches = tested.batches};
     CHECK(bend::validate(crowd).none());
-    const bend::CrowdResult expected = herds.expect(Isa::automatic);
-    check(herds, crowd, expected, run_one);
-    check(herds, crowd, expected, [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 5); });
-    check(herds, crowd, expected, [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
-    const bend::CrowdJob nobody{.batches = std::span(herds.batches).first(1)};
+    const bend::CrowdResult expected = tested.expect(Isa::automatic);
+    check(tested, crowd, expected, run_one);
+    check(tested, crowd, expected, [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 5); });
+    check(tested, crowd, expected, [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
+    const bend::CrowdJob nobody{.batches = std::span(tested.batches).first(1)};
     CHECK(bend::run(nobody).deformed == 0);
     CHECK(bend::run_parallel(nobody).deformed == 0);
 }

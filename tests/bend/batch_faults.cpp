@@ -54,7 +54,7 @@ struct Crowd {
             batch.count = instances;
             batch.poses = strided(std::span(worms), &Worm::poses);
             batch.positions = interleaved<3>(&memory[i * half * 6], half, 24);
-            batch.step = vertices;
+            batch.vertex_step = vertices;
         }
         Batch& batch = batches[1];
         batch.indices = indices;
@@ -67,8 +67,8 @@ struct Crowd {
         batch.update_intervals = strided(std::span(worms), &Worm::interval);
         batch.previous_positions = interleaved<3>(&memory[half * 6 + 3], half, 24);
         batch.bounds = boxes;
-        batch.places = strided(std::span(worms), &Worm::place);
-        batch.step = 0;
+        batch.vertex_offsets = strided(std::span(worms), &Worm::place);
+        batch.vertex_step = 0;
     }
 
     [[nodiscard]] bend::Fault fault() const { return bend::validate(bend::CrowdJob{.batches = batches}); }
@@ -178,7 +178,7 @@ TEST_CASE("P7: columns that end too soon are named") {
     CHECK(told(spoilt(&Batch::visible)) == "visible count, batch 1");
     CHECK(told(spoilt(&Batch::changed)) == "changed count, batch 1");
     CHECK(told(spoilt(&Batch::update_intervals)) == "update_intervals count, batch 1");
-    CHECK(told(spoilt(&Batch::places)) == "places count, batch 1");
+    CHECK(told(spoilt(&Batch::vertex_offsets)) == "vertex_offsets count, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { --b.transforms.first.count; })) == "transform count, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { --b.previous_transforms.first.count; })) ==
           "previous_transform count, batch 1");
@@ -197,15 +197,15 @@ TEST_CASE("P7: indices, places and steps that lead out of the buffers are named"
         return after([&](Crowd& c, Batch&) { c.worms[3].place = place; });
     };
     constexpr std::uint32_t last = (instances - 1) * vertices;
-    CHECK(told(with_place(last + 1)) == "places out_of_range, batch 1, instance 6");
-    CHECK(told(with_place(0xffffffffu)) == "places out_of_range, batch 1, instance 6");
-    CHECK(told(with_place(0xfffffff4u)) == "places out_of_range, batch 1, instance 6");  // + 12 is 0
+    CHECK(told(with_place(last + 1)) == "vertex_offsets out_of_range, batch 1, instance 6");
+    CHECK(told(with_place(0xffffffffu)) == "vertex_offsets out_of_range, batch 1, instance 6");
+    CHECK(told(with_place(0xfffffff4u)) == "vertex_offsets out_of_range, batch 1, instance 6");  // + 12 is 0
     const auto with_step = [](std::size_t step) {
-        return after([&](Crowd& c, Batch&) { c.batches[0].step = step; });
+        return after([&](Crowd& c, Batch&) { c.batches[0].vertex_step = step; });
     };
     CHECK(told(with_step(vertices)) == "none");
-    CHECK(told(with_step(vertices - 1)) == "step overlap, batch 0");
-    CHECK(told(with_step(0)) == "step overlap, batch 0");
+    CHECK(told(with_step(vertices - 1)) == "vertex_step overlap, batch 0");
+    CHECK(told(with_step(0)) == "vertex_step overlap, batch 0");
     CHECK(told(with_step(vertices + 1)) == "positions too_short, batch 0");
     for (int bits = 4; bits < 64; ++bits)
         CHECK(told(with_step(std::size_t{1} << bits)) == "positions too_short, batch 0");
@@ -214,11 +214,11 @@ TEST_CASE("P7: indices, places and steps that lead out of the buffers are named"
     CHECK(told(after([](Crowd& c, Batch&) { --c.batches[0].positions.count; })) ==
           "positions too_short, batch 0");
     CHECK(told(after([](Crowd&, Batch& b) { --b.previous_positions.count; })) ==
-          "places out_of_range, batch 1, instance 0");
+          "vertex_offsets out_of_range, batch 1, instance 0");
     CHECK(told(after([](Crowd&, Batch& b) { b.previous_positions.count = vertices - 1; })) ==
           "previous_positions too_short, batch 1");
     CHECK(told(after([](Crowd& c, Batch&) {
-              c.batches[0].count = 1, c.batches[0].step = ~std::size_t{0};
+              c.batches[0].count = 1, c.batches[0].vertex_step = ~std::size_t{0};
           })) == "none");
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("P7: columns that are not aligned to what they hold are named") {
     CHECK(told(spoilt(&Batch::poses)) == "poses alignment, batch 1");
     CHECK(told(spoilt(&Batch::previous_poses)) == "previous_poses alignment, batch 1");
     CHECK(told(spoilt(&Batch::wrinkle_weights)) == "wrinkle_weight alignment, batch 1");
-    CHECK(told(spoilt(&Batch::places)) == "places alignment, batch 1");
+    CHECK(told(spoilt(&Batch::vertex_offsets)) == "vertex_offsets alignment, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { ++b.transforms.first.offset; })) ==
           "transform alignment, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.poses.stride += 2; })) == "poses alignment, batch 1");

@@ -99,10 +99,10 @@ const Round rounds[] = {
     {"waisted", [](double u) { return 0.4 + 0.6 * (2 * u - 1) * (2 * u - 1); }, true},
 };
 
-Subject round_subject(const Round& round, double slenderness, const glm::dmat3& axes) {
+TestMesh round_mesh(const Round& round, double slenderness, const glm::dmat3& axes) {
     constexpr int columns = 36, rows = 129;
-    Subject subject;
-    fit::Cylinder& c = subject.cylinder;
+    TestMesh test_mesh;
+    fit::Cylinder& c = test_mesh.cylinder;
     c.length = 1;
     c.axis = axes[2];
     c.zero = axes[0];
@@ -112,7 +112,8 @@ Subject round_subject(const Round& round, double slenderness, const glm::dmat3& 
     const auto ring = [&](double z, double rho) {
         for (int column = 0; column < columns; ++column) {
             const double beta = 2 * std::numbers::pi * column / columns;
-            subject.positions.emplace_back(axes * glm::dvec3(rho * std::cos(beta), rho * std::sin(beta), z));
+            test_mesh.positions.emplace_back(axes *
+                                             glm::dvec3(rho * std::cos(beta), rho * std::sin(beta), z));
         }
     };
     for (int row = 0; row < rows; ++row)
@@ -124,8 +125,8 @@ Subject round_subject(const Round& round, double slenderness, const glm::dmat3& 
         }
     }
     for (std::uint32_t i = 0; i + columns + 1 < rows * columns; ++i)
-        subject.triangles.insert(subject.triangles.end(), {i, i + 1, i + columns});
-    return subject;
+        test_mesh.triangles.insert(test_mesh.triangles.end(), {i, i + 1, i + columns});
+    return test_mesh;
 }
 
 }  // namespace
@@ -135,12 +136,12 @@ TEST_CASE("P10: bounds hold every vertex") {
     for (int trial = 0; trial < 40; ++trial) {
         const double slenderness =
             trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 3)) : uniform(random, 3, 40);
-        const Subject subject =
-            random_subject(random, slenderness, std::pow(10, uniform(random, -3, 3)), 12, 49, 150);
-        const fit::BindOptions options = random_options(random, subject.cylinder);
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        INFO("trial ", trial, " folds ", bound.folds());
-        check_held(random, bound.body, 50);
+        const TestMesh test_mesh =
+            random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)), 12, 49, 150);
+        const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        INFO("trial ", trial, " folds ", binding.folds());
+        check_held(random, binding.body, 50);
     }
 }
 
@@ -161,16 +162,16 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
             const double slenderness =
                 trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 2.5)) : uniform(random, 3, 40);
             const glm::dmat3 axes = trial % 3 == 0 ? glm::dmat3(1) : random_rotation(random);
-            const Subject subject = round_subject(round, slenderness, axes);
-            const fit::BindOptions options = random_options(random, subject.cylinder);
-            const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+            const TestMesh test_mesh = round_mesh(round, slenderness, axes);
+            const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+            const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
             const bool deep = *options.folds > 0 && *options.folds * 4 < slenderness;
-            Output out(subject.positions.size());
+            Output out(test_mesh.positions.size());
             for (int k = 0; k < 30; ++k) {
-                bend::Pose pose = random_pose(random, bound.body);
+                bend::Pose pose = random_pose(random, binding.body);
                 // Beyond, the vertices are too few for a tight box.
                 pose.angle = std::clamp(pose.angle, -40.0f, 40.0f);
-                bend::DeformJob job = make_job(bound.body, pose, Isa::automatic, out);
+                bend::DeformJob job = make_job(binding.body, pose, Isa::automatic, out);
                 job.normals = {};
                 if (k % 2 == 1) {
                     const glm::mat3 turn(random_rotation(random));
@@ -178,7 +179,7 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
                 }
                 bend::run(job);
                 const bend::Bounds box = bend::bounds(job), least = tight(out);
-                INFO(round.name, ", L/r ", slenderness, ", folds ", bound.folds(), ", angle ", pose.angle);
+                INFO(round.name, ", L/r ", slenderness, ", folds ", binding.folds(), ", angle ", pose.angle);
                 REQUIRE(holds(box, least));
                 for (int axis = 0; axis < 3; ++axis) {
                     const double ratio = static_cast<double>(box.high[axis] - box.low[axis]) /
@@ -187,7 +188,7 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
                     if (ratio <= worst[deep]) continue;
                     worst[deep] = ratio;
                     where[deep] = round.name + ", L/r " + std::to_string(slenderness) + ", folds " +
-                                  std::to_string(bound.folds()) + ", angle " + std::to_string(pose.angle);
+                                  std::to_string(binding.folds()) + ", angle " + std::to_string(pose.angle);
                 }
             }
         }

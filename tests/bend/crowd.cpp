@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -13,7 +13,7 @@
 #include <vector>
 
 /// The crowd's contract: the bits of single jobs, whatever the arena, the split, the stores and the
-/// neighbours. Here of batches of one, each of another shape; batch.cpp has columns.
+/// neighbors. Here of batches of one, each of another shape; batch.cpp has columns.
 
 namespace goffer::test {
 namespace {
@@ -54,7 +54,7 @@ public:
     }
 
     void clear() {
-        for (Layout& output : outputs_) output.clear();
+        for (OutputBuffer& output : outputs_) output.clear();
         boxes_.assign(boxes_.size(), {});
     }
 
@@ -102,7 +102,7 @@ private:
     }
 
     std::vector<bend::Body> bodies_;
-    std::vector<Layout> outputs_;
+    std::vector<OutputBuffer> outputs_;
     std::vector<bend::Bounds> boxes_;
 };
 

@@ -275,7 +275,8 @@ TEST_CASE("every fault has a line of its own, which begins with the field") {
 TEST_CASE("a fault's line says where it is, however large the numbers are") {
     const auto line = [](const bend::Fault& fault) { return std::string(bend::describe(fault).c_str()); };
     CHECK(line({Field::poses, Reason::not_finite, 1, 7, 2}).starts_with("batches[1].poses[7][2]: "));
-    CHECK(line({Field::places, Reason::out_of_range, 0, 12}).starts_with("batches[0].places[12]: "));
+    CHECK(line({Field::vertex_offsets, Reason::out_of_range, 0, 12})
+              .starts_with("batches[0].vertex_offsets[12]: "));
     CHECK(line({Field::visible, Reason::too_short, 3}).starts_with("batches[3].visible: "));
     CHECK(line({Field::positions, Reason::null}).starts_with("positions: "));
     bend::Fault overlap{Field::normals, Reason::overlap};

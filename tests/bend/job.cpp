@@ -16,11 +16,11 @@
 namespace goffer::test {
 namespace {
 
-fit::Bound bound_body(Random& random, int extra = 100) {
-    const Subject subject = random_subject(random, 10, 1, 8, 9, extra);
+fit::Binding bound_body(Random& random, int extra = 100) {
+    const TestMesh test_mesh = random_mesh(random, 10, 1, 8, 9, extra);
     fit::BindOptions options;
     options.folds = 3;
-    return fit::bind(subject.geometry(), subject.cylinder, options);
+    return fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
 }
 
 bool same_bits(const Output& a, const Output& b) {
@@ -37,16 +37,16 @@ constexpr bend::Pose pose{1.1f, 0.7f};
 
 TEST_CASE("P5: any split, any thread count, the same bits") {
     Random random(6);
-    const fit::Bound bound = bound_body(random, 1000);
-    const std::size_t count = bound.body.vertex_count();
+    const fit::Binding binding = bound_body(random, 1000);
+    const std::size_t count = binding.body.vertex_count();
     for (const Isa isa : built_isas()) {
         if (!runs_here(isa)) continue;
         CAPTURE(name(isa));
         Output whole(count);
-        bend::run(make_job(bound.body, pose, isa, whole));
+        bend::run(make_job(binding.body, pose, isa, whole));
         for (const std::size_t step : {1u, 3u, 16u, 100u, 777u}) {
             Output parts(count);
-            const bend::DeformJob job = make_job(bound.body, pose, isa, parts);
+            const bend::DeformJob job = make_job(binding.body, pose, isa, parts);
             for (std::size_t first = 0; first < count; first += step) {
                 bend::run_range(job, first, std::min(first + step, count));
             }
@@ -54,7 +54,7 @@ TEST_CASE("P5: any split, any thread count, the same bits") {
         }
         for (const std::size_t grain : {0u, 1u, 50u, 100000u}) {
             Output parallel(count);
-            bend::run_parallel(make_job(bound.body, pose, isa, parallel), grain);
+            bend::run_parallel(make_job(binding.body, pose, isa, parallel), grain);
             CHECK(same_bits(whole, parallel));
         }
     }
@@ -62,15 +62,15 @@ TEST_CASE("P5: any split, any thread count, the same bits") {
 
 TEST_CASE("P5: threads of the caller share a body and a job, the same bits") {
     Random random(6);
-    const fit::Bound bound = bound_body(random, 1000);
-    const std::size_t count = bound.body.vertex_count();
+    const fit::Binding binding = bound_body(random, 1000);
+    const std::size_t count = binding.body.vertex_count();
     for (const Isa isa : built_isas()) {
         if (!runs_here(isa)) continue;
         CAPTURE(name(isa));
         Output whole(count);
-        bend::run(make_job(bound.body, pose, isa, whole));
+        bend::run(make_job(binding.body, pose, isa, whole));
         Output threads(count);
-        const bend::DeformJob job = make_job(bound.body, pose, isa, threads);
+        const bend::DeformJob job = make_job(binding.body, pose, isa, threads);
         std::thread first([&] { bend::run_range(job, 0, count / 3); });
         std::thread second([&] { bend::run_range(job, count / 3, count); });
         first.join();
@@ -81,15 +81,15 @@ TEST_CASE("P5: threads of the caller share a body and a job, the same bits") {
 
 TEST_CASE("streams wanted alone give the bits that they give together") {
     Random random(7);
-    const fit::Bound bound = bound_body(random);
-    const std::size_t count = bound.body.vertex_count();
+    const fit::Binding binding = bound_body(random);
+    const std::size_t count = binding.body.vertex_count();
     for (const Isa isa : built_isas()) {
         if (!runs_here(isa)) continue;
         Output all(count);
-        bend::run(make_job(bound.body, pose, isa, all));
+        bend::run(make_job(binding.body, pose, isa, all));
         for (unsigned mask = 1; mask < 8; ++mask) {
             Output some(count);
-            bend::DeformJob job = make_job(bound.body, pose, isa, some);
+            bend::DeformJob job = make_job(binding.body, pose, isa, some);
             if ((mask & 1) == 0) job.positions = {};
             if ((mask & 2) == 0) job.normals = {};
             if ((mask & 4) == 0) job.tangents = {};
@@ -131,8 +131,8 @@ TEST_CASE("exact edges: every vertex count, misaligned outputs of exactly that l
 
 TEST_CASE("angles and directions of any finite size give finite results") {
     Random random(11);
-    const fit::Bound bound = bound_body(random);
-    Output out(bound.body.vertex_count());
+    const fit::Binding binding = bound_body(random);
+    Output out(binding.body.vertex_count());
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const float angle : {1.0f, 1e-38f, -1e-38f, 1e-45f, 1e38f, -1e38f}) {
         for (const float direction : {0.0f, 1e10f, 1e30f, -1e38f, -1e-30f}) {
@@ -140,7 +140,7 @@ TEST_CASE("angles and directions of any finite size give finite results") {
                 if (!runs_here(isa)) continue;
                 for (std::size_t c = 0; c < 9; ++c) std::ranges::fill(out.columns[c], nan);
                 const bend::DeformResult result =
-                    bend::run(make_job(bound.body, {angle, direction}, isa, out));
+                    bend::run(make_job(binding.body, {angle, direction}, isa, out));
                 CHECK_FALSE(result.at_rest);
                 CHECK(result.clamped == (std::fabs(angle) > 10));
                 for (std::size_t c = 0; c < 9; ++c) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
 #include "support/layout_case.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
@@ -64,22 +64,22 @@ constexpr std::string_view pictures[] = {
 };
 
 /// All layouts, at the given places behind a cache line, cached and non-temporal.
-void check_layouts(LayoutCase& subject, std::span<const std::size_t> shifts,
+void check_layouts(LayoutCase& test_mesh, std::span<const std::size_t> shifts,
                    std::span<const std::size_t> skews) {
     for (const Isa isa : isas_here()) {
-        subject.make_planes(isa);
+        test_mesh.make_planes(isa);
         for (const std::string_view picture : pictures) {
             for (const std::size_t shift : shifts) {
                 for (const std::size_t skew : skews) {
-                    INFO(picture, ", ", subject.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
+                    INFO(picture, ", ", test_mesh.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
                          name(isa));
-                    Layout out(picture, subject.count(), shift, skew);
+                    OutputBuffer out(picture, test_mesh.count(), shift, skew);
                     for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
-                        const bend::Batch batch = bend::batch_of(subject.job(out));
+                        const bend::Batch batch = bend::batch_of(test_mesh.job(out));
                         const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = isa};
                         REQUIRE(bend::validate(crowd).none());
                         bend::run(crowd);
-                        REQUIRE(out.fault(subject.planes()) == "");
+                        REQUIRE(out.fault(test_mesh.planes()) == "");
                     }
                 }
             }
@@ -94,9 +94,9 @@ constexpr std::size_t every_shift[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
 TEST_CASE("every layout holds the bits of planes: every alignment") {
     Random random(41);
     for (const std::size_t count : {1u, 16u, 37u, 260u, 523u}) {
-        LayoutCase subject(random, loose_body(random, count));
+        LayoutCase test_mesh(random, loose_body(random, count));
         const std::size_t skews[] = {0, 1 + random() % 15};
-        check_layouts(subject, every_shift, skews);
+        check_layouts(test_mesh, every_shift, skews);
     }
 }
 
@@ -105,10 +105,10 @@ TEST_CASE("every layout holds the bits of planes: every vertex count") {
     std::vector<std::size_t> counts{255, 256, 257, 258, 259, 511, 512, 513, 514, 515, 767, 1000, 1024, 1039};
     for (std::size_t count = 1; count <= 70; ++count) counts.push_back(count);
     for (const std::size_t count : counts) {
-        LayoutCase subject(random, loose_body(random, count));
+        LayoutCase test_mesh(random, loose_body(random, count));
         const std::size_t shifts[] = {0, random() % 16};
         const std::size_t skews[] = {random() % 2 == 0 ? 0 : random() % 16};
-        check_layouts(subject, shifts, skews);
+        check_layouts(test_mesh, shifts, skews);
     }
 }
 
@@ -119,11 +119,11 @@ TEST_CASE("a range writes its own vertices alone, in every layout") {
         small.make_planes(isa);
         large.make_planes(isa);
         for (const std::string_view picture : pictures) {
-            const auto check = [&](LayoutCase& subject, std::size_t first, std::size_t last) {
+            const auto check = [&](LayoutCase& test_mesh, std::size_t first, std::size_t last) {
                 INFO(picture, ", [", first, ", ", last, "), ", name(isa));
-                Layout out(picture, subject.count(), random() % 16, random() % 16);
-                bend::run_range(subject.job(out), first, last);
-                REQUIRE(out.fault(subject.planes(), first, last) == "");
+                OutputBuffer out(picture, test_mesh.count(), random() % 16, random() % 16);
+                bend::run_range(test_mesh.job(out), first, last);
+                REQUIRE(out.fault(test_mesh.planes(), first, last) == "");
             };
             for (std::size_t first = 0; first <= small.count(); ++first) {
                 for (std::size_t last = first; last <= small.count(); last += 1 + random() % 3)
@@ -139,18 +139,19 @@ TEST_CASE("a range writes its own vertices alone, in every layout") {
 
 TEST_CASE("non-temporal pieces write their own vertices alone, in every layout") {
     Random random(44);
-    LayoutCase subject(random, loose_body(random, 700));
+    LayoutCase test_mesh(random, loose_body(random, 700));
     for (const Isa isa : isas_here()) {
-        subject.make_planes(isa);
+        test_mesh.make_planes(isa);
         for (const std::string_view picture : pictures) {
             for (const std::size_t pieces : {2u, 5u, 60u}) {
                 INFO(picture, ", ", pieces, " pieces, ", name(isa));
-                Layout out(picture, subject.count(), random() % 16, random() % 2 == 0 ? 0 : random() % 16);
-                const bend::Batch batch = bend::batch_of(subject.job(out));
+                OutputBuffer out(picture, test_mesh.count(), random() % 16,
+                                 random() % 2 == 0 ? 0 : random() % 16);
+                const bend::Batch batch = bend::batch_of(test_mesh.job(out));
                 const bend::CrowdJob crowd{
                     .batches = {&batch, 1}, .stores = bend::Stores::non_temporal, .isa = isa};
                 for (std::size_t piece = pieces; piece-- > 0;) bend::run_piece(crowd, piece, pieces);
-                REQUIRE(out.fault(subject.planes()) == "");
+                REQUIRE(out.fault(test_mesh.planes()) == "");
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -93,19 +93,19 @@ TEST_CASE("packed vertices decode to the positions and normals of planes") {
     Random random(51);
     Worst worst;
     for (int trial = 0; trial < 30; ++trial) {
-        const Subject subject =
-            random_subject(random, uniform(random, 3, 40), std::pow(10, uniform(random, -3, 3)));
+        const TestMesh test_mesh =
+            random_mesh(random, uniform(random, 3, 40), std::pow(10, uniform(random, -3, 3)));
         fit::BindOptions options;
         options.folds = static_cast<int>(random() % 13);
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        Output out(subject.positions.size());
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        Output out(test_mesh.positions.size());
         for (int k = 0; k < 5; ++k) {
-            const auto limit = static_cast<double>(bound.body.max_angle());
+            const auto limit = static_cast<double>(binding.body.max_angle());
             const bend::Pose pose{static_cast<float>(uniform(random, -limit, limit)),
                                   static_cast<float>(uniform(random, -9, 9))};
             for (const Isa isa : isas_here()) {
-                bend::DeformJob job = make_job(bound.body, pose, isa, out);
-                if (k > 0) job.transform = random_transform(random, subject.cylinder.length);
+                bend::DeformJob job = make_job(binding.body, pose, isa, out);
+                if (k > 0) job.transform = random_transform(random, test_mesh.cylinder.length);
                 const Worst one =
                     run(job, out, k % 2 == 0 ? bend::Stores::cached : bend::Stores::non_temporal);
                 INFO("trial ", trial, " angle ", pose.angle, " ", name(isa));

@@ -16,12 +16,12 @@ namespace {
 using Control = glm::vec3[4];
 
 bend::Body body_of(Random& random, std::size_t regions) {
-    const Subject subject = random_subject(random, 30, 10, 12, 65, 0);
+    const TestMesh test_mesh = random_mesh(random, 30, 10, 12, 65, 0);
     fit::BindOptions options;
     options.folds = 0;
     for (std::size_t i = 0; i < regions; ++i)
         options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
-    return std::move(fit::bind(subject.geometry(), subject.cylinder, options).body);
+    return std::move(fit::bind(test_mesh.geometry(), test_mesh.cylinder, options).body);
 }
 
 glm::dvec3 random_vector(Random& random) {
@@ -62,8 +62,8 @@ double distance(const glm::dvec3& p, std::span<const glm::dvec3> points) {
     return nearest;
 }
 
-/// The centre line at 16 places of each region, by the poses.
-std::vector<glm::dvec3> centre_line(const bend::Body& body, const bend::PathFit& fit,
+/// The center line at 16 places of each region, by the poses.
+std::vector<glm::dvec3> center_line(const bend::Body& body, const bend::PathFit& fit,
                                     std::span<const bend::Pose> poses) {
     glm::dmat3 axes = glm::dmat3(glm::mat3(fit.transform)) * body.axes();
     glm::dvec3 begin = glm::dmat4x3(fit.transform) * glm::dvec4(body.origin(), 1);
@@ -91,7 +91,7 @@ std::vector<glm::dvec3> centre_line(const bend::Body& body, const bend::PathFit&
 double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<const bend::Pose> poses,
                 std::span<const glm::dvec3> path) {
     double worst = 0;
-    for (const glm::dvec3& place : centre_line(body, fit, poses))
+    for (const glm::dvec3& place : center_line(body, fit, poses))
         worst = std::max(worst, distance(place, path));
     return worst;
 }

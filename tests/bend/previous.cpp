@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ TEST_CASE("previous positions have the bits that positions had at that pose and 
             for (int trial = 0; trial < 20; ++trial) {
                 bend::DeformJob then{.body = &body, .pose = random_pose(random), .isa = isa};
                 then.transform = random_transform(random, 3);
-                Layout positions("x y z", count);
+                OutputBuffer positions("x y z", count);
                 positions.attach(then);
                 bend::run(then);
 
@@ -33,10 +33,10 @@ TEST_CASE("previous positions have the bits that positions had at that pose and 
                 now.transform = random_transform(random, 3);
                 now.previous_pose = then.pose;
                 now.previous_transform = then.transform;
-                Layout both(trial % 3 == 0   ? "xyzuvw p q r"
-                            : trial % 3 == 1 ? "p q r"
-                                             : "x y z pqr 123",
-                            count);
+                OutputBuffer both(trial % 3 == 0   ? "xyzuvw p q r"
+                                  : trial % 3 == 1 ? "p q r"
+                                                   : "x y z pqr 123",
+                                  count);
                 both.attach(now);
                 REQUIRE(bend::validate(now).none());
                 const bool clamped = bend::run(now).clamped;

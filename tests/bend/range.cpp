@@ -39,10 +39,10 @@ struct Wild {
     explicit Wild(Random& random) {
         radius = power(random, -12, 12);
         region.length = power(random, -12, 12);
-        const double most = std::min(region.length / (2 * radius), WorkingRange::most_angle);
+        const double most = std::min(region.length / (2 * radius), WorkingRange::max_angle);
         region.max_angle = random() % 2 == 0 ? most : most * power(random, -3, 0);
         if (random() % 2 == 0) region.rest_angle = region.max_angle * uniform(random, 0, 1);
-        if (random() % 8 == 0) region.rest_angle = WorkingRange::most_rest * region.max_angle;
+        if (random() % 8 == 0) region.rest_angle = WorkingRange::max_rest * region.max_angle;
         region.rest_direction = uniform(random, -4, 4);
         if (random() % 3 == 0) region.onset = power(random, -13, 0);
         add_table(random);
@@ -52,7 +52,7 @@ struct Wild {
 
     [[nodiscard]] std::optional<bend::Body> body() const {
         bend::BodyInput input;
-        input.origin = {WorkingRange::most_origin, 0, -1};
+        input.origin = {WorkingRange::max_origin, 0, -1};
         input.radius = radius;
         input.regions = {&region, 1};
         input.vertices = vertices;
@@ -85,7 +85,7 @@ private:
         bend::RestVertex v;
         v.beta = random() % 5 == 0 ? region.rest_direction : uniform(random, -4, 4);
         v.z = region.length * uniform(random, 0, 1);
-        v.rho = random() % 9 == 0 ? 0 : std::min(radius * power(random, -2, 3), WorkingRange::most_length);
+        v.rho = random() % 9 == 0 ? 0 : std::min(radius * power(random, -2, 3), WorkingRange::max_length);
         v.wrinkle = sign(random) * power(random, -3, 1) / radius;
         v.slope = sign(random) * power(random, -3, 2) / region.length;
         vertices.push_back(v);
@@ -141,17 +141,17 @@ TEST_CASE("whatever a body is made of, within the working range its outputs are 
 
 TEST_CASE("bodies from the smallest to the largest keep their shape") {
     for (const double slenderness : {2.0, 20.0, 1e4}) {
-        const double most_angle = std::min(0.99 * slenderness / 2, 6.0);
+        const double max_angle = std::min(0.99 * slenderness / 2, 6.0);
         for (const bool bent : {false, true}) {
             std::vector<std::vector<glm::dvec3>> shapes;
             for (const double length : {1.0, 1e-7, 1e-3, 1e6, 1e11}) {
                 bend::RegionInput region;
                 region.length = length;
-                region.max_angle = most_angle;
-                region.rest_angle = bent ? most_angle / 3 : 0;
+                region.max_angle = max_angle;
+                region.rest_angle = bent ? max_angle / 3 : 0;
                 region.onset = bent ? 1e-3 : 0;
                 region.table = fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 1,
-                                                       length, length / slenderness, most_angle, 64);
+                                                       length, length / slenderness, max_angle, 64);
                 std::vector<bend::RestVertex> vertices;
                 for (int i = 0; i < 64; ++i) {
                     const double radius = length / slenderness;

@@ -53,36 +53,36 @@ std::vector<bend::Pose> rest_poses(const bend::Body& body) {
 
 /// A body with several regions or one, bent at rest or not.
 struct Case {
-    Subject subject;
+    TestMesh test_mesh;
     fit::BindOptions options;
-    fit::Bound bound;
+    fit::Binding binding;
 };
 
 Case random_case(Random& random, std::size_t regions, bool bent) {
     const double slenderness = uniform(random, 8, 30);
-    Subject subject = random_subject(random, slenderness, std::pow(10, uniform(random, -3, 3)));
+    TestMesh test_mesh = random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)));
     const fit::BindOptions options = random_regions(random, regions);
     // Halfway to where the least wrinkled body would fold through itself.
     if (bent)
-        subject = bent_at_rest(subject, uniform(random, 0.1, 0.2 * slenderness), uniform(random, -3, 3));
-    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-    return {std::move(subject), options, std::move(bound)};
+        test_mesh = bent_at_rest(test_mesh, uniform(random, 0.1, 0.2 * slenderness), uniform(random, -3, 3));
+    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+    return {std::move(test_mesh), options, std::move(binding)};
 }
 
 /// Every instruction set against the reference, in random poses.
 Worst worst_of(Random& random, const Case& one, double position, double direction) {
     Worst worst;
-    const std::size_t count = one.subject.positions.size();
+    const std::size_t count = one.test_mesh.positions.size();
     Output out(count);
     for (int k = 0; k < 4; ++k) {
-        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
-        const Expected expected(ChainReference(one.subject, one.options, one.bound, poses), count);
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
+        const Expected expected(ChainReference(one.test_mesh, one.options, one.binding, poses), count);
         for (const Isa isa : isas_here()) {
             CAPTURE(name(isa));
-            const bend::DeformJob job = make_job(one.bound.body, poses, isa, out);
+            const bend::DeformJob job = make_job(one.binding.body, poses, isa, out);
             REQUIRE(bend::validate(job).none());
             CHECK_FALSE(bend::run(job).clamped);
-            const Worst here(expected, out, one.subject.cylinder.length);
+            const Worst here(expected, out, one.test_mesh.cylinder.length);
             CHECK(here.position <= position);
             CHECK(here.normal <= direction);
             CHECK(here.tangent <= direction);
@@ -94,18 +94,18 @@ Worst worst_of(Random& random, const Case& one, double position, double directio
 }
 
 void check_rest(const Case& one) {
-    const std::size_t count = one.subject.positions.size();
+    const std::size_t count = one.test_mesh.positions.size();
     Output out(count);
-    const std::vector<bend::Pose> poses = rest_poses(one.bound.body);
+    const std::vector<bend::Pose> poses = rest_poses(one.binding.body);
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
-        bend::run(make_job(one.bound.body, poses, isa, out));
+        bend::run(make_job(one.binding.body, poses, isa, out));
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t vertex = one.bound.order.empty() ? i : one.bound.order[i];
-            const glm::dvec3 rest(one.subject.positions[vertex]);
-            REQUIRE(glm::length(out.position(i) - rest) <= 1e-6 * one.subject.cylinder.length);
-            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.subject.normals[vertex])) < 1e-3);
-            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.subject.tangents[vertex])) < 1e-3);
+            const std::size_t vertex = one.binding.order.empty() ? i : one.binding.order[i];
+            const glm::dvec3 rest(one.test_mesh.positions[vertex]);
+            REQUIRE(glm::length(out.position(i) - rest) <= 1e-6 * one.test_mesh.cylinder.length);
+            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.test_mesh.normals[vertex])) < 1e-3);
+            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.test_mesh.tangents[vertex])) < 1e-3);
         }
     }
 }
@@ -143,12 +143,12 @@ TEST_CASE("P1, P2, P4: bodies bent at rest agree with the double closed form") {
 TEST_CASE("an onset agrees with the double closed form") {
     Random random(63);
     for (int trial = 0; trial < 6; ++trial) {
-        const Subject subject = random_subject(random, uniform(random, 8, 30), 1);
+        const TestMesh test_mesh = random_mesh(random, uniform(random, 8, 30), 1);
         fit::BindOptions options;
         options.folds = 1 + static_cast<int>(random() % 6);
         options.onset = std::pow(10, uniform(random, -4, -1));
         CAPTURE(*options.onset);
-        Case one{subject, options, fit::bind(subject.geometry(), subject.cylinder, options)};
+        Case one{test_mesh, options, fit::bind(test_mesh.geometry(), test_mesh.cylinder, options)};
         check_rest(one);
         worst_of(random, one, 5e-6, 0.05);
     }
@@ -156,13 +156,13 @@ TEST_CASE("an onset agrees with the double closed form") {
 
 TEST_CASE("P9: two regions of the same curvature and direction are one of the summed length") {
     Random random(64);
-    const Subject subject = random_subject(random, 12, 1);
+    const TestMesh test_mesh = random_mesh(random, 12, 1);
     fit::BindOptions one, two;
     one.folds = two.folds = 0;
     two.regions = {{0.37, {}}, {0.63, {}}};
-    const fit::Bound whole = fit::bind(subject.geometry(), subject.cylinder, one);
-    const fit::Bound parts = fit::bind(subject.geometry(), subject.cylinder, two);
-    const std::size_t count = subject.positions.size();
+    const fit::Binding whole = fit::bind(test_mesh.geometry(), test_mesh.cylinder, one);
+    const fit::Binding parts = fit::bind(test_mesh.geometry(), test_mesh.cylinder, two);
+    const std::size_t count = test_mesh.positions.size();
     Output a(count), b(count);
     for (const Isa isa : isas_here()) {
         for (const float angle : {0.01f, 1.0f, 3.0f}) {
@@ -226,20 +226,20 @@ TEST_CASE("P8: turning all directions and the body's vertices turns the result")
     Random random(66);
     const double turn = 0.9;
     for (const bool bent : {false, true}) {
-        Subject subject = random_subject(random, 15, 1);
-        if (bent) subject = bent_at_rest(subject, 0.8, 0.4);
+        TestMesh test_mesh = random_mesh(random, 15, 1);
+        if (bent) test_mesh = bent_at_rest(test_mesh, 0.8, 0.4);
         const fit::BindOptions options = random_regions(random, 4);
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        Subject turned = subject;  // the same mesh, told of in a frame turned about the axis
-        const glm::dvec3 e2 = glm::cross(subject.cylinder.axis, subject.cylinder.zero);
-        turned.cylinder.zero = std::cos(turn) * subject.cylinder.zero + std::sin(turn) * e2;
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        TestMesh turned = test_mesh;  // the same mesh, told of in a frame turned about the axis
+        const glm::dvec3 e2 = glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero);
+        turned.cylinder.zero = std::cos(turn) * test_mesh.cylinder.zero + std::sin(turn) * e2;
         turned.cylinder.rest_direction -= turn;
-        const fit::Bound other = fit::bind(turned.geometry(), turned.cylinder, options);
-        const std::size_t count = subject.positions.size();
+        const fit::Binding other = fit::bind(turned.geometry(), turned.cylinder, options);
+        const std::size_t count = test_mesh.positions.size();
         Output a(count), b(count);
         for (const Isa isa : isas_here()) {
-            std::vector<bend::Pose> poses = random_poses(random, bound.body);
-            bend::run(make_job(bound.body, poses, isa, a));
+            std::vector<bend::Pose> poses = random_poses(random, binding.body);
+            bend::run(make_job(binding.body, poses, isa, a));
             for (bend::Pose& pose : poses) pose.direction -= static_cast<float>(turn);
             bend::run(make_job(other.body, poses, isa, b));
             for (std::size_t i = 0; i < count; ++i)
@@ -251,31 +251,31 @@ TEST_CASE("P8: turning all directions and the body's vertices turns the result")
 TEST_CASE("P3: squeezed columns keep the lengths that they have at rest, region by region") {
     constexpr std::size_t rows = 4001, columns = 12;
     for (const double rest : {0.0, 0.6}) {
-        Subject subject;
-        subject.cylinder.length = 20;
-        subject.cylinder.radius = 1;
+        TestMesh test_mesh;
+        test_mesh.cylinder.length = 20;
+        test_mesh.cylinder.radius = 1;
         for (std::size_t column = 0; column < columns; ++column) {
             const double beta = 2 * std::numbers::pi * static_cast<double>(column) / columns;
             for (std::size_t row = 0; row < rows; ++row) {
-                subject.positions.emplace_back(std::cos(beta), std::sin(beta),
-                                               20 * static_cast<double>(row) / (rows - 1));
-                subject.normals.emplace_back(std::cos(beta), std::sin(beta), 0);
-                subject.tangents.emplace_back(0, 0, 1, 1);
+                test_mesh.positions.emplace_back(std::cos(beta), std::sin(beta),
+                                                 20 * static_cast<double>(row) / (rows - 1));
+                test_mesh.normals.emplace_back(std::cos(beta), std::sin(beta), 0);
+                test_mesh.tangents.emplace_back(0, 0, 1, 1);
             }
         }
-        subject.triangles = {0, 1, rows, 0, 3 * rows, 6 * rows + 1};
-        if (rest != 0) subject = bent_at_rest(subject, rest, 0.5);
+        test_mesh.triangles = {0, 1, rows, 0, 3 * rows, 6 * rows + 1};
+        if (rest != 0) test_mesh = bent_at_rest(test_mesh, rest, 0.5);
         fit::BindOptions options;
         options.folds = 6;
         options.onset = 0;  // which costs some length
         options.regions = {{0.5, {}}, {0.5, {}}};
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
-        const std::size_t count = subject.positions.size();
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        const std::size_t count = test_mesh.positions.size();
         std::vector<std::size_t> place(count);
-        for (std::size_t i = 0; i < count; ++i) place[bound.order.empty() ? i : bound.order[i]] = i;
+        for (std::size_t i = 0; i < count; ++i) place[binding.order.empty() ? i : binding.order[i]] = i;
         const bend::Pose poses[] = {{1.2f, 0.5f}, {2.5f, 1.4f}};
         Output bent(count);
-        bend::run(make_job(bound.body, poses, Isa::automatic, bent));
+        bend::run(make_job(binding.body, poses, Isa::automatic, bent));
         for (std::size_t column = 0; column < columns; ++column) {
             const double beta = 2 * std::numbers::pi * static_cast<double>(column) / columns;
             double expected = 0;
@@ -302,12 +302,12 @@ TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
     for (const bool bent : {false, true}) {
         for (const std::size_t regions : {std::size_t{5}, std::size_t{1}}) {
             const Case one = random_case(random, regions, bent);
-            const std::size_t count = one.subject.positions.size();
-            const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+            const std::size_t count = one.test_mesh.positions.size();
+            const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
             for (const Isa isa : isas_here()) {
                 for (const bool directions : {true, false}) {
                     const auto job_to = [&](Output& out) {
-                        bend::DeformJob job = make_job(one.bound.body, poses, isa, out);
+                        bend::DeformJob job = make_job(one.binding.body, poses, isa, out);
                         if (!directions) job.normals = {}, job.tangents = {};
                         return job;
                     };
@@ -347,17 +347,17 @@ TEST_CASE("streams that have no kernel of their own have the bits of those that 
     Random random(68);
     for (const bool bent : {false, true}) {
         const Case one = random_case(random, 2, bent);
-        const std::size_t count = one.subject.positions.size();
-        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
+        const std::size_t count = one.test_mesh.positions.size();
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
         for (const Isa isa : isas_here()) {
             for (const float weight : {1.0f, 0.3f, 0.0f}) {
                 Output all(count);
-                bend::DeformJob job = make_job(one.bound.body, poses, isa, all);
+                bend::DeformJob job = make_job(one.binding.body, poses, isa, all);
                 job.wrinkle_weight = weight;
                 bend::run(job);
                 for (unsigned streams = 1; streams < 7; ++streams) {
                     Output some(count);
-                    job = make_job(one.bound.body, poses, isa, some);
+                    job = make_job(one.binding.body, poses, isa, some);
                     job.wrinkle_weight = weight;
                     if ((streams & 1) == 0) job.positions = {};
                     if ((streams & 2) == 0) job.normals = {};
@@ -377,13 +377,13 @@ TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") 
     Random random(70);
     for (int trial = 0; trial < 40; ++trial) {
         const Case one = random_case(random, 1 + random() % 6, trial % 2 == 0);
-        const std::size_t count = one.subject.positions.size();
+        const std::size_t count = one.test_mesh.positions.size();
         Output out(count);
-        const std::vector<bend::Pose> poses = random_poses(random, one.bound.body);
-        const bend::DeformJob job = make_job(one.bound.body, poses, Isa::automatic, out);
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
+        const bend::DeformJob job = make_job(one.binding.body, poses, Isa::automatic, out);
         bend::run(job);
         const bend::Bounds box = bend::bounds(job);
-        const bend::Bounds same = bend::bounds(one.bound.body, poses);
+        const bend::Bounds same = bend::bounds(one.binding.body, poses);
         CHECK(box.low == same.low);
         for (std::size_t i = 0; i < count; ++i) {
             const glm::vec3 p(out.position(i));
@@ -396,11 +396,11 @@ TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") 
 TEST_CASE("a chain is clamped where any region is") {
     Random random(72);
     const Case one = random_case(random, 3, false);
-    Output out(one.subject.positions.size());
+    Output out(one.test_mesh.positions.size());
     std::vector<bend::Pose> poses(3);
-    CHECK_FALSE(bend::run(make_job(one.bound.body, poses, Isa::automatic, out)).clamped);
-    poses[1].angle = 1.01f * one.bound.body.max_angle(1);
-    CHECK(bend::run(make_job(one.bound.body, poses, Isa::automatic, out)).clamped);
+    CHECK_FALSE(bend::run(make_job(one.binding.body, poses, Isa::automatic, out)).clamped);
+    poses[1].angle = 1.01f * one.binding.body.max_angle(1);
+    CHECK(bend::run(make_job(one.binding.body, poses, Isa::automatic, out)).clamped);
 }
 
 }  // namespace goffer::test

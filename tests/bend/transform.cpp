@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
 
@@ -74,23 +74,23 @@ TEST_CASE("a transform does to every stream what it would do to the surface") {
     Random random(71);
     Worst worst;
     for (int trial = 0; trial < 12; ++trial) {
-        const Subject subject =
-            random_subject(random, uniform(random, 3, 30), std::pow(10, uniform(random, -2, 2)));
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-        const std::size_t count = subject.positions.size();
+        const TestMesh test_mesh =
+            random_mesh(random, uniform(random, 3, 30), std::pow(10, uniform(random, -2, 2)));
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
+        const std::size_t count = test_mesh.positions.size();
         Output still(count), moved(count);
-        const auto limit = static_cast<double>(bound.body.max_angle());
+        const auto limit = static_cast<double>(binding.body.max_angle());
         const bend::Pose pose{static_cast<float>(uniform(random, -limit, limit)),
                               static_cast<float>(uniform(random, -9, 9))};
         for (const Isa isa : isas_here()) {
-            bend::run(make_job(bound.body, pose, isa, still));
+            bend::run(make_job(binding.body, pose, isa, still));
             for (const Named& transform : transforms(random)) {
                 const glm::dmat3& linear = transform.linear;
                 CAPTURE(transform.name);
                 CAPTURE(name(isa));
-                bend::DeformJob job = make_job(bound.body, pose, isa, moved);
+                bend::DeformJob job = make_job(binding.body, pose, isa, moved);
                 const glm::dvec3 offset =
-                    glm::length(linear[1]) * subject.cylinder.length * glm::dvec3(0.3, -1, 0.5);
+                    glm::length(linear[1]) * test_mesh.cylinder.length * glm::dvec3(0.3, -1, 0.5);
                 job.transform = {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]),
                                  glm::vec3(offset)};
                 REQUIRE(bend::validate(job).none());
@@ -116,7 +116,7 @@ TEST_CASE("the unit transform changes no bit") {
     const bend::Body body = loose_body(random, 300);
     constexpr std::string_view picture = "x y z u v w a b c d p q r 123";
     for (const Isa isa : isas_here()) {
-        Layout plain(picture, 300), unit(picture, 300);
+        OutputBuffer plain(picture, 300), unit(picture, 300);
         bend::DeformJob job{.body = &body, .pose = {1.3f, 2}, .isa = isa};
         plain.attach(job);
         bend::run(job);
@@ -172,7 +172,7 @@ TEST_CASE("transforms that flatten, and of any size, give no NaN") {
             CAPTURE(linear[1].y);
             CAPTURE(linear[2].z);
             CAPTURE(name(isa));
-            Layout out("x y z u v w a b c d 123", 200);
+            OutputBuffer out("x y z u v w a b c d 123", 200);
             bend::DeformJob job{.body = &body, .pose = {1.5f, 0.5f}, .isa = isa};
             job.transform = {linear[0], linear[1], linear[2], glm::vec3(0.5f)};
             out.attach(job);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/accuracy.hpp"
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
 
@@ -20,18 +20,18 @@ namespace goffer::test {
 namespace {
 
 struct Folded {
-    Subject subject;
-    fit::Bound bound, bare;  // the same mesh with folds and without
+    TestMesh test_mesh;
+    fit::Binding binding, bare;  // the same mesh with folds and without
 };
 
 Folded folded(Random& random) {
-    Subject subject = random_subject(random, 12, 1);
+    TestMesh test_mesh = random_mesh(random, 12, 1);
     fit::BindOptions options;
     options.folds = 4;
-    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
     options.folds = 0;
-    fit::Bound bare = fit::bind(subject.geometry(), subject.cylinder, options);
-    return {std::move(subject), std::move(bound), std::move(bare)};
+    fit::Binding bare = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+    return {std::move(test_mesh), std::move(binding), std::move(bare)};
 }
 
 bool same_bits(const Output& a, const Output& b) {
@@ -45,11 +45,11 @@ bool same_bits(const Output& a, const Output& b) {
 TEST_CASE("without wrinkles a body bends as one that has no folds") {
     Random random(69);
     const Folded body = folded(random);
-    const std::size_t count = body.subject.positions.size();
+    const std::size_t count = body.test_mesh.positions.size();
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
         Output a(count), b(count);
-        bend::DeformJob job = make_job(body.bound.body, {1.3f, 2.0f}, isa, a);
+        bend::DeformJob job = make_job(body.binding.body, {1.3f, 2.0f}, isa, a);
         job.wrinkle_weight = 0;
         bend::run(job);
         bend::run(make_job(body.bare.body, {1.3f, 2.0f}, isa, b));
@@ -64,21 +64,21 @@ TEST_CASE("wrinkles grow in proportion to their weight") {
     // A vertex moves along a straight line as its wrinkle grows: away from the axis.
     Random random(70);
     const Folded body = folded(random);
-    const std::size_t count = body.subject.positions.size();
+    const std::size_t count = body.test_mesh.positions.size();
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
         Output none(count), all(count), some(count);
-        bend::DeformJob job = make_job(body.bound.body, {1.3f, 2.0f}, isa, none);
+        bend::DeformJob job = make_job(body.binding.body, {1.3f, 2.0f}, isa, none);
         job.wrinkle_weight = 0;
         bend::run(job);
-        bend::run(make_job(body.bound.body, {1.3f, 2.0f}, isa, all));
+        bend::run(make_job(body.binding.body, {1.3f, 2.0f}, isa, all));
         double deepest = 0;
         for (std::size_t i = 0; i < count; ++i)
             deepest = std::max(deepest, glm::length(all.position(i) - none.position(i)));
         CHECK(deepest > 0.01);
         for (const float weight : {1e-6f, 0.01f, 0.25f, 0.5f, 0.9f, 0.999f}) {
             CAPTURE(weight);
-            job = make_job(body.bound.body, {1.3f, 2.0f}, isa, some);
+            job = make_job(body.binding.body, {1.3f, 2.0f}, isa, some);
             job.wrinkle_weight = weight;
             REQUIRE(bend::validate(job).none());
             bend::run(job);
@@ -108,23 +108,23 @@ TEST_CASE("a weight that is no share is clamped, NaN to none") {
     const float infinity = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const Isa isa : isas_here()) {
-        const auto run_to = [&](Layout& out, float weight) {
+        const auto run_to = [&](OutputBuffer& out, float weight) {
             bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = weight, .isa = isa};
             job.previous_poses = std::span(poses);
             out.attach(job);
             bend::run(job);
         };
-        Layout none(picture, 101), all(picture, 101);
+        OutputBuffer none(picture, 101), all(picture, 101);
         run_to(none, 0);
         run_to(all, 1);
         CHECK(all.fault(none) != "");
         for (const float weight : {nan, -nan, -0.0f, -1e-45f, -1.0f, -infinity}) {
-            Layout out(picture, 101);
+            OutputBuffer out(picture, 101);
             run_to(out, weight);
             CHECK(out.fault(none) == "");
         }
         for (const float weight : {1.0f, 1.0001f, 3e38f, infinity}) {
-            Layout out(picture, 101);
+            OutputBuffer out(picture, 101);
             run_to(out, weight);
             CHECK(out.fault(all) == "");
         }
@@ -134,11 +134,11 @@ TEST_CASE("a weight that is no share is clamped, NaN to none") {
 TEST_CASE("P10: bounds hold the vertices whatever the weight, and shrink with it") {
     Random random(72);
     const Folded body = folded(random);
-    const std::size_t count = body.subject.positions.size();
+    const std::size_t count = body.test_mesh.positions.size();
     Output out(count);
     double volume = 0;
     for (const float weight : {0.0f, 0.2f, 0.7f, 1.0f}) {
-        bend::DeformJob job = make_job(body.bound.body, {1.9f, -0.4f}, Isa::automatic, out);
+        bend::DeformJob job = make_job(body.binding.body, {1.9f, -0.4f}, Isa::automatic, out);
         job.wrinkle_weight = weight;
         bend::run(job);
         const bend::Bounds box = bend::bounds(job);

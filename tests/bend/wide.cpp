@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/arena.hpp"
 #include "support/faults.hpp"
-#include "support/herd.hpp"
 #include "support/layout_case.hpp"
 #include "support/sanitized.hpp"
+#include "support/test_batch.hpp"
 
 #include <doctest/doctest.h>
 
@@ -73,19 +73,20 @@ bend::Body cut_body(Random& random, std::size_t count, std::size_t most) {
 }
 
 /// By any stores, with gaps kept and with gaps that are scratch.
-void check(LayoutCase& subject, std::string_view picture, std::size_t shift, std::size_t skew, Isa isa) {
-    Layout out(picture, subject.count(), shift, skew);
-    for (const Layout::Gaps gaps : {Layout::Gaps::kept, Layout::Gaps::scratch}) {
+void check(LayoutCase& test_mesh, std::string_view picture, std::size_t shift, std::size_t skew, Isa isa) {
+    OutputBuffer out(picture, test_mesh.count(), shift, skew);
+    for (const OutputBuffer::Gaps gaps : {OutputBuffer::Gaps::kept, OutputBuffer::Gaps::scratch}) {
         for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
-            INFO(picture, ", ", subject.count(), " vertices, shift ", shift, ", skew ", skew, ", ", name(isa),
-                 ", scratch ", gaps == Layout::Gaps::scratch, ", cached ", stores == bend::Stores::cached);
-            bend::DeformJob& job = subject.job(out);
-            job.scratch_gaps = gaps == Layout::Gaps::scratch;
+            INFO(picture, ", ", test_mesh.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
+                 name(isa), ", scratch ", gaps == OutputBuffer::Gaps::scratch, ", cached ",
+                 stores == bend::Stores::cached);
+            bend::DeformJob& job = test_mesh.job(out);
+            job.scratch_gaps = gaps == OutputBuffer::Gaps::scratch;
             const bend::Batch batch = bend::batch_of(job);
             const bend::CrowdJob crowd{.batches = {&batch, 1}, .stores = stores, .isa = isa};
             REQUIRE(told(bend::validate(crowd)) == "none");
             bend::run(crowd);
-            REQUIRE(out.fault(subject.planes(), gaps) == "");
+            REQUIRE(out.fault(test_mesh.planes(), gaps) == "");
         }
     }
 }
@@ -99,12 +100,12 @@ TEST_CASE("wide records hold the bits of planes: every alignment") {
                   : std::vector<std::size_t>{1, 2, 15, 16, 17, 33, 70, 255, 256, 257, 511, 513};
     for (const std::size_t count : counts) {
         for (const std::size_t most : {std::size_t{3}, std::size_t{40}}) {
-            LayoutCase subject(random, cut_body(random, count, most));
+            LayoutCase test_mesh(random, cut_body(random, count, most));
             for (const Isa isa : isas_here()) {
-                subject.make_planes(isa);
+                test_mesh.make_planes(isa);
                 for (const std::string_view picture : named) {
                     for (std::size_t shift = 0; shift < 16; ++shift)
-                        check(subject, picture, shift, random() % 16, isa);
+                        check(test_mesh, picture, shift, random() % 16, isa);
                 }
             }
         }
@@ -117,11 +118,11 @@ TEST_CASE("wide records hold the bits of planes: any records, every vertex count
     for (std::size_t count = 1; count <= 70; ++count) counts.push_back(count);
     for (const std::size_t count : counts) {
         const std::size_t most = random() % 3 == 0 ? count : 1 + random() % 40;
-        LayoutCase subject(random, cut_body(random, count, most));
+        LayoutCase test_mesh(random, cut_body(random, count, most));
         for (const Isa isa : isas_here()) {
-            subject.make_planes(isa);
+            test_mesh.make_planes(isa);
             for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial)
-                check(subject, any_picture(random, trial % 2 == 0), random() % 16, random() % 16, isa);
+                check(test_mesh, any_picture(random, trial % 2 == 0), random() % 16, random() % 16, isa);
         }
     }
 }
@@ -129,21 +130,22 @@ TEST_CASE("wide records hold the bits of planes: any records, every vertex count
 TEST_CASE("a range of wide records writes its own vertices alone, and its own gaps at most") {
     Random random(143);
     for (const std::size_t count : {35u, 300u}) {
-        LayoutCase subject(random, cut_body(random, count, 12));
+        LayoutCase test_mesh(random, cut_body(random, count, 12));
         for (const Isa isa : isas_here()) {
-            subject.make_planes(isa);
+            test_mesh.make_planes(isa);
             for (int trial = 0; trial < (sanitized ? 10 : 40); ++trial) {
                 const std::string picture = any_picture(random, trial % 4 != 0);
-                Layout out(picture, count, random() % 16, random() % 16);
+                OutputBuffer out(picture, count, random() % 16, random() % 16);
                 for (int range = 0; range < 40; ++range) {
                     const std::size_t first = random() % (count + 1);
                     const std::size_t last = first + random() % (count - first + 1);
-                    const Layout::Gaps gaps = range % 2 == 0 ? Layout::Gaps::scratch : Layout::Gaps::kept;
+                    const OutputBuffer::Gaps gaps =
+                        range % 2 == 0 ? OutputBuffer::Gaps::scratch : OutputBuffer::Gaps::kept;
                     INFO(picture, ", [", first, ", ", last, "), ", name(isa));
-                    bend::DeformJob& job = subject.job(out);
-                    job.scratch_gaps = gaps == Layout::Gaps::scratch;
+                    bend::DeformJob& job = test_mesh.job(out);
+                    job.scratch_gaps = gaps == OutputBuffer::Gaps::scratch;
                     bend::run_range(job, first, last);
-                    REQUIRE(out.fault(subject.planes(), first, last, gaps) == "");
+                    REQUIRE(out.fault(test_mesh.planes(), first, last, gaps) == "");
                 }
             }
         }
@@ -156,29 +158,29 @@ TEST_CASE("wide records of a crowd: pieces and threads leave the bits of single 
     for (const std::size_t count : {23u, 400u}) bodies.push_back(cut_body(random, count, 9));
     for (const Isa isa : isas_here()) {
         for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial) {
-            Herds herds;
+            TestBatches tested;
             std::string pictures[2];
             for (std::size_t i = 0; i < 2; ++i) {
                 pictures[i] = trial % 4 == 0 ? std::string(named[random() % std::size(named)])
                                              : any_picture(random, trial % 4 != 1);
-                HerdStyle style{.storage = all_storages[random() % 4]};
+                BatchStyle style{.storage = all_storages[random() % 4]};
                 style.places = random() % 2 == 0;
                 style.scratch_gaps = trial % 3 != 0;
                 style.picture = pictures[i];
-                herds.add(random, bodies[i], 1 + random() % 9, style);
+                tested.add(random, bodies[i], 1 + random() % 9, style);
             }
             INFO(pictures[0], " and ", pictures[1], ", ", name(isa), ", trial ", trial);
-            bend::CrowdJob crowd{.batches = herds.batches, .isa = isa};
+            bend::CrowdJob crowd{.batches = tested.batches, .isa = isa};
             crowd.stores = trial % 2 == 0 ? bend::Stores::non_temporal : bend::Stores::cached;
             REQUIRE(told(bend::validate(crowd)) == "none");
-            const bend::CrowdResult expected = herds.expect(isa);
-            herds.clear();
+            const bend::CrowdResult expected = tested.expect(isa);
+            tested.clear();
             in_arena(3, [&] { CHECK(bend::run_parallel(crowd).deformed == expected.deformed); });
-            REQUIRE(herds.fault() == "");
+            REQUIRE(tested.fault() == "");
             for (const std::size_t pieces : {2u, 5u, 60u}) {
-                herds.clear();
+                tested.clear();
                 for (std::size_t piece = pieces; piece-- > 0;) bend::run_piece(crowd, piece, pieces);
-                REQUIRE(herds.fault() == "");
+                REQUIRE(tested.fault() == "");
             }
         }
     }

@@ -24,13 +24,13 @@ double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
     return most;
 }
 
-/// Where the centre of the capped base cylinder's tip goes: it is the mesh's last vertex.
+/// Where the center of the capped base cylinder's tip goes: it is the mesh's last vertex.
 glm::dvec3 tip(const Folder& folder, const Words& words) {
     well(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words);
     return mesh::load(folder / "out.ply").positions.back();
 }
 
-/// Eq 2-5 for the end of the centre line: the wrinkle is 0 there.
+/// Eq 2-5 for the end of the center line: the wrinkle is 0 there.
 glm::dvec3 tip_of(double angle, double direction) {
     const double alpha = angle * degree, kappa = alpha * radius / length;
     const double x = (1 - kappa) * length * (1 - std::cos(alpha)) / alpha;
@@ -63,7 +63,7 @@ TEST_CASE("bend: every field, with its type") {
     CHECK(all["deform_us"].get<double>() > 0);
 }
 
-TEST_CASE("bend: without a word about it, 90 degrees towards zero") {
+TEST_CASE("bend: without a word about it, 90 degrees toward zero") {
     const Folder folder;
     const json all = report(folder, {"bend", base(folder), "-o", "out.ply"});
     CHECK(all["pose"]["angle"] == 90.0);

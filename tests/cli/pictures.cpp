@@ -13,7 +13,7 @@ using namespace goffer::test;
 namespace {
 
 /// The brightness of every pixel.
-std::vector<png_byte> grey_of(const std::filesystem::path& file) {
+std::vector<png_byte> gray_of(const std::filesystem::path& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     REQUIRE(png_image_begin_read_from_file(&image, file.string().c_str()) != 0);
@@ -27,7 +27,7 @@ std::vector<png_byte> grey_of(const std::filesystem::path& file) {
 
 /// The solid's share of the picture: what is darker than the background and a ghost on it.
 double covered(const std::filesystem::path& file) {
-    const std::vector<png_byte> pixels = grey_of(file);
+    const std::vector<png_byte> pixels = gray_of(file);
     const auto solid = std::ranges::count_if(pixels, [](png_byte p) { return p < 190; });
     return static_cast<double>(solid) / static_cast<double>(pixels.size());
 }
@@ -86,7 +86,7 @@ TEST_CASE("pictures: a crowd, in whatever form it was written") {
     const auto picture = [&](const std::string& streams) {
         (void)report(folder, {"crowd", "base.ply", "--instances", "6", "--frames", "30", "--streams", streams,
                               "--png", "out.png"});
-        return grey_of(folder / "out.png");
+        return gray_of(folder / "out.png");
     };
     const std::vector<png_byte> planar = picture("planar");
     const std::vector<png_byte> packed = picture("packed");
@@ -108,7 +108,7 @@ TEST_CASE("pictures: a crowd's regions are put together as the model is") {
         (void)report(folder, Words{"crowd", "c.ply", "--rest", "straight", "--instances", "1", "--frames",
                                    "1", "--angle", "0", "--axis", "-z", "--png", "out.png"} +
                                  more);
-        return grey_of(folder / "out.png");
+        return gray_of(folder / "out.png");
     };
     CHECK(differing(picture({"--regions", "0.5,0.5"}), picture({})) < 1e-3);
 }

@@ -56,7 +56,7 @@ TEST_CASE("bend: an S comes back to the direction that it began in") {
     const Folder folder;
     base(folder, "base.ply", {"--caps"});
     const mesh::Mesh s = bent(folder, {"--regions", "0.5,0.5", "--angles", "60,-60", "--folds", "0"});
-    // The tip's centre is the last vertex; each region moves it by the same step.
+    // The tip's center is the last vertex; each region moves it by the same step.
     const double alpha = std::acos(-1.0) / 3, kappa = alpha / 5;
     const double x = (1 - kappa) * 5 * (1 - std::cos(alpha)) / alpha;
     const double z = (1 - kappa) * 5 * std::sin(alpha) / alpha;

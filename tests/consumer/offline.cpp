@@ -14,9 +14,9 @@ int main() {
     const std::vector<glm::vec3> positions(base.positions.begin(), base.positions.end());
     const goffer::fit::Geometry geometry{.positions = positions, .triangles = base.triangles};
     const goffer::fit::Cylinder cylinder = goffer::fit::fit_cylinder(geometry);
-    const goffer::fit::Bound bound = goffer::fit::bind(geometry, cylinder);
+    const goffer::fit::Binding binding = goffer::fit::bind(geometry, cylinder);
 
-    std::printf("length %g, radius %g, %d folds\n", cylinder.length, cylinder.radius, bound.folds());
+    std::printf("length %g, radius %g, %d folds\n", cylinder.length, cylinder.radius, binding.folds());
     const bool fits = std::abs(cylinder.length - 10) < 0.01 && std::abs(cylinder.radius - 1) < 0.01;
-    return fits && bound.body.vertex_count() == positions.size() ? 0 : 1;
+    return fits && binding.body.vertex_count() == positions.size() ? 0 : 1;
 }

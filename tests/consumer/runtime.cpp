@@ -16,14 +16,14 @@ int main() {
     constexpr double radius = 1;
     constexpr double quarter = std::numbers::pi / 2;
     const goffer::bend::RestVertex tip{.beta = std::numbers::pi, .z = length, .rho = radius};
-    const goffer::bend::RestVector outwards{.rho = 1};
+    const goffer::bend::RestVector outward{.rho = 1};
 
     const goffer::bend::RegionInput whole{.length = length, .max_angle = 3, .vertex_count = 1};
     goffer::bend::BodyInput input;
     input.radius = radius;
     input.regions = {&whole, 1};
     input.vertices = {&tip, 1};
-    input.normals = {&outwards, 1};
+    input.normals = {&outward, 1};
     const auto body = goffer::bend::Body::make(input);
     if (!body) {
         const std::string fault{std::string_view(describe(goffer::bend::Body::check(input)))};

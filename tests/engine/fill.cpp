@@ -50,7 +50,7 @@ bool is_filled(std::span<const float> range) {
 
 }  // namespace
 
-TEST_CASE("a fill writes its range and nothing beside it, and neighbours differ") {
+TEST_CASE("a fill writes its range and nothing beside it, and neighbors differ") {
     each_range([](std::span<float> range, bool non_temporal) {
         fill(range, 0.25f, non_temporal);
         REQUIRE(is_filled(range));

@@ -73,7 +73,7 @@ template <class View, class T>
 constexpr bool views = std::is_same_v<View, StridedView<T>>;
 
 /// Each element of `view` is that member of the worm of its index, by value and, of arrays, with its
-/// neighbours.
+/// neighbors.
 template <class View, class Class, class Member>
 void check_member(const View& view, std::size_t count, Member Class::*member) {
     REQUIRE(view.count == count);

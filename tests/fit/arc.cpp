@@ -58,7 +58,7 @@ Miss miss(const Cylinder& fitted, const Recipe& recipe, const paper::Pose& rest,
     const glm::dvec3 theta(std::cos(rest.direction), std::sin(rest.direction), 0), up(0, 0, 1);
     const glm::dvec3 tip_axis = -(std::cos(rest.angle) * up + std::sin(rest.angle) * theta);
     const glm::dvec3 tip_bow = std::cos(rest.angle) * theta - std::sin(rest.angle) * up;
-    const glm::dvec3 tip = placing(map.centre(recipe.length));
+    const glm::dvec3 tip = placing(map.center(recipe.length));
     const bool turned = glm::length(fitted.origin - tip) < glm::length(fitted.origin - placing({0, 0, 0}));
     const glm::dvec3 second = glm::cross(fitted.axis, fitted.zero);
     const glm::dvec3 bow =
@@ -215,7 +215,7 @@ TEST_CASE("arcs: a straight body stays straight, to the bit what Rest::straight 
     }
 }
 
-TEST_CASE("arcs: a horn's centre line is found, though it tapers") {
+TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     std::mt19937 random(64);
     const Recipe recipe{.columns = 32, .rows = 80, .length = 14, .noise = 0.01};
     const paper::Pose rest{1.2, 0.7};
@@ -223,8 +223,8 @@ TEST_CASE("arcs: a horn's centre line is found, though it tapers") {
     const Solid horn = warped(test::cylinder(recipe, random), [&](glm::dvec3 p) {
         return map.position(paper::to_cylindrical({(1 - 0.05 * p.z) * glm::dvec2(p), p.z}));
     });
-    const Cylinder fitted = fit_to(horn, glm::dvec3(map.centre(14)));
-    // The centre line keeps its curvature and its length; the outer line is that of the mean radius.
+    const Cylinder fitted = fit_to(horn, glm::dvec3(map.center(14)));
+    // The center line keeps its curvature and its length; the outer line is that of the mean radius.
     CHECK(fitted.rest_angle == doctest::Approx(1.2).epsilon(0.02));
     CHECK(miss(fitted, recipe, rest, {}).direction < 2 * degree);
     CHECK(fitted.length - fitted.rest_angle * fitted.radius == doctest::Approx(14 - 1.2).epsilon(0.01));
@@ -236,7 +236,7 @@ TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body ro
     const paper::Pose rest{1.4, -0.5};
     const Solid solid = bent(recipe, rest, random);
     const paper::ClosedForm map({.length = 12, .radius = 1}, rest);
-    const glm::dvec3 chord = map.centre(12), aside(0.3, 0.2, 0);
+    const glm::dvec3 chord = map.center(12), aside(0.3, 0.2, 0);
     for (const glm::dvec3& axis : {chord, 5.0 * (glm::normalize(chord) + aside)}) {
         const Cylinder there = fit_to(solid, axis), back = fit_to(solid, -axis);
         CHECK(there.rest_angle == doctest::Approx(1.4).epsilon(1e-3));
@@ -339,7 +339,7 @@ TEST_CASE("arcs: real models") {
         CAPTURE(known.name);
         const std::filesystem::path path = test::model(known.name);
         if (path.empty()) continue;
-        const mesh::Records records = mesh::records(mesh::load(path));
+        const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
         const fit::Geometry geometry{records.positions, records.triangles};
         const Cylinder fitted = fit::fit_cylinder(geometry, std::nullopt, fit::Rest::automatic);
         CHECK(fitted.rest_angle >= known.low * degree);

@@ -102,7 +102,7 @@ TEST_CASE("64 rows are made in under 50 ms") {
     }
 }
 
-TEST_CASE("the largest angle lies just below where the outermost vertex meets the arc's centre") {
+TEST_CASE("the largest angle lies just below where the outermost vertex meets the arc's center") {
     for (const int folds : {0, 2, 6}) {
         for (const double rho_max : {1.0, 1.3, 3.0}) {
             const double limit = fit::largest_angle(Profile::damped, Amplitude::paper, folds, 10, 1, rho_max);
@@ -121,22 +121,23 @@ TEST_CASE("the largest angle lies just below where the outermost vertex meets th
 TEST_CASE("within the largest angle nothing folds through itself") {
     Random random(21);
     for (int trial = 0; trial < 10; ++trial) {
-        const Subject subject = random_subject(random, uniform(random, 4, 20), 1);
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-        const paper::Body body{1, subject.cylinder.radius, bound.folds(), Profile::damped, Amplitude::paper};
-        const paper::ClosedForm map(body, {static_cast<double>(bound.body.max_angle()), 0});
-        // The arc's parameter grows along every column: each step goes forward along the bent centre line.
+        const TestMesh test_mesh = random_mesh(random, uniform(random, 4, 20), 1);
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
+        const paper::Parameters body{1, test_mesh.cylinder.radius, binding.folds(), Profile::damped,
+                                     Amplitude::paper};
+        const paper::ClosedForm map(body, {static_cast<double>(binding.body.max_angle()), 0});
+        // The arc's parameter grows along every column: each step goes forward along the bent center line.
         double largest = 0;
-        for (const glm::vec3& position : subject.positions) {
-            const glm::dvec3 from = glm::dvec3(position) - subject.cylinder.origin;
-            largest = std::max(largest, glm::length(glm::cross(from, subject.cylinder.axis)));
+        for (const glm::vec3& position : test_mesh.positions) {
+            const glm::dvec3 from = glm::dvec3(position) - test_mesh.cylinder.origin;
+            largest = std::max(largest, glm::length(glm::cross(from, test_mesh.cylinder.axis)));
         }
         for (const double rho : {largest, 0.7 * largest, 0.2 * largest}) {
             for (int i = 0; i < 200; ++i) {
                 const double z = i / 200.0, step = 1e-4;
                 const glm::dvec3 a = map.position({0, z, rho});
                 const glm::dvec3 b = map.position({0, z + step, rho});
-                const double phi = static_cast<double>(bound.body.max_angle()) * z;
+                const double phi = static_cast<double>(binding.body.max_angle()) * z;
                 REQUIRE(glm::dot(b - a, glm::dvec3(std::sin(phi), 0, std::cos(phi))) > 0);
             }
         }
@@ -145,51 +146,52 @@ TEST_CASE("within the largest angle nothing folds through itself") {
 
 TEST_CASE("bind refuses what it cannot use, and names it") {
     Random random(22);
-    const Subject good = random_subject(random, 10, 1, 12, 17, 0);
+    const TestMesh good = random_mesh(random, 10, 1, 12, 17, 0);
     const auto refused = [&](auto change) {
-        Subject subject = good;
+        TestMesh test_mesh = good;
         fit::BindOptions options;
-        change(subject, options);
-        return error_of([&] { (void)fit::bind(subject.geometry(), subject.cylinder, options); });
+        change(test_mesh, options);
+        return error_of([&] { (void)fit::bind(test_mesh.geometry(), test_mesh.cylinder, options); });
     };
-    CHECK(refused([](Subject&, fit::BindOptions&) {}).empty());
+    CHECK(refused([](TestMesh&, fit::BindOptions&) {}).empty());
     using Options = fit::BindOptions;
-    CHECK(refused([](Subject&, Options& o) { o.folds = 65; }).find("folds") != std::string::npos);
-    CHECK(refused([](Subject&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
-    CHECK(refused([](Subject&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
-    CHECK(refused([](Subject& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") != std::string::npos);
-    CHECK(refused([](Subject& s, Options&) { s.cylinder.rest_angle = 60; }).find("rest_angle") !=
+    CHECK(refused([](TestMesh&, Options& o) { o.folds = 65; }).find("folds") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") !=
           std::string::npos);
-    CHECK(refused([](Subject& s, Options&) {
+    CHECK(refused([](TestMesh& s, Options&) { s.cylinder.rest_angle = 60; }).find("rest_angle") !=
+          std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) {
               const glm::dvec3 origin = s.cylinder.origin;
               for (glm::vec3& p : s.positions) p = 1e-15f * glm::vec3(glm::dvec3(p) - origin);
               s.cylinder.origin = glm::dvec3(0);
               s.cylinder.length *= 1e-15;
               s.cylinder.radius *= 1e-15;
           }).find("cannot bind: radius: out of range") == 0);
-    CHECK(refused([](Subject& s, Options&) { s.cylinder.radius = -1; }).find("radius") != std::string::npos);
-    CHECK(refused([](Subject& s, Options&) { s.normals.pop_back(); }).find("normals") != std::string::npos);
-    CHECK(refused([](Subject& s, Options&) { s.triangles.clear(); }).find("triangles") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) { s.cylinder.radius = -1; }).find("radius") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) { s.normals.pop_back(); }).find("normals") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) { s.triangles.clear(); }).find("triangles") != std::string::npos);
 }
 
 TEST_CASE("broken normals and tangents are replaced, missing normals are made, stray vertices tolerated") {
     Random random(23);
-    Subject subject = random_subject(random, 10, 1, 12, 17, 0);
-    subject.normals[3] = glm::vec3(0);
-    subject.tangents[5] = glm::vec4(0);
-    subject.positions.emplace_back(subject.cylinder.origin +
-                                   5.0 * subject.cylinder.axis);  // no triangle uses it
-    subject.normals.emplace_back(1, 0, 0);
-    subject.tangents.emplace_back(0, 1, 0, -1);
-    const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder);
-    Output out(subject.positions.size());
-    bend::run(make_job(bound.body, {1, 1}, Isa::automatic, out));
-    for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+    TestMesh test_mesh = random_mesh(random, 10, 1, 12, 17, 0);
+    test_mesh.normals[3] = glm::vec3(0);
+    test_mesh.tangents[5] = glm::vec4(0);
+    test_mesh.positions.emplace_back(test_mesh.cylinder.origin +
+                                     5.0 * test_mesh.cylinder.axis);  // no triangle uses it
+    test_mesh.normals.emplace_back(1, 0, 0);
+    test_mesh.tangents.emplace_back(0, 1, 0, -1);
+    const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
+    Output out(test_mesh.positions.size());
+    bend::run(make_job(binding.body, {1, 1}, Isa::automatic, out));
+    for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         REQUIRE(glm::length(out.normal(i)) == doctest::Approx(1));
         REQUIRE(glm::length(out.tangent(i)) == doctest::Approx(1));
     }
-    subject.normals.clear();
-    CHECK_NOTHROW((void)fit::bind(subject.geometry(), subject.cylinder));
+    test_mesh.normals.clear();
+    CHECK_NOTHROW((void)fit::bind(test_mesh.geometry(), test_mesh.cylinder));
 }
 
 }  // namespace goffer::test

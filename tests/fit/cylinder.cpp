@@ -131,7 +131,7 @@ TEST_CASE("2 % radial noise: axis within 0.2 degrees, length and radius within 0
 
 TEST_CASE("on few vertices the axis is as exact as their noise allows") {
     // With n vertices even in beta and z, no unbiased estimate of the two tilts has an rms error below
-    // sigma sqrt(48 / n) / L (Cramer-Rao: sigma sqrt(2) per section's centre, z of variance L^2 / 12).
+    // sigma sqrt(48 / n) / L (Cramer-Rao: sigma sqrt(2) per section's center, z of variance L^2 / 12).
     std::mt19937 random(33);
     for (const Recipe recipe :
          {Recipe{12, 10, 4, true, 1, 1, 0, 0.02}, Recipe{32, 15, 3, false, 1, 1, 0, 0.02}}) {
@@ -142,9 +142,9 @@ TEST_CASE("on few vertices the axis is as exact as their noise allows") {
             const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
             sum += std::pow(miss(fitted, recipe, placing).axis, 2);
         }
-        const double bound =
+        const double binding =
             recipe.noise * std::sqrt(48.0 / (recipe.columns * (recipe.rows + 1))) / recipe.length;
-        CHECK(std::sqrt(sum / rounds) < 1.15 * bound);
+        CHECK(std::sqrt(sum / rounds) < 1.15 * binding);
     }
 }
 

@@ -42,12 +42,12 @@ Soup refined(Soup soup, const fit::Cylinder& cylinder) {
     return {fit::refined_positions(soup.positions, refinement), refinement.triangles};
 }
 
-double bent_area(const fit::Bound& bound, const Soup& soup, const bend::Pose& pose) {
+double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose) {
     std::vector<glm::vec3> bent(soup.positions.size());
     bend::DeformJob job;
-    job.body = &bound.body;
+    job.body = &binding.body;
     job.pose = pose;
-    job.transform[3] = -glm::vec3(bound.body.origin());
+    job.transform[3] = -glm::vec3(binding.body.origin());
     job.positions = interleaved<3>(&bent[0].x, bent.size());
     bend::run(job);
     return fit::surface_area(bent, soup.triangles);
@@ -60,16 +60,16 @@ struct Change {
     [[nodiscard]] double most() const { return std::max(-low, high); }
 };
 
-Change change_of(const fit::Bound& bound, const Soup& soup) {
+Change change_of(const fit::Binding& binding, const Soup& soup) {
     const double rest = fit::surface_area(soup.positions, soup.triangles);
-    const double least = 10 * degree, most = 0.9 * static_cast<double>(bound.body.max_angle());
+    const double least = 10 * degree, most = 0.9 * static_cast<double>(binding.body.max_angle());
     Change change;
     for (int step = 0; step <= 5; ++step) {
         const double angle = least + (most - least) * step / 5;
         for (int direction = 0; direction < 16; ++direction) {
             const bend::Pose pose{static_cast<float>(angle),
                                   static_cast<float>(2 * std::numbers::pi * direction / 16)};
-            const double here = bent_area(bound, soup, pose) / rest - 1;
+            const double here = bent_area(binding, soup, pose) / rest - 1;
             change = {std::min(change.low, here), std::max(change.high, here)};
         }
     }
@@ -84,7 +84,7 @@ TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own
                              "lh_trochanterfemur.stl", "l_arista.stl", "softball.obj"}) {
         const std::filesystem::path path = test::model(name);
         if (path.empty()) continue;
-        const mesh::Records records = mesh::records(mesh::load(path));
+        const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
         const Soup read{records.positions, records.triangles};
         if (read.positions.size() > most_vertices) {
             MESSAGE("left out under a sanitizer: ", name);
@@ -100,13 +100,13 @@ TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own
         options.folds = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
         const Change paper = change_of(fit::bind(soup.geometry(), cylinder, options), soup);
         options.amplitude = paper::Amplitude::mesh;
-        const fit::Bound bound = fit::bind(soup.geometry(), cylinder, options);
-        const Change own = change_of(bound, soup);
+        const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
+        const Change own = change_of(binding, soup);
         std::printf(
             "%-24s %8zu vertices, %2d folds, bound in %6.0f ms: paper %+6.2f .. %+5.2f %%, mesh %+6.3f "
             ".. %+5.3f %%\n",
-            name, soup.positions.size(), bound.folds(), bound.milliseconds, 100 * paper.low, 100 * paper.high,
-            100 * own.low, 100 * own.high);
+            name, soup.positions.size(), binding.folds(), binding.milliseconds, 100 * paper.low,
+            100 * paper.high, 100 * own.low, 100 * own.high);
         CAPTURE(name);
         CHECK(own.most() < 1e-3);
     }
@@ -115,20 +115,20 @@ TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own
 TEST_CASE("amplitude mesh: a body bent at rest keeps its area when it is bent further") {
     const std::filesystem::path path = test::model("banana.obj");
     if (path.empty()) return;
-    const mesh::Records records = mesh::records(mesh::load(path));
+    const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     const Soup soup{records.positions, records.triangles};
     const fit::Cylinder cylinder = fit::fit_cylinder(soup.geometry());
     REQUIRE(cylinder.rest_angle > 1.5);
     fit::BindOptions options;
     options.amplitude = paper::Amplitude::mesh;
-    const fit::Bound bound = fit::bind(soup.geometry(), cylinder, options);
+    const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
     const double rest = fit::surface_area(soup.positions, soup.triangles);
-    const double most = 0.9 * static_cast<double>(bound.body.max_angle());
+    const double most = 0.9 * static_cast<double>(binding.body.max_angle());
     for (int step = 1; step <= 20; ++step) {
         const double angle = cylinder.rest_angle + (most - cylinder.rest_angle) * step / 20;
         const auto change = [&](double turned) {
             return std::abs(
-                bent_area(bound, soup,
+                bent_area(binding, soup,
                           {static_cast<float>(angle), static_cast<float>(cylinder.rest_direction + turned)}) /
                     rest -
                 1);
@@ -148,18 +148,18 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
     options.amplitude = paper::Amplitude::mesh;
     options.folds = 2;
     options.regions = {{0.5, {}}, {0.5, {}}};
-    const fit::Bound bound = fit::bind(soup.geometry(), cylinder, options);
+    const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
     const double rest = fit::surface_area(soup.positions, soup.triangles);
     for (const float direction : {0.0f, 1.0f, 2.5f}) {
         const bend::Pose poses[] = {{0.7f, direction}, {-0.9f, 0.3f}};
         std::vector<glm::vec3> bent(soup.positions.size()), sorted(bent.size());
         bend::DeformJob job;
-        job.body = &bound.body;
+        job.body = &binding.body;
         job.poses = poses;
         job.positions = interleaved<3>(&bent[0].x, bent.size());
         bend::run(job);
         for (std::size_t i = 0; i < bent.size(); ++i)
-            sorted[bound.order.empty() ? i : bound.order[i]] = bent[i];
+            sorted[binding.order.empty() ? i : binding.order[i]] = bent[i];
         CHECK(std::abs(fit::surface_area(sorted, soup.triangles) / rest - 1) < 1e-3);
     }
 }

@@ -20,23 +20,23 @@ namespace {
 
 constexpr std::uint32_t columns = 24, rows = 65;
 
-/// A coarser level: every other column and every fourth row of random_subject's skin, and all of its loose
+/// A coarser level: every other column and every fourth row of random_mesh's skin, and all of its loose
 /// vertices, last to first.
 struct Level {
-    Subject subject;
+    TestMesh test_mesh;
     std::vector<std::uint32_t> from;  // of each vertex: the one of the finer mesh
 
-    void take(const Subject& fine, std::uint32_t vertex) {
+    void take(const TestMesh& fine, std::uint32_t vertex) {
         from.push_back(vertex);
-        subject.positions.push_back(fine.positions[vertex]);
-        subject.normals.push_back(fine.normals[vertex]);
-        subject.tangents.push_back(fine.tangents[vertex]);
+        test_mesh.positions.push_back(fine.positions[vertex]);
+        test_mesh.normals.push_back(fine.normals[vertex]);
+        test_mesh.tangents.push_back(fine.tangents[vertex]);
     }
 };
 
-Level decimated(const Subject& fine) {
+Level decimated(const TestMesh& fine) {
     Level level;
-    level.subject.cylinder = fine.cylinder;
+    level.test_mesh.cylinder = fine.cylinder;
     for (std::uint32_t row = 0; row < rows; row += 4) {
         for (std::uint32_t column = 0; column < columns; column += 2)
             level.take(fine, row * columns + column);
@@ -47,25 +47,25 @@ Level decimated(const Subject& fine) {
     for (std::uint32_t row = 0; row + 4 < rows; row += 4) {
         for (std::uint32_t column = 0; column < around; ++column) {
             const std::uint32_t a = row / 4 * around + column, b = row / 4 * around + (column + 1) % around;
-            level.subject.triangles.insert(level.subject.triangles.end(),
-                                           {a, b, a + around, b, b + around, a + around});
+            level.test_mesh.triangles.insert(level.test_mesh.triangles.end(),
+                                             {a, b, a + around, b, b + around, a + around});
         }
     }
     return level;
 }
 
 /// Deformed positions, in the geometry's order.
-std::vector<glm::vec3> deformed(const fit::Bound& bound, std::span<const bend::Pose> poses, Isa isa) {
-    std::vector<glm::vec3> positions(bound.body.vertex_count()), sorted(positions.size());
+std::vector<glm::vec3> deformed(const fit::Binding& binding, std::span<const bend::Pose> poses, Isa isa) {
+    std::vector<glm::vec3> positions(binding.body.vertex_count()), sorted(positions.size());
     bend::DeformJob job;
-    job.body = &bound.body;
+    job.body = &binding.body;
     job.poses = poses;
     job.isa = isa;
     job.positions = interleaved<3>(&positions[0].x, positions.size());
     REQUIRE(bend::validate(job).none());
     bend::run(job);
     for (std::size_t i = 0; i < positions.size(); ++i)
-        sorted[bound.order.empty() ? i : bound.order[i]] = positions[i];
+        sorted[binding.order.empty() ? i : binding.order[i]] = positions[i];
     return sorted;
 }
 
@@ -73,10 +73,10 @@ bool same_bits(const glm::vec3& a, const glm::vec3& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
-void check_levels(const Subject& fine, const fit::BindOptions& options) {
-    const fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder, options);
+void check_levels(const TestMesh& fine, const fit::BindOptions& options) {
+    const fit::Binding rig = fit::bind(fine.geometry(), fine.cylinder, options);
     const Level level = decimated(fine);
-    const fit::Bound coarse = fit::bind_level(level.subject.geometry(), rig);
+    const fit::Binding coarse = fit::bind_level(level.test_mesh.geometry(), rig);
     REQUIRE(coarse.body.vertex_count() == level.from.size());
     REQUIRE(coarse.body.region_count() == rig.body.region_count());
     for (const Isa isa : isas_here()) {
@@ -100,7 +100,7 @@ void check_levels(const Subject& fine, const fit::BindOptions& options) {
 
 TEST_CASE("levels: shared vertices go to the same place, bit for bit") {
     Random random(71);
-    const Subject fine = random_subject(random, 9, 3, columns, rows);
+    const TestMesh fine = random_mesh(random, 9, 3, columns, rows);
     fit::BindOptions options;
     options.folds = 3;
     check_levels(fine, options);
@@ -113,7 +113,7 @@ TEST_CASE("levels: shared vertices go to the same place, bit for bit") {
 
 TEST_CASE("levels: of several regions, and with factors for the rig's own area") {
     Random random(72);
-    const Subject fine = random_subject(random, 12, 0.2, columns, rows);
+    const TestMesh fine = random_mesh(random, 12, 0.2, columns, rows);
     fit::BindOptions options;
     options.folds = 1;
     options.regions = {{0.5, {}}, {0.2, 0}, {0.3, {}}};
@@ -126,12 +126,12 @@ TEST_CASE("levels: of several regions, and with factors for the rig's own area")
 
 TEST_CASE("levels: of a body that is bent at rest") {
     Random random(73);
-    Subject fine = random_subject(random, 14, 2, columns, rows, 0);
+    TestMesh fine = random_mesh(random, 14, 2, columns, rows, 0);
     fine.cylinder.rest_angle = 1.1;
     fine.cylinder.rest_direction = 0.4;
     const glm::dmat3 axes(fine.cylinder.zero, glm::cross(fine.cylinder.axis, fine.cylinder.zero),
                           fine.cylinder.axis);
-    const paper::Body body{.length = fine.cylinder.length, .radius = fine.cylinder.radius};
+    const paper::Parameters body{.length = fine.cylinder.length, .radius = fine.cylinder.radius};
     const paper::ClosedForm bend(body, {fine.cylinder.rest_angle, fine.cylinder.rest_direction});
     for (glm::vec3& p : fine.positions) {
         const glm::dvec3 local = glm::transpose(axes) * (glm::dvec3(p) - fine.cylinder.origin);
@@ -144,16 +144,16 @@ TEST_CASE("levels: of a body that is bent at rest") {
 
 TEST_CASE("levels: what is shared is the rig's, and what is found is the level's") {
     Random random(74);
-    const Subject fine = random_subject(random, 10, 1, columns, rows);
+    const TestMesh fine = random_mesh(random, 10, 1, columns, rows);
     fit::BindOptions options;
     options.folds = 2;
     options.profile = paper::Profile::smooth;
     options.regions = {{0.5, {}}, {0.5, {}}};
-    const fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder, options);
+    const fit::Binding rig = fit::bind(fine.geometry(), fine.cylinder, options);
     Level level = decimated(fine);
-    level.subject.normals.clear();
-    level.subject.tangents.clear();
-    const fit::Bound coarse = fit::bind_level(level.subject.geometry(), rig);
+    level.test_mesh.normals.clear();
+    level.test_mesh.tangents.clear();
+    const fit::Binding coarse = fit::bind_level(level.test_mesh.geometry(), rig);
     CHECK(coarse.profile == paper::Profile::smooth);
     CHECK(coarse.cylinder.length == rig.cylinder.length);
     CHECK_FALSE(coarse.body.has_tangents());
@@ -165,21 +165,21 @@ TEST_CASE("levels: what is shared is the rig's, and what is found is the level's
         CHECK(shared[r].table.rows == own[r].table.rows);
         CHECK(shared[r].vertex_count < own[r].vertex_count);
     }
-    const fit::Bound again = fit::bind_level(fine.geometry(), coarse);
+    const fit::Binding again = fit::bind_level(fine.geometry(), coarse);
     CHECK(again.order == rig.order);
     CHECK(again.folds_capacity(1) == rig.folds_capacity(1));
 }
 
 TEST_CASE("levels: what cannot be bound to a rig is named") {
     Random random(75);
-    const Subject fine = random_subject(random, 10, 1, columns, rows, 0);
-    fit::Bound rig = fit::bind(fine.geometry(), fine.cylinder);
+    const TestMesh fine = random_mesh(random, 10, 1, columns, rows, 0);
+    fit::Binding rig = fit::bind(fine.geometry(), fine.cylinder);
     Level beyond = decimated(fine);
-    beyond.subject.positions[0] -= glm::vec3(0.01 * fine.cylinder.axis);
-    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.subject.geometry(), rig), doctest::Contains("outside"),
-                         fit::Error);
-    beyond.subject.triangles.clear();
-    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.subject.geometry(), rig),
+    beyond.test_mesh.positions[0] -= glm::vec3(0.01 * fine.cylinder.axis);
+    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.test_mesh.geometry(), rig),
+                         doctest::Contains("outside"), fit::Error);
+    beyond.test_mesh.triangles.clear();
+    CHECK_THROWS_WITH_AS((void)fit::bind_level(beyond.test_mesh.geometry(), rig),
                          doctest::Contains("triangles"), fit::Error);
     const bend::Body taken = std::move(rig.body);
     CHECK_THROWS_WITH_AS((void)fit::bind_level(fine.geometry(), rig), doctest::Contains("rig"), fit::Error);

@@ -28,16 +28,16 @@ const Known known[] = {
     {"l_arista.stl", {0.04, 0.99, -0.12}, 6.4, 20},
 };
 
-mesh::Records read(const char* name) {
+mesh::VertexArrays read(const char* name) {
     const std::filesystem::path path = test::model(name);
-    return path.empty() ? mesh::Records{} : mesh::records(mesh::load(path));
+    return path.empty() ? mesh::VertexArrays{} : mesh::vertex_arrays(mesh::load(path));
 }
 
-fit::Geometry geometry(const mesh::Records& records) {
+fit::Geometry geometry(const mesh::VertexArrays& records) {
     return {records.positions, records.triangles};
 }
 
-double volume(const mesh::Records& records) {
+double volume(const mesh::VertexArrays& records) {
     double six = 0;
     for (std::size_t t = 0; t < records.triangles.size(); t += 3) {
         const auto at = [&](std::size_t i) {
@@ -53,7 +53,7 @@ double volume(const mesh::Records& records) {
 TEST_CASE("real models: the long axis is found and the body is somewhat thinner than its box") {
     for (const Known& model : known) {
         CAPTURE(model.name);
-        const mesh::Records records = read(model.name);
+        const mesh::VertexArrays records = read(model.name);
         if (records.positions.empty()) continue;
         const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         CHECK_NOTHROW(fit::check(fitted));
@@ -73,7 +73,7 @@ TEST_CASE("real models, straight and round: L / r within 30 % of the box's") {
             continue;
         }
         CAPTURE(model.name);
-        const mesh::Records records = read(model.name);
+        const mesh::VertexArrays records = read(model.name);
         if (records.positions.empty()) continue;
         const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         CHECK(fitted.length / fitted.radius < 1.3 * model.slender);
@@ -84,7 +84,7 @@ TEST_CASE("real models, closed: pi r^2 L is the enclosed volume within 15 %") {
     for (const char* name : {"wine_bottle.glb", "banana.obj", "log_01.glb", "cushion_02.glb", "fuze.ply",
                              "koala.obj", "lh_trochanterfemur.stl"}) {
         CAPTURE(name);
-        const mesh::Records records = read(name);
+        const mesh::VertexArrays records = read(name);
         if (records.positions.empty()) continue;
         const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
         const double base = std::numbers::pi * fitted.radius * fitted.radius * fitted.length;
@@ -93,7 +93,7 @@ TEST_CASE("real models, closed: pi r^2 L is the enclosed volume within 15 %") {
 }
 
 TEST_CASE("the softball has no long axis, and is fitted along any that is given") {
-    const mesh::Records records = read("softball.obj");
+    const mesh::VertexArrays records = read("softball.obj");
     if (records.positions.empty()) return;
     CHECK_THROWS_WITH_AS(
         static_cast<void>(fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight)),

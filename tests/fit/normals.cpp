@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "synthetic.hpp"
 
+#include <goffer/fit/normals.hpp>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>

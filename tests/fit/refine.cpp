@@ -88,7 +88,7 @@ void check_refinement(const Solid& before, const Refinement& refinement, double 
     CHECK(std::ranges::equal(before.positions, std::span(after.positions).first(before.positions.size())));
     CHECK_NOTHROW(fit::check(after.geometry()));
     std::size_t badly_placed = 0, turned = 0, lost = 0;
-    for (const fit::Between& v : refinement.vertices)
+    for (const fit::EdgeVertex& v : refinement.vertices)
         badly_placed +=
             !(v.t > 0 && v.t < 1) || v.a >= before.positions.size() || v.b >= before.positions.size();
     std::vector<glm::dvec3> areas(before.triangles.size() / 3, glm::dvec3(0));
@@ -346,7 +346,7 @@ TEST_CASE("refine: real models carry what suits them, and what was closed is clo
         const std::filesystem::path path = test::model(name);
         if (path.empty()) continue;
         CAPTURE(name);
-        const mesh::Records records = mesh::records(mesh::load(path));
+        const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
         const Solid solid{records.positions, records.triangles};
         const fit::Cylinder base = fit::fit_cylinder(solid.geometry());
         for (const int folds : {6, 12}) {

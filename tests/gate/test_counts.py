@@ -73,7 +73,7 @@ class Baseline(support.Case):
         self.assertIs(self.verdict(None, 1), Verdict.NOTE)
         self.assertIs(self.verdict(1, None), Verdict.NOTE)
 
-    def test_judgement(self):
+    def test_judgment(self):
         document = {"compiler": "GNU 12.2.0", "counts": {"a": 100, "b": 10}}
         part = baseline.judge(document, "GNU 12.2.0", {"a": 103, "b": 9, "c": 1})
         self.assertEqual({row.name: row.verdict for row in part.rows},

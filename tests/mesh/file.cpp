@@ -18,7 +18,7 @@ namespace {
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Two quads in two parts of two materials, with normals, uvs, all of them per vertex, and colours.
+/// Two quads in two parts of two materials, with normals, uvs, all of them per vertex, and colors.
 Mesh made() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) {
@@ -38,7 +38,7 @@ Mesh made() {
 /// The positions of the triangles' corners, which every format keeps, in its order.
 std::vector<glm::vec3> soup(const Mesh& mesh) {
     std::vector<glm::vec3> out;
-    const Records r = records(mesh);
+    const VertexArrays r = vertex_arrays(mesh);
     for (const std::uint32_t i : r.triangles) out.push_back(r.positions[i]);
     return out;
 }

@@ -70,10 +70,10 @@ int survive(const std::string& name, const std::string& bytes, int rounds, const
             save(mesh, out_file);
             CHECK(bytes_of(out_file) == bytes_of(file));
             std::filesystem::remove(out_file);
-            Records bent = records(mesh);
+            VertexArrays bent = vertex_arrays(mesh);
             for (glm::vec3& position : bent.positions) position += glm::vec3(1, 2, 3);
             for (std::size_t r = 0; r < bent.normals.size(); ++r) bent.normals[r] = {0, 0, r};
-            const Mesh out = with_records(mesh, bent);
+            const Mesh out = with_vertex_arrays(mesh, bent);
             save(out, out_file);
             CHECK(load(out_file).positions == out.positions);
             std::filesystem::remove(out_file);

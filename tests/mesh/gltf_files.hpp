@@ -108,7 +108,7 @@ inline Document opened(const std::string& glb) {
 
 inline const std::vector<float> tetra_points{0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 3};
 
-/// A tetrahedron in one node: all streams but colours; its corners look outwards.
+/// A tetrahedron in one node: all streams but colors; its corners look outward.
 inline Document tetra() {
     Document document;
     const float h = std::sqrt(0.5f);
@@ -146,7 +146,7 @@ inline bool close(const glm::vec3& a, const glm::vec3& b, float within = 1e-6f) 
     return glm::length(a - b) <= within * std::max(1.0f, glm::length(b));
 }
 
-/// Six times the volume, positive where the faces look outwards.
+/// Six times the volume, positive where the faces look outward.
 inline float volume(const mesh::Mesh& mesh) {
     float sum = 0.0f;
     for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3) {

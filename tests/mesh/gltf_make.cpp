@@ -37,7 +37,7 @@ TEST_CASE("gltf made: corners that differ in any stream are vertices, in the ord
     CHECK(again.corners == std::vector<std::uint32_t>{0, 1, 3, 0, 3, 5, 2, 6, 7, 2, 7, 4});
 }
 
-TEST_CASE("gltf made: parts, names, materials and colours are carried") {
+TEST_CASE("gltf made: parts, names, materials and colors are carried") {
     Mesh mesh = folded();
     mesh.colors.assign(7, {0.25f, 2, std::nanf(""), 1});
     const Mesh again = reloaded(mesh, "o.gltf");

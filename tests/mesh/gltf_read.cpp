@@ -77,7 +77,7 @@ TEST_CASE("gltf: uneven scale takes normals by the inverse transpose and tangent
           doctest::Approx(0).epsilon(1e-6));
 }
 
-TEST_CASE("gltf: a mirror turns triangles round and keeps normals looking outwards") {
+TEST_CASE("gltf: a mirror turns triangles round and keeps normals looking outward") {
     const Mesh mesh = nodes(R"([{"mesh": 0, "scale": [-1, 1, 1]}])");
     CHECK(volume(mesh) == doctest::Approx(6));
     CHECK(close(mesh.normals.values[1], glm::normalize(glm::vec3(-1, 1, 0))));
@@ -146,7 +146,7 @@ TEST_CASE("gltf: without indices every three vertices are a triangle, a rest is 
     CHECK(mesh.warnings[0].find("incomplete triangle") != std::string::npos);
 }
 
-TEST_CASE("gltf: integers of all kinds become numbers, normalised or not, with strides and offsets") {
+TEST_CASE("gltf: integers of all kinds become numbers, normalized or not, with strides and offsets") {
     struct Kind {
         int component;
         std::string bytes;  // 0, half or so, the most
@@ -204,7 +204,7 @@ TEST_CASE("gltf: sparse accessors replace elements, of zeros where there is no v
     }
 }
 
-TEST_CASE("gltf: colours of three or four components come in, and white where a primitive has none") {
+TEST_CASE("gltf: colors of three or four components come in, and white where a primitive has none") {
     Document document = tetra();
     Json second = primitive_of(document);
     primitive_of(document)["attributes"]["COLOR_0"] = document.accessor(
@@ -236,7 +236,7 @@ TEST_CASE("gltf: an attribute that some primitives lack has an index for each co
     CHECK(mesh.tangents.per_vertex());
 }
 
-TEST_CASE("gltf: materials have their names and base colours") {
+TEST_CASE("gltf: materials have their names and base colors") {
     Document document = tetra();
     document.json["materials"] =
         Json::parse(R"([{"name": "skin", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]}},

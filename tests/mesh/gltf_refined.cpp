@@ -122,7 +122,7 @@ TEST_CASE("gltf: refined, places are those between places of the scene, whatever
     CHECK(out.positions == refined_along(mesh, 2).positions);
 }
 
-TEST_CASE("gltf: refined, colours, names of vertices and morph targets go along") {
+TEST_CASE("gltf: refined, colors, names of vertices and morph targets go along") {
     Document before = tetra();
     Json& attributes = primitive_of(before)["attributes"];
     attributes["COLOR_0"] = before.accessor(
@@ -211,9 +211,9 @@ TEST_CASE("gltf: refined, indices become wider where they must") {
 TEST_CASE("gltf: refined and bent, only the refined document is changed") {
     const Mesh mesh =
         refined_along(load_document(tetra_with_nodes(R"([{"mesh": 0, "scale": [2, 3, 1]}])")), 2);
-    Records bent = records(mesh);
+    VertexArrays bent = vertex_arrays(mesh);
     for (auto& p : bent.positions) p.x += p.z * p.z;
-    const Mesh out = with_records(mesh, bent);
+    const Mesh out = with_vertex_arrays(mesh, bent);
     const Document before = opened(saved(mesh, "r.glb")), after = opened(saved(out, "r.glb"));
     CHECK(after.json["meshes"] == before.json["meshes"]);
     CHECK(after.json["accessors"].size() == before.json["accessors"].size());
@@ -228,9 +228,9 @@ TEST_CASE("gltf: refined and bent, only the refined document is changed") {
 
 TEST_CASE("gltf: refined after a bend, what was bent is cut") {
     const Mesh rest = load_document(tetra());
-    Records bent = records(rest);
+    VertexArrays bent = vertex_arrays(rest);
     for (auto& p : bent.positions) p.z *= 2;
-    const Mesh mesh = with_records(rest, bent), out = refined_along(mesh, 2);
+    const Mesh mesh = with_vertex_arrays(rest, bent), out = refined_along(mesh, 2);
     CHECK(out.source != nullptr);
     CHECK(std::equal(mesh.positions.begin(), mesh.positions.end(), out.positions.begin()));
     CHECK(reloaded(out, "r.glb").positions == out.positions);
@@ -281,9 +281,9 @@ TEST_CASE("gltf: what is refined has no errors in Khronos' validator") {
         if (file.empty()) continue;
         const Mesh mesh = refined_along(load(file), axis, 12);
         add(std::string(name) + ".refined.glb", mesh);
-        Records bent = records(mesh);
+        VertexArrays bent = vertex_arrays(mesh);
         for (auto& p : bent.positions) p += glm::vec3(0.3f * p.y, 0.1f * p.z, 0.0f);
-        add(std::string(name) + ".bent.glb", with_records(mesh, bent));
+        add(std::string(name) + ".bent.glb", with_vertex_arrays(mesh, bent));
     }
     check_valid(files);
 }

@@ -212,7 +212,7 @@ TEST_CASE("gltf: an accessor that something else still uses stays beside its rep
     CHECK(view_bytes(out, 0) == view_bytes(document, 0));
 }
 
-TEST_CASE("gltf: quantised, sparse and interleaved positions become plain floats, their neighbours stay") {
+TEST_CASE("gltf: quantized, sparse and interleaved positions become plain floats, their neighbors stay") {
     Document document = tetra();
     std::string interleaved;
     for (std::uint16_t i = 0; i < 4; ++i) {

@@ -29,7 +29,7 @@ Mesh square() {
 }  // namespace
 
 TEST_CASE("record i is vertex i with its first normal, further normals stand behind") {
-    const Records r = records(square());
+    const VertexArrays r = vertex_arrays(square());
     REQUIRE(r.positions.size() == 6);
     CHECK(r.vertex == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 0});
     CHECK(r.positions[5] == glm::vec3(0, 0, 0));
@@ -41,19 +41,19 @@ TEST_CASE("record i is vertex i with its first normal, further normals stand beh
 
 TEST_CASE("records put back unchanged give the same mesh") {
     const Mesh mesh = square();
-    const Mesh back = with_records(mesh, records(mesh));
+    const Mesh back = with_vertex_arrays(mesh, vertex_arrays(mesh));
     CHECK(back.positions == mesh.positions);
     CHECK(back.normals == mesh.normals);
 }
 
 TEST_CASE("a normal that several vertices share is split only where they differ") {
     const Mesh mesh = square();
-    Records bent = records(mesh);
+    VertexArrays bent = vertex_arrays(mesh);
     bent.positions[2] = {7, 7, 7};
     bent.normals[0] = {1, 0, 0};
     bent.normals[1] = {0, 1, 0};
     bent.normals[2] = bent.normals[5] = {0, 0, 5};
-    const Mesh out = with_records(mesh, bent);
+    const Mesh out = with_vertex_arrays(mesh, bent);
     CHECK(out.positions[2] == glm::vec3(7, 7, 7));
     CHECK(out.normals.values == std::vector<glm::vec3>{{1, 0, 0}, {0, 0, 5}, {0, 1, 0}});
     CHECK(out.normals.corners == std::vector<std::uint32_t>{0, 2, 1, 1, 1, none});
@@ -66,13 +66,13 @@ TEST_CASE("normals per vertex and tangents go through, polygons are cut into fan
     mesh.faces = {5};
     mesh.normals.values.assign(5, {0, 0, 1});
     mesh.tangents.values.assign(5, {1, 0, 0, -1});
-    Records r = records(mesh);
+    VertexArrays r = vertex_arrays(mesh);
     CHECK(triangle_count(mesh) == 3);
     CHECK(r.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4});
     CHECK(r.positions == mesh.positions);
     r.tangents[3] = {0, 1, 0, 1};
     r.normals[4] = {0, 1, 0};
-    const Mesh out = with_records(mesh, r);
+    const Mesh out = with_vertex_arrays(mesh, r);
     CHECK(out.tangents.values[3] == glm::vec4(0, 1, 0, 1));
     CHECK(out.normals.values[4] == glm::vec3(0, 1, 0));
     CHECK(out.normals.per_vertex());
@@ -80,13 +80,13 @@ TEST_CASE("normals per vertex and tangents go through, polygons are cut into fan
 
 TEST_CASE("streams that the mesh lacks are ignored, streams that it needs are demanded") {
     Mesh mesh = square();
-    Records bent = records(mesh);
+    VertexArrays bent = vertex_arrays(mesh);
     bent.tangents.assign(bent.positions.size(), glm::vec4(1));
-    CHECK(with_records(mesh, bent).tangents.empty());
+    CHECK(with_vertex_arrays(mesh, bent).tangents.empty());
     bent.normals.pop_back();
-    CHECK(error_of([&] { (void)with_records(mesh, bent); }).find("6 records") != std::string::npos);
+    CHECK(error_of([&] { (void)with_vertex_arrays(mesh, bent); }).find("6 records") != std::string::npos);
     mesh.normals = {};
-    CHECK(with_records(mesh, bent).positions == mesh.positions);
+    CHECK(with_vertex_arrays(mesh, bent).positions == mesh.positions);
 }
 
 TEST_CASE("a mesh that does not fit together is not written") {
@@ -112,7 +112,7 @@ TEST_CASE("a mesh that does not fit together is not written") {
     CHECK(refused(mesh, "normals"));
     mesh = square();
     mesh.colors.resize(2);
-    CHECK(refused(mesh, "colours"));
+    CHECK(refused(mesh, "colors"));
     mesh = square();
     mesh.parts = {{.name = "", .material = 0, .first_face = 0, .face_count = 2}};
     CHECK(refused(mesh, "parts"));

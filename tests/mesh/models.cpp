@@ -40,13 +40,13 @@ void check_same(const Mesh& a, const Mesh& b) {
 
 /// Every vertex a little further up, every normal turned.
 Mesh moved(const Mesh& mesh) {
-    Records r = records(mesh);
+    VertexArrays r = vertex_arrays(mesh);
     for (std::size_t i = 0; i < r.positions.size(); ++i) {
         r.positions[i] = r.positions[i] * 1.37f + glm::vec3(0, 0, 1e-3f * static_cast<float>(i % 17));
         if (!r.normals.empty())
             r.normals[i] = {r.normals[i].y, r.normals[i].z, 1e-5f * static_cast<float>(i)};
     }
-    return with_records(mesh, r);
+    return with_vertex_arrays(mesh, r);
 }
 
 /// As tinyobjloader reads it.
@@ -87,7 +87,7 @@ TEST_CASE("models: read with the right counts, written back to the byte") {
         const Mesh mesh = load(file);
         CHECK(mesh.positions.size() == known.vertices);
         CHECK(triangle_count(mesh) == known.triangles);
-        CHECK(saved(with_records(mesh, records(mesh)), known.name) == bytes_of(file));
+        CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), known.name) == bytes_of(file));
     }
 }
 

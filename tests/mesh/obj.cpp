@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 
-/// Everything that has to survive: comments, odd blanks, colours, w, quads, groups, unknown statements, CRLF.
+/// Everything that has to survive: comments, odd blanks, colors, w, quads, groups, unknown statements, CRLF.
 const std::string rich =
     "# made by hand\r\n"
     "mtllib missing.mtl\r\n"
@@ -38,10 +38,10 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 /// `mesh` with vertex 1 moved and every record's normal made different.
 Mesh bent(const Mesh& mesh) {
-    Records r = records(mesh);
+    VertexArrays r = vertex_arrays(mesh);
     r.positions[1] = {2.5f, 1e-7f, 0.1f};
     for (std::size_t i = 0; i < r.normals.size(); ++i) r.normals[i] = {0.0f, 0.5f, static_cast<float>(i)};
-    return with_records(mesh, r);
+    return with_vertex_arrays(mesh, r);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ TEST_CASE("obj: everything is read in file order") {
 TEST_CASE("obj: an unchanged mesh is written to the byte") {
     const Mesh mesh = load_text("a.obj", rich);
     CHECK(saved(mesh, "b.obj") == rich);
-    CHECK(saved(with_records(mesh, records(mesh)), "b.obj") == rich);
+    CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), "b.obj") == rich);
 }
 
 TEST_CASE("obj: only lines that changed are written anew") {
@@ -101,7 +101,7 @@ TEST_CASE("obj: references that count backwards from before the last normal stay
     const Mesh again = reloaded(mesh, "b.obj");
     CHECK(again.normals.values.size() == 5);
     CHECK(again.positions == mesh.positions);
-    CHECK(records(again).normals == records(mesh).normals);
+    CHECK(vertex_arrays(again).normals == vertex_arrays(mesh).normals);
 }
 
 TEST_CASE("obj: a mesh changed beyond bending is written anew") {
@@ -127,11 +127,11 @@ TEST_CASE("obj: materials that share a name stay apart") {
     CHECK(again.materials[0].name == "a_2");
 }
 
-TEST_CASE("obj: base colours come from the material file") {
+TEST_CASE("obj: base colors come from the material file") {
     const Folder folder;
-    folder.write("my colours.mtl",
+    folder.write("my colors.mtl",
                  "newmtl red paint\nKd 1 0.5 0\nd 0.25\nmap_Kd red.png\n\nnewmtl unused\nKd 0 0 0\n");
-    const Mesh mesh = load(folder.write("a.obj", replaced(rich, "missing.mtl", "my colours.mtl")));
+    const Mesh mesh = load(folder.write("a.obj", replaced(rich, "missing.mtl", "my colors.mtl")));
     CHECK(mesh.materials[0].base_color == glm::vec4(1, 0.5f, 0, 0.25f));
     CHECK(mesh.materials[1].base_color == Material{}.base_color);
     CHECK(mesh.warnings.empty());

@@ -13,7 +13,7 @@ using namespace goffer::test;
 
 namespace {
 
-/// Normals, colours, unknown properties and elements of all types and both spellings, lists before and
+/// Normals, colors, unknown properties and elements of all types and both spellings, lists before and
 /// behind.
 const std::string header =
     "ply\nformat ascii 1.0\ncomment made by hand\nobj_info kept\n"
@@ -115,7 +115,7 @@ TEST_CASE("ply: an unchanged mesh is written to the byte") {
          {rich, rich_binary(false), rich_binary(true), replaced(rich, "\n", "\r\n")}) {
         const Mesh mesh = load_text("a.ply", text);
         CHECK(saved(mesh, "b.ply") == text);
-        CHECK(saved(with_records(mesh, records(mesh)), "b.ply") == text);
+        CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), "b.ply") == text);
     }
 }
 

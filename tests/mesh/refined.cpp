@@ -88,7 +88,7 @@ TEST_CASE("refined: seams, hard normals and parts of a box go on over its pieces
     }
 }
 
-TEST_CASE("refined: normals and tangents have unit length, colours and texture coordinates are linear") {
+TEST_CASE("refined: normals and tangents have unit length, colors and texture coordinates are linear") {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 8}};
     mesh.corners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
@@ -140,14 +140,14 @@ TEST_CASE("refined: OBJ keeps its text, faces that count backwards count over th
     CHECK(windows == replaced(text, "\n", "\r\n"));
 }
 
-TEST_CASE("refined: OBJ colours, and normals that were split by a bend before") {
+TEST_CASE("refined: OBJ colors, and normals that were split by a bend before") {
     Mesh mesh = load_text("c.obj",
                           "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nv 0 0 8 0 1 0.5\nvn 1 0 0\n"
                           "f 1//1 3//1 2//1\nf 1//1 2//1 4//1\nf 1//1 4//1 3//1\nf 2//1 3//1 4//1\n");
-    Records bent = records(mesh);
+    VertexArrays bent = vertex_arrays(mesh);
     for (std::size_t i = 0; i < bent.normals.size(); ++i)
         bent.normals[i] = glm::normalize(glm::vec3(1, 0.25f * static_cast<float>(i), 0));
-    mesh = with_records(mesh, bent);
+    mesh = with_vertex_arrays(mesh, bent);
     const Mesh out = refined_along(mesh, 2);
     check_same(out, refined_along(without_source(mesh), 2));
     check_same(reloaded(out, "again.obj"), out);

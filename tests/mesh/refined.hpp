@@ -14,16 +14,16 @@
 #include <utility>
 #include <vector>
 
-/// Meshes refined, and what is to be seen of them afterwards.
+/// Meshes refined, and what is to be seen of them afterward.
 
 namespace goffer::test {
 
 /// What fit says on how to cut a mesh, in the words of mesh.
 struct MeshRecipe {
     fit::Refinement made;
-    std::vector<mesh::Between> vertices;
+    std::vector<mesh::EdgeVertex> vertices;
 
-    [[nodiscard]] mesh::Pieces pieces() const { return {vertices, made.triangles, made.parents}; }
+    [[nodiscard]] mesh::Subdivision pieces() const { return {vertices, made.triangles, made.parents}; }
 };
 
 /// Cuts for 16 rows a fold along x, y or z.

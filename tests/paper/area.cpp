@@ -37,7 +37,7 @@ double percent(double fraction) {
     return 100 * (fraction - 1);
 }
 
-double grid_area(const Body& body, double angle, std::uint32_t columns, std::uint32_t rows) {
+double grid_area(const Parameters& body, double angle, std::uint32_t columns, std::uint32_t rows) {
     const auto area = [&](double of) {
         const BentGrid bent = Grid(body, columns, rows).bend({of, 0});
         return goffer::test::lateral_area(columns, rows,
@@ -72,11 +72,11 @@ TEST_CASE("known areas, by quadrature") {
 
 TEST_CASE("known areas, on a fine grid, which converges to the quadrature") {
     for (const Row& row : known) {
-        const Body bare{length, radius, 0};
+        const Parameters bare{length, radius, 0};
         CHECK(std::abs(percent(grid_area(bare, row.angle * degrees, 256, 257)) - row.bare) < 0.002);
         for (std::size_t i = 0; i < folds_of.size(); ++i) {
             const int k = folds_of[i];
-            const Body body{length, radius, k};
+            const Parameters body{length, radius, k};
             const auto rows = static_cast<std::uint32_t>(2 * k);
             const double coarse = percent(grid_area(body, row.angle * degrees, 128, 64 * rows + 1));
             const double fine = percent(grid_area(body, row.angle * degrees, 256, 128 * rows + 1));
@@ -117,9 +117,9 @@ TEST_CASE("the factor of `area` tends to its limit at rest") {
     }
 }
 
-TEST_CASE("a wrinkle towards the centre of the arc, not along the cross-section's radius, loses area") {
+TEST_CASE("a wrinkle toward the center of the arc, not along the cross-section's radius, loses area") {
     const double angle = 90 * degrees;
-    const Body body{length, radius, 6};
+    const Parameters body{length, radius, 6};
     const ClosedForm wrinkled(body, {angle, 0}), bare({length, radius, 0}, {angle, 0});
     const std::uint32_t columns = 128, rows = 1025;
     const double before = goffer::test::lateral_area(columns, rows, [&](auto column, auto row) {
@@ -135,7 +135,7 @@ TEST_CASE("a wrinkle towards the centre of the arc, not along the cross-section'
         return bare.position({2 * std::numbers::pi * column / columns, z, radius}) +
                f * glm::dvec3(std::cos(phi), 0, -std::sin(phi));
     });
-    std::printf("wrinkle towards R0: %+.2f %%\n", percent(after / before));
+    std::printf("wrinkle toward R0: %+.2f %%\n", percent(after / before));
     CHECK(percent(after / before) == doctest::Approx(-7).epsilon(0.1));
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("the base mesh: rings of vertices in order of beta, from base to tip")
     CHECK(mesh.positions[23].z == 4);
 }
 
-TEST_CASE("with caps the base mesh is closed and its triangles face outwards") {
+TEST_CASE("with caps the base mesh is closed and its triangles face outward") {
     const std::uint32_t columns = 12;
     const BaseMesh mesh = base_mesh(4, 0.5, columns, 5, true);
     REQUIRE(mesh.positions.size() == 5 * columns + 2);

@@ -21,15 +21,15 @@ struct Random {
     std::mt19937 engine{20150601};
     double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 
-    Body body(Amplitude amplitude = Amplitude::paper) {
+    Parameters body(Amplitude amplitude = Amplitude::paper) {
         const double length = in(0.5, 20);
         const Profile profile = in(0, 1) < 0.5 ? Profile::damped : Profile::smooth;
         return {length, length / in(4, 30), static_cast<int>(in(1, 9)), profile, amplitude};
     }
-    Cylindrical vertex(const Body& body, double least = 0) {
+    Cylindrical vertex(const Parameters& body, double least = 0) {
         return {in(-7, 7), in(0, body.length), body.radius * in(least, 1.6)};
     }
-    Pose pose(const Body& body, double share = 0.8) {
+    Pose pose(const Parameters& body, double share = 0.8) {
         return {share * in(0.05, 1) * std::min(pi, body.length / (2 * body.radius)), in(-7, 7)};
     }
     CylindricalVector vector() { return {in(-1, 1), in(-1, 1), in(-1, 1)}; }
@@ -55,7 +55,7 @@ glm::dvec3 difference(const ClosedForm& map, const Cylindrical& v, int axis, dou
     return (8.0 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
 }
 
-bool near_a_crease(const Body& body, const Pose& pose, const Cylindrical& v) {
+bool near_a_crease(const Parameters& body, const Pose& pose, const Cylindrical& v) {
     const double margin = 5e-3;
     const double theta = pose.angle < 0 ? pose.direction + pi : pose.direction;
     return std::abs(std::cos((v.beta - theta) / 2)) < margin ||
@@ -69,7 +69,7 @@ bool near_a_crease(const Body& body, const Pose& pose, const Cylindrical& v) {
 TEST_CASE("P1: without an angle the rest shape comes back, to the bit") {
     Random random;
     for (int i = 0; i < 500; ++i) {
-        const Body body = random.body(i % 2 ? Amplitude::area : Amplitude::paper);
+        const Parameters body = random.body(i % 2 ? Amplitude::area : Amplitude::paper);
         const Cylindrical v = random.vertex(body);
         const CylindricalVector n = random.vector();
         const ClosedForm map(body, {0, random.in(-7, 7)});
@@ -83,7 +83,7 @@ TEST_CASE("P1: without an angle the rest shape comes back, to the bit") {
 TEST_CASE("the map is continuous at rest: the bend like the angle, the wrinkle like its root") {
     Random random;
     for (int i = 0; i < 200; ++i) {
-        const Body body = random.body(), bare{body.length, body.radius, 0};
+        const Parameters body = random.body(), bare{body.length, body.radius, 0};
         const Cylindrical v = random.vertex(body);
         for (const double angle : {1e-7, 1e-12, 1e-300}) {
             const Pose pose{angle, random.in(-7, 7)};
@@ -103,7 +103,7 @@ TEST_CASE("the map is continuous at rest: the bend like the angle, the wrinkle l
 TEST_CASE("P8: a turn about the axis commutes with the bend") {
     Random random;
     for (int i = 0; i < 300; ++i) {
-        const Body body = random.body(i % 3 ? Amplitude::paper : Amplitude::area);
+        const Parameters body = random.body(i % 3 ? Amplitude::paper : Amplitude::area);
         const Cylindrical v = random.vertex(body);
         const CylindricalVector n = random.vector();
         const Pose pose = random.pose(body);
@@ -113,14 +113,14 @@ TEST_CASE("P8: a turn about the axis commutes with the bend") {
         CHECK(glm::length(map.position(v) - back(straight.position(turned))) < 1e-13 * body.length);
         CHECK(glm::length(map.normal(v, n) - back(straight.normal(turned, n))) < 1e-9);
         CHECK(glm::length(map.tangent(v, n) - back(straight.tangent(turned, n))) < 1e-9);
-        CHECK(glm::length(map.centre(v.z) - back(straight.centre(v.z))) < 1e-13 * body.length);
+        CHECK(glm::length(map.center(v.z) - back(straight.center(v.z))) < 1e-13 * body.length);
     }
 }
 
 TEST_CASE("a negative angle bends the other way") {
     Random random;
     for (int i = 0; i < 100; ++i) {
-        const Body body = random.body();
+        const Parameters body = random.body();
         const Cylindrical v = random.vertex(body);
         const Pose pose = random.pose(body);
         const ClosedForm there(body, {-pose.angle, pose.direction}),
@@ -134,7 +134,7 @@ TEST_CASE("tangents are the map's derivatives, normals stand on them") {
     Random random;
     double worst = 0;
     for (int i = 0; i < 1500; ++i) {
-        const Body body = random.body(i % 3 ? Amplitude::paper : Amplitude::area);
+        const Parameters body = random.body(i % 3 ? Amplitude::paper : Amplitude::area);
         const Pose pose = random.pose(body, i % 2 ? 0.8 : -0.8);
         const Cylindrical v = random.vertex(body);
         if (near_a_crease(body, pose, v)) continue;
@@ -159,7 +159,7 @@ TEST_CASE("tangents are the map's derivatives, normals stand on them") {
 TEST_CASE("a tangent that was normal to the normal stays so, and both have unit length") {
     Random random;
     for (int i = 0; i < 1000; ++i) {
-        const Body body = random.body();
+        const Parameters body = random.body();
         const ClosedForm map(body, random.pose(body));
         const Cylindrical v = random.vertex(body);
         const CylindricalVector n = random.vector(), other = random.vector();
@@ -173,7 +173,7 @@ TEST_CASE("a tangent that was normal to the normal stays so, and both have unit 
 }
 
 TEST_CASE("on a crease the normal is the mean of both sides") {
-    const Body body{10, 1, 4};
+    const Parameters body{10, 1, 4};
     const ClosedForm map(body, {1.5, 0.4});
     const auto normal = [&](double beta, double z) { return map.normal({beta, z, 1}, {1, 0, 0}); };
     const glm::dvec3 forward = normal(0.4, 5 + 0.01), back = normal(0.4, 5 - 0.01);
@@ -186,12 +186,12 @@ TEST_CASE("on a crease the normal is the mean of both sides") {
     for (const double z : {4.999, 4.9999, 5.0001, 5.001}) CHECK(std::isfinite(normal(0.4, z).x));
 }
 
-TEST_CASE("on the axis everything is finite, and the axis stays the centre line") {
-    const Body body{10, 1, 4};
+TEST_CASE("on the axis everything is finite, and the axis stays the center line") {
+    const Parameters body{10, 1, 4};
     const ClosedForm map(body, {1.5, 0.4});
-    CHECK(glm::length(map.position({0, 3, 0}) - map.centre(3)) < 1e-14);
+    CHECK(glm::length(map.position({0, 3, 0}) - map.center(3)) < 1e-14);
     const glm::dvec3 along = map.tangent({0, 3, 0}, {0, 0, 1});
-    const glm::dvec3 numeric = glm::normalize(map.centre(3.001) - map.centre(2.999));
+    const glm::dvec3 numeric = glm::normalize(map.center(3.001) - map.center(2.999));
     CHECK(glm::length(along - numeric) < 1e-6);
     for (const CylindricalVector v : {CylindricalVector{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
         CHECK(std::abs(glm::length(map.normal({0, 3, 0}, v)) - 1) < 1e-14);

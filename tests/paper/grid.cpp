@@ -33,7 +33,7 @@ struct Error {
     double mean_square = 0;
 };
 
-Error merge_error(const Body& body, const Pose& pose, std::uint32_t columns, std::uint32_t rows) {
+Error merge_error(const Parameters& body, const Pose& pose, std::uint32_t columns, std::uint32_t rows) {
     static const std::vector<Cylindrical> sample = vertices(6000);
     const Grid grid(body, columns, rows);
     const BentGrid bent = grid.bend(pose);
@@ -48,7 +48,7 @@ Error merge_error(const Body& body, const Pose& pose, std::uint32_t columns, std
 }
 
 // Observed order of convergence in the largest and in the mean error.
-Error order(const char* name, const Body& body, const Pose& pose, std::uint32_t odd) {
+Error order(const char* name, const Parameters& body, const Pose& pose, std::uint32_t odd) {
     const Error coarse = merge_error(body, pose, 128, 512 + odd),
                 fine = merge_error(body, pose, 256, 1024 + odd);
     const Error found{std::log2(coarse.largest / fine.largest),
@@ -73,7 +73,7 @@ TEST_CASE("P1: what the grid takes apart it puts together again") {
 }
 
 TEST_CASE("nodes of the grid lie on the closed form") {
-    const Body body{length, radius, 3};
+    const Parameters body{length, radius, 3};
     const Pose pose{1.2, 0.7};
     const BentGrid bent = Grid(body, 12, 9).bend(pose);
     const ClosedForm map(body, pose);
@@ -87,13 +87,13 @@ TEST_CASE("nodes of the grid lie on the closed form") {
 
 TEST_CASE("the merge converges to the closed form with the square of the cell size") {
     const double on_column = 2 * std::numbers::pi * 5 / 128;
-    const Body smooth{length, radius, 3, Profile::smooth}, damped{length, radius, 3, Profile::damped};
+    const Parameters smooth{length, radius, 3, Profile::smooth}, damped{length, radius, 3, Profile::damped};
     CHECK(order("smooth, column on outer line", smooth, {1.5, on_column}, 1).largest > 1.8);
     CHECK(order("damped, rings on the creases", damped, {1.5, on_column}, 1).largest > 1.8);
 }
 
 TEST_CASE("where a crease cuts cells the merge still converges, with the first order there") {
-    const Body smooth{length, radius, 3, Profile::smooth}, damped{length, radius, 3, Profile::damped};
+    const Parameters smooth{length, radius, 3, Profile::smooth}, damped{length, radius, 3, Profile::damped};
     const double off_column = 2 * std::numbers::pi * 5.3 / 128;
     const Error across = order("smooth, outer line in a cell", smooth, {1.5, off_column}, 1);
     CHECK(across.largest > 0.5);

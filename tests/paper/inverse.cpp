@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 struct Case {
-    Body body;
+    Parameters body;
     Pose rest;
 };
 
@@ -71,14 +71,14 @@ TEST_CASE("inverse of the bend: any place has one vertex, and it maps to that pl
     }
 }
 
-TEST_CASE("inverse of the bend: the centre line, the ends, and the arc's continuation beyond them") {
+TEST_CASE("inverse of the bend: the center line, the ends, and the arc's continuation beyond them") {
     Random random;
     for (int i = 0; i < 2000; ++i) {
         const Case c = random.bent(0.9);
         const double length = c.body.length;
         const ClosedForm map(c.body, c.rest);
         for (const double u : {0.0, 0.3, 1.0, -0.01, 1.01, -0.04, 1.04}) {
-            const Cylindrical on_line = inverse(map.centre(u * length), c);
+            const Cylindrical on_line = inverse(map.center(u * length), c);
             CHECK(on_line.z == doctest::Approx(u * length).epsilon(1e-12));
             CHECK(on_line.rho < 1e-13 * length);
             const Cylindrical skin{random.in(-pi, pi), u * length, c.body.radius};

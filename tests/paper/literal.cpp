@@ -14,17 +14,17 @@ namespace {
 
 // Eq 2-5 as the paper writes them: a circular arc about R0, which divides by alpha. In long double, so that
 // the cancellation at small angles leaves enough digits to compare with.
-glm::dvec3 eq_2_to_5(const Body& body, const Pose& pose, const Cylindrical& vertex, double wrinkle) {
+glm::dvec3 eq_2_to_5(const Parameters& body, const Pose& pose, const Cylindrical& vertex, double wrinkle) {
     using Real = long double;
     const Real alpha = pose.angle, theta = pose.direction;
     const Real to_axis =
-        body.length / alpha - body.radius;  // R0 to the centre line: the outer column keeps L
+        body.length / alpha - body.radius;  // R0 to the center line: the outer column keeps L
     const Real phi = alpha * vertex.z / body.length;
     const Real rho = Real{vertex.rho} + wrinkle;
     const Real x = rho * std::cos(Real{vertex.beta}), y = rho * std::sin(Real{vertex.beta});
-    const Real towards = x * std::cos(theta) + y * std::sin(theta);
+    const Real toward = x * std::cos(theta) + y * std::sin(theta);
     const Real dist = -x * std::sin(theta) + y * std::cos(theta);  // erratum: signed
-    const Real arm = to_axis - towards;                            // R0 to the vertex, in the bend plane
+    const Real arm = to_axis - toward;                             // R0 to the vertex, in the bend plane
     const Real in_plane = to_axis - arm * std::cos(phi);
     return {static_cast<double>(in_plane * std::cos(theta) - dist * std::sin(theta)),
             static_cast<double>(in_plane * std::sin(theta) + dist * std::cos(theta)),
@@ -40,7 +40,7 @@ TEST_CASE("the stable form is eq 2-5, wrinkled by eq 6-10") {
     };
     for (const double angle : {1e-6, 1e-3, 0.1, 1.0, 3.0, 4.5}) {
         for (int i = 0; i < 100; ++i) {
-            const Body body{10, 1, 1 + i % 7, i % 2 ? Profile::damped : Profile::smooth};
+            const Parameters body{10, 1, 1 + i % 7, i % 2 ? Profile::damped : Profile::smooth};
             const Pose pose{angle, in(-4, 4)};
             const Cylindrical v{in(-4, 4), in(0, 10), in(0.5, 1.5)};
             const double q = squeeze(angle * body.radius / body.length, v.beta, pose.direction);
@@ -52,8 +52,8 @@ TEST_CASE("the stable form is eq 2-5, wrinkled by eq 6-10") {
     }
 }
 
-TEST_CASE("towards the axis the wrinkle fades like the depth weight") {
-    const Body body{10, 1, 3};
+TEST_CASE("toward the axis the wrinkle fades like the depth weight") {
+    const Parameters body{10, 1, 3};
     const Pose pose{1, 0.2};
     const double q = squeeze(0.1, 1.0, 0.2);
     for (const double rho : {0.0, 0.1, 0.4, 0.5, 1.2}) {

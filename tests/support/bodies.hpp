@@ -41,7 +41,7 @@ inline glm::dmat3 random_rotation(Random& random) {
 
 /// A mesh in memory with its base cylinder. Bumpy skin, both caps, some inner vertices, vertices on the axis,
 /// on the outer line and at mid-height: everywhere where the map is special.
-struct Subject {
+struct TestMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
@@ -51,23 +51,23 @@ struct Subject {
     [[nodiscard]] fit::Geometry geometry() const { return {positions, triangles, normals, tangents}; }
 };
 
-inline void add_vertex(Subject& subject, Random& random, const glm::dmat3& axes, double beta, double z,
+inline void add_vertex(TestMesh& test_mesh, Random& random, const glm::dmat3& axes, double beta, double z,
                        double rho) {
     const glm::dvec3 local(rho * std::cos(beta), rho * std::sin(beta), z);
-    subject.positions.emplace_back(subject.cylinder.origin + axes * local);
+    test_mesh.positions.emplace_back(test_mesh.cylinder.origin + axes * local);
     const glm::dmat3 frame =
         random_rotation(random);  // any normal will do: the map does not ask where it comes from
-    subject.normals.emplace_back(frame[0]);
-    subject.tangents.emplace_back(glm::vec3(frame[1]), random() % 2 == 0 ? 1.0f : -1.0f);
+    test_mesh.normals.emplace_back(frame[0]);
+    test_mesh.tangents.emplace_back(glm::vec3(frame[1]), random() % 2 == 0 ? 1.0f : -1.0f);
 }
 
 /// `slenderness` is L / r; `scale` the length. At least 8 x 9 vertices on the skin, and about `extra`
 /// elsewhere.
-inline Subject random_subject(Random& random, double slenderness, double scale, int columns = 24,
-                              int rows = 33, int extra = 100) {
-    Subject subject;
+inline TestMesh random_mesh(Random& random, double slenderness, double scale, int columns = 24, int rows = 33,
+                            int extra = 100) {
+    TestMesh test_mesh;
     const glm::dmat3 axes = random_rotation(random);
-    fit::Cylinder& c = subject.cylinder;
+    fit::Cylinder& c = test_mesh.cylinder;
     c.length = scale;
     c.radius = scale / slenderness;
     c.axis = axes[2];
@@ -76,7 +76,7 @@ inline Subject random_subject(Random& random, double slenderness, double scale, 
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const double beta = 2 * std::numbers::pi * column / columns;
-            add_vertex(subject, random, axes, beta, scale * row / (rows - 1),
+            add_vertex(test_mesh, random, axes, beta, scale * row / (rows - 1),
                        c.radius * uniform(random, 0.9, 1.1));
             if (row + 1 == rows) continue;
             const auto index = [&](int r, int k) {
@@ -84,15 +84,16 @@ inline Subject random_subject(Random& random, double slenderness, double scale, 
             };
             const std::uint32_t a = index(row, column), b = index(row, column + 1),
                                 d = index(row + 1, column);
-            subject.triangles.insert(subject.triangles.end(), {a, b, d, b, index(row + 1, column + 1), d});
+            test_mesh.triangles.insert(test_mesh.triangles.end(),
+                                       {a, b, d, b, index(row + 1, column + 1), d});
         }
     }
     for (int i = 0; i < extra; ++i) {
         const double rho = i % 10 == 0 ? 0 : c.radius * uniform(random, 0, 1.1);
         const double z = i % 7 == 0 ? scale / 2 : i % 11 == 0 ? 0 : scale * uniform(random, 0, 1);
-        add_vertex(subject, random, axes, uniform(random, -4, 4), z, rho);
+        add_vertex(test_mesh, random, axes, uniform(random, -4, 4), z, rho);
     }
-    return subject;
+    return test_mesh;
 }
 
 /// Vertices that no mesh need have, for tests that ask where values go: heights up to 1, up to `widest` from
@@ -223,31 +224,32 @@ inline bend::DeformJob make_job(const bend::Body& body, const bend::Pose& pose, 
     return job;
 }
 
-/// The closed form of `subject`'s deformation in double, in model space, from the positions as float holds
+/// The closed form of `test_mesh`'s deformation in double, in model space, from the positions as float holds
 /// them.
 class Reference {
 public:
-    Reference(const Subject& subject, const fit::BindOptions& options, int folds, const bend::Pose& pose)
-        : subject_(subject),
-          axes_(subject.cylinder.zero, glm::cross(subject.cylinder.axis, subject.cylinder.zero),
-                subject.cylinder.axis),
-          map_({subject.cylinder.length, subject.cylinder.radius, folds, options.profile, options.amplitude},
+    Reference(const TestMesh& test_mesh, const fit::BindOptions& options, int folds, const bend::Pose& pose)
+        : test_mesh_(test_mesh),
+          axes_(test_mesh.cylinder.zero, glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero),
+                test_mesh.cylinder.axis),
+          map_({test_mesh.cylinder.length, test_mesh.cylinder.radius, folds, options.profile,
+                options.amplitude},
                {static_cast<double>(pose.angle), static_cast<double>(pose.direction)}) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {
-        return subject_.cylinder.origin + axes_ * map_.position(rest(i));
+        return test_mesh_.cylinder.origin + axes_ * map_.position(rest(i));
     }
     [[nodiscard]] glm::dvec3 normal(std::size_t i) const {
-        return axes_ * map_.normal(rest(i), components(glm::dvec3(subject_.normals[i]), rest(i).beta));
+        return axes_ * map_.normal(rest(i), components(glm::dvec3(test_mesh_.normals[i]), rest(i).beta));
     }
     [[nodiscard]] glm::dvec3 tangent(std::size_t i) const {
-        return axes_ * map_.tangent(rest(i), components(glm::dvec3(subject_.tangents[i]), rest(i).beta));
+        return axes_ * map_.tangent(rest(i), components(glm::dvec3(test_mesh_.tangents[i]), rest(i).beta));
     }
 
 private:
     [[nodiscard]] paper::Cylindrical rest(std::size_t i) const {
         return paper::to_cylindrical(glm::transpose(axes_) *
-                                     (glm::dvec3(subject_.positions[i]) - subject_.cylinder.origin));
+                                     (glm::dvec3(test_mesh_.positions[i]) - test_mesh_.cylinder.origin));
     }
     [[nodiscard]] paper::CylindricalVector components(const glm::dvec3& vector, double beta) const {
         const glm::dvec3 v = glm::transpose(axes_) * glm::normalize(vector);
@@ -255,7 +257,7 @@ private:
         return {c * v.x + s * v.y, c * v.y - s * v.x, v.z};
     }
 
-    const Subject& subject_;
+    const TestMesh& test_mesh_;
     glm::dmat3 axes_;
     paper::ClosedForm map_;
 };

@@ -15,61 +15,61 @@
 
 namespace goffer::test {
 
-/// `subject`, which is straight, bent: its mesh then has the rest arc that its cylinder says.
-inline Subject bent_at_rest(Subject subject, double angle, double direction) {
-    fit::Cylinder& c = subject.cylinder;
+/// `test_mesh`, which is straight, bent: its mesh then has the rest arc that its cylinder says.
+inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
+    fit::Cylinder& c = test_mesh.cylinder;
     const paper::ClosedForm map({.length = c.length, .radius = c.radius}, {angle, direction});
     const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
-    for (std::size_t i = 0; i < subject.positions.size(); ++i) {
+    for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         const paper::Cylindrical at =
-            paper::to_cylindrical(glm::transpose(axes) * (glm::dvec3(subject.positions[i]) - c.origin));
+            paper::to_cylindrical(glm::transpose(axes) * (glm::dvec3(test_mesh.positions[i]) - c.origin));
         const auto components = [&](const glm::dvec3& vector) {
             const paper::Pose straight;
             return paper::straightened_normal(glm::transpose(axes) * vector, at, c.length, c.radius,
                                               straight);
         };
-        const glm::dvec3 normal = axes * map.normal(at, components(glm::dvec3(subject.normals[i])));
-        const glm::dvec3 tangent = axes * map.tangent(at, components(glm::dvec3(subject.tangents[i])));
-        subject.positions[i] = c.origin + axes * map.position(at);
-        subject.normals[i] = normal;
-        subject.tangents[i] = glm::vec4(glm::vec3(tangent), subject.tangents[i].w);
+        const glm::dvec3 normal = axes * map.normal(at, components(glm::dvec3(test_mesh.normals[i])));
+        const glm::dvec3 tangent = axes * map.tangent(at, components(glm::dvec3(test_mesh.tangents[i])));
+        test_mesh.positions[i] = c.origin + axes * map.position(at);
+        test_mesh.normals[i] = normal;
+        test_mesh.tangents[i] = glm::vec4(glm::vec3(tangent), test_mesh.tangents[i].w);
     }
     c.rest_angle = angle;
     c.rest_direction = direction;
-    return subject;
+    return test_mesh;
 }
 
 /// The closed form of `bound`'s deformation in double, in model space, for the body's vertices.
 class ChainReference {
 public:
-    ChainReference(const Subject& subject, const fit::BindOptions& options, const fit::Bound& bound,
+    ChainReference(const TestMesh& test_mesh, const fit::BindOptions& options, const fit::Binding& binding,
                    std::span<const bend::Pose> poses)
-        : subject_(subject),
-          bound_(bound),
-          axes_(subject.cylinder.zero, glm::cross(subject.cylinder.axis, subject.cylinder.zero),
-                subject.cylinder.axis),
-          rest_{subject.cylinder.rest_angle, subject.cylinder.rest_direction},
-          chain_(regions(subject.cylinder, options, bound), doubled(poses)) {}
+        : test_mesh_(test_mesh),
+          binding_(binding),
+          axes_(test_mesh.cylinder.zero, glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero),
+                test_mesh.cylinder.axis),
+          rest_{test_mesh.cylinder.rest_angle, test_mesh.cylinder.rest_direction},
+          chain_(regions(test_mesh.cylinder, options, binding), doubled(poses)) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {
         const At at = rest(i);
-        return subject_.cylinder.origin + axes_ * chain_.position(at.region, at.local);
+        return test_mesh_.cylinder.origin + axes_ * chain_.position(at.region, at.local);
     }
     [[nodiscard]] glm::dvec3 normal(std::size_t i) const {
         const At at = rest(i);
-        const glm::dvec3 own(subject_.normals[at.vertex]);
+        const glm::dvec3 own(test_mesh_.normals[at.vertex]);
         return axes_ * chain_.normal(at.region, at.local,
                                      paper::straightened_normal(glm::transpose(axes_) * own, at.whole,
-                                                                subject_.cylinder.length,
-                                                                subject_.cylinder.radius, rest_));
+                                                                test_mesh_.cylinder.length,
+                                                                test_mesh_.cylinder.radius, rest_));
     }
     [[nodiscard]] glm::dvec3 tangent(std::size_t i) const {
         const At at = rest(i);
-        const glm::dvec3 own(subject_.tangents[at.vertex]);
+        const glm::dvec3 own(test_mesh_.tangents[at.vertex]);
         return axes_ * chain_.tangent(at.region, at.local,
                                       paper::straightened_tangent(glm::transpose(axes_) * own, at.whole,
-                                                                  subject_.cylinder.length,
-                                                                  subject_.cylinder.radius, rest_));
+                                                                  test_mesh_.cylinder.length,
+                                                                  test_mesh_.cylinder.radius, rest_));
     }
 
 private:
@@ -80,25 +80,27 @@ private:
 
     [[nodiscard]] At rest(std::size_t i) const {
         At at{};
-        at.vertex = bound_.order.empty() ? i : bound_.order[i];
-        const glm::dvec3 point =
-            glm::transpose(axes_) * (glm::dvec3(subject_.positions[at.vertex]) - subject_.cylinder.origin);
-        at.whole = paper::to_cylindrical(point, subject_.cylinder.length, subject_.cylinder.radius, rest_);
+        at.vertex = binding_.order.empty() ? i : binding_.order[i];
+        const glm::dvec3 point = glm::transpose(axes_) *
+                                 (glm::dvec3(test_mesh_.positions[at.vertex]) - test_mesh_.cylinder.origin);
+        at.whole =
+            paper::to_cylindrical(point, test_mesh_.cylinder.length, test_mesh_.cylinder.radius, rest_);
         at.local = at.whole;
-        const std::span<const bend::Region> regions = bound_.body.regions();
-        while (i >= regions[at.region].last) at.local.z -= bound_.regions[at.region++].length;
+        const std::span<const bend::Region> regions = binding_.body.regions();
+        while (i >= regions[at.region].last) at.local.z -= binding_.regions[at.region++].length;
         return at;
     }
 
-    static std::vector<paper::Body> regions(const fit::Cylinder& cylinder, const fit::BindOptions& options,
-                                            const fit::Bound& bound) {
-        std::vector<paper::Body> bodies;
-        for (std::size_t r = 0; r < bound.regions.size(); ++r) {
-            paper::Body body{bound.regions[r].length, cylinder.radius, bound.regions[r].folds,
-                             options.profile, options.amplitude};
+    static std::vector<paper::Parameters> regions(const fit::Cylinder& cylinder,
+                                                  const fit::BindOptions& options,
+                                                  const fit::Binding& binding) {
+        std::vector<paper::Parameters> bodies;
+        for (std::size_t r = 0; r < binding.regions.size(); ++r) {
+            paper::Parameters body{binding.regions[r].length, cylinder.radius, binding.regions[r].folds,
+                                   options.profile, options.amplitude};
             body.rest_angle = cylinder.rest_angle * body.length / cylinder.length;
             body.rest_direction = cylinder.rest_direction;
-            body.onset = static_cast<double>(bound.body.regions()[r].onset);
+            body.onset = static_cast<double>(binding.body.regions()[r].onset);
             bodies.push_back(body);
         }
         return bodies;
@@ -111,8 +113,8 @@ private:
         return result;
     }
 
-    const Subject& subject_;
-    const fit::Bound& bound_;
+    const TestMesh& test_mesh_;
+    const fit::Binding& binding_;
     glm::dmat3 axes_;
     paper::Pose rest_;
     paper::Chain chain_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <cstddef>
 #include <string_view>
@@ -33,7 +33,7 @@ public:
     }
 
     /// The job, which writes to `out`.
-    bend::DeformJob& job(Layout& out) {
+    bend::DeformJob& job(OutputBuffer& out) {
         out.clear();
         out.attach(job_);
         job_.body = &body_;
@@ -42,12 +42,12 @@ public:
         return job_;
     }
 
-    [[nodiscard]] const Layout& planes() const { return planes_; }
+    [[nodiscard]] const OutputBuffer& planes() const { return planes_; }
     [[nodiscard]] std::size_t count() const { return body_.vertex_count(); }
 
 private:
     bend::Body body_;
-    Layout planes_;
+    OutputBuffer planes_;
     std::vector<bend::Pose> poses_, previous_poses_;
     bend::DeformJob job_;
 };

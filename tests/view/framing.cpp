@@ -7,9 +7,9 @@ using namespace goffer;
 
 namespace {
 
-// What the red channel tells from the grey background: where a model is.
+// What the red channel tells from the gray background: where a model is.
 struct Silhouette {
-    double area = 0, x = 0, y = 0;  // pixels; the centre is that of the picture's coordinates
+    double area = 0, x = 0, y = 0;  // pixels; the center is that of the picture's coordinates
     int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
 };
 
@@ -27,8 +27,8 @@ Silhouette silhouette(const view::Picture& picture, int from = 0, int to = 1 << 
     return s;
 }
 
-test::Shape red_sphere(const glm::vec3& centre, float radius) {
-    test::Shape s = test::sphere(centre, radius);
+test::Shape red_sphere(const glm::vec3& center, float radius) {
+    test::Shape s = test::sphere(center, radius);
     s.color = {0.9f, 0.1f, 0.05f, 1};
     return s;
 }
@@ -76,9 +76,9 @@ TEST_CASE("two spheres side by side are the ellipses of the perspective") {
 TEST_CASE("all vertices are in the picture, whatever the direction and the field of view") {
     const test::Shape ball = red_sphere({1, 2, 3}, 1), small = red_sphere({4, 2.5f, 2}, 0.3f);
     for (const float fov : {0.05f, 0.5f, 2.0f})
-        for (const glm::vec3 towards :
+        for (const glm::vec3 toward :
              {glm::vec3(-0.4f, -1, -0.35f), glm::vec3(0, 0, -1), glm::vec3(-1e-20f, 0, 0)}) {
-            const auto s = silhouette(test::render({ball, small}, {200, 150, 1}, {towards, {0, 0, 1}, fov}));
+            const auto s = silhouette(test::render({ball, small}, {200, 150, 1}, {toward, {0, 0, 1}, fov}));
             CHECK(s.left > 0);
             CHECK(s.right < 200);
             CHECK(s.top > 0);

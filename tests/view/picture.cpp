@@ -48,7 +48,7 @@ TEST_CASE("the scale of the world is not seen") {
     }
 }
 
-TEST_CASE("a ghost lies between the background and its own colour") {
+TEST_CASE("a ghost lies between the background and its own color") {
     test::Shape board = test::square({0, 0, 0}, 1);
     board.color = {0.1f, 0.15f, 0.2f, 1};
     const glm::ivec3 solid = test::pixel(test::render({board}, small, from_above), 120, 90);
@@ -118,7 +118,7 @@ TEST_CASE("degenerate triangles and broken normals leave no mark") {
         if (plain.rgb[i] > 40) REQUIRE(broken.rgb[i] > 20);  // no black holes
 }
 
-TEST_CASE("vertex colours multiply the model's colour") {
+TEST_CASE("vertex colors multiply the model's color") {
     test::Shape board = test::square({0, 0, 0}, 1);
     board.color = {0.5f, 0.5f, 0.5f, 1};
     const std::vector<glm::vec4> red(4, glm::vec4(1, 0.1f, 0.1f, 1));

@@ -57,7 +57,7 @@ TEST_CASE("a broken model is named, and where it is broken") {
         bad.normals.assign(3, {0, 0, 1});
         CHECK(says(refusal({good.model(), bad.model()}), "model 1: 3 normals for 4 vertices"));
     }
-    SUBCASE("colours") {
+    SUBCASE("colors") {
         const std::vector<glm::vec4> colors(5, glm::vec4(1));
         view::Model model = bad.model();
         model.colors = colors;
@@ -67,8 +67,8 @@ TEST_CASE("a broken model is named, and where it is broken") {
 
 TEST_CASE("cameras and sizes that make no picture") {
     const test::Shape board = test::square({0, 0, 0}, 1);
-    CHECK(says(refusal({board.model()}, {{0, 0, 0}}), "towards"));
-    CHECK(says(refusal({board.model()}, {{0, std::nanf(""), 0}}), "towards"));
+    CHECK(says(refusal({board.model()}, {{0, 0, 0}}), "toward"));
+    CHECK(says(refusal({board.model()}, {{0, std::nanf(""), 0}}), "toward"));
     CHECK(says(refusal({board.model()}, {{0, 0, -1}, {0, 0, 0}}), "up"));
     CHECK(says(refusal({board.model()}, {{0, 0, -1}, {0, 1, 0}, 0}), "field of view"));
     CHECK(says(refusal({board.model()}, {}, {0, 10, 1}), "0 x 10"));

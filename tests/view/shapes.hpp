@@ -25,7 +25,7 @@ struct Shape {
 };
 
 /// A sphere with its poles on z, outside out. `bumps` > 0 gives it meridional folds of that depth.
-inline Shape sphere(const glm::vec3& centre, float radius, int columns = 192, int rows = 96,
+inline Shape sphere(const glm::vec3& center, float radius, int columns = 192, int rows = 96,
                     float bumps = 0) {
     constexpr float pi = std::numbers::pi_v<float>;
     Shape s;
@@ -35,7 +35,7 @@ inline Shape sphere(const glm::vec3& centre, float radius, int columns = 192, in
             const float phi = 2 * pi * static_cast<float>(column) / static_cast<float>(columns);
             const glm::vec3 n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                               std::cos(theta));
-            s.positions.push_back(centre + radius * (1 + bumps * std::sin(theta) * std::sin(12 * phi)) * n);
+            s.positions.push_back(center + radius * (1 + bumps * std::sin(theta) * std::sin(12 * phi)) * n);
             if (bumps == 0) s.normals.push_back(n);
         }
     const auto at = [&](int row, int column) {
@@ -51,10 +51,10 @@ inline Shape sphere(const glm::vec3& centre, float radius, int columns = 192, in
 }
 
 /// A square in the xy plane.
-inline Shape square(const glm::vec3& centre, float half) {
+inline Shape square(const glm::vec3& center, float half) {
     Shape s;
     for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
-        s.positions.push_back(centre + half * glm::vec3(corner, 0));
+        s.positions.push_back(center + half * glm::vec3(corner, 0));
     s.triangles = {0, 1, 2, 0, 2, 3};
     return s;
 }

@@ -126,14 +126,14 @@ std::vector<double> read_numbers(const std::string& option, const std::string& t
     return numbers;
 }
 
-paper::Amplitude parse_amplitude(const std::string& text) {
-    if (text == "none") return paper::Amplitude::none;
-    if (text == "mesh") return paper::Amplitude::mesh;
-    return text == "area" ? paper::Amplitude::area : paper::Amplitude::paper;
+fit::Amplitude parse_amplitude(const std::string& text) {
+    if (text == "none") return fit::Amplitude::none;
+    if (text == "mesh") return fit::Amplitude::mesh;
+    return text == "area" ? fit::Amplitude::area : fit::Amplitude::paper;
 }
 
-paper::Profile parse_profile(const std::string& text) {
-    return text == "smooth" ? paper::Profile::smooth : paper::Profile::damped;
+fit::Profile parse_profile(const std::string& text) {
+    return text == "smooth" ? fit::Profile::smooth : fit::Profile::damped;
 }
 
 Isa parse_isa_option(const std::string& text) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <goffer/engine/isa.hpp>
+#include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
-#include <goffer/paper/wrinkle.hpp>
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
@@ -45,8 +45,8 @@ using Action = std::function<void()>;
 /// Finite numbers with commas between them, at least one. `option` begins the error.
 [[nodiscard]] std::vector<double> read_numbers(const std::string& option, const std::string& text);
 
-[[nodiscard]] paper::Amplitude parse_amplitude(const std::string& text);
-[[nodiscard]] paper::Profile parse_profile(const std::string& text);
+[[nodiscard]] fit::Amplitude parse_amplitude(const std::string& text);
+[[nodiscard]] fit::Profile parse_profile(const std::string& text);
 
 /// A set that runs here; UsageError for an unknown name, InputError for one that this machine lacks.
 [[nodiscard]] Isa parse_isa_option(const std::string& text);

@@ -62,7 +62,7 @@ struct Request {
 
 /// The deformed records and how long they took.
 struct Deformed {
-    mesh::Records records;
+    mesh::VertexArrays records;
     double microseconds = 0;
 };
 
@@ -80,9 +80,9 @@ double median_microseconds(Run&& run) {
     return times[4];
 }
 
-Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Request& request) {
+Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, const Request& request) {
     Deformed result;
-    const bend::Body& body = bound.body;
+    const bend::Body& body = binding.body;
     const std::size_t count = body.vertex_count();
     result.records = rest;
     result.records.normals.resize(count);
@@ -97,9 +97,9 @@ Deformed deform(const fit::Bound& bound, const mesh::Records& rest, const Reques
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
     tbb::task_arena arena(request.threads);
     result.microseconds = median_microseconds([&] { arena.execute([&] { bend::run_parallel(job); }); });
-    put_in_model_order(result.records.positions, bound);
-    put_in_model_order(result.records.normals, bound);
-    put_in_model_order(result.records.tangents, bound);
+    put_in_model_order(result.records.positions, binding);
+    put_in_model_order(result.records.normals, binding);
+    put_in_model_order(result.records.tangents, binding);
     return result;
 }
 
@@ -109,7 +109,7 @@ double base_area_change(const fit::Cylinder& cylinder, const fit::BindOptions& o
     const double kappa = angle * cylinder.radius / cylinder.length;
     if (folds == 0 || angle == 0) return -kappa;
     const double factor =
-        options.amplitude == paper::Amplitude::area
+        options.amplitude == fit::Amplitude::area
             ? paper::area_factor(options.profile, folds, cylinder.length, cylinder.radius, angle)
             : 1.0;
     return paper::lateral_area(options.profile, folds, cylinder.length, cylinder.radius, angle, factor) - 1;
@@ -120,9 +120,9 @@ double base_area_change(const BoundModel& model, const fit::BindOptions& options
                         std::span<const double> angles) {
     double change = 0;
     for (std::size_t r = 0; r < angles.size(); ++r) {
-        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, model.bound.regions[r].length);
+        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, model.binding.regions[r].length);
         change += stretch.length / model.cylinder.length *
-                  base_area_change(stretch, options, model.bound.folds(r), angles[r]);
+                  base_area_change(stretch, options, model.binding.folds(r), angles[r]);
     }
     return change;
 }
@@ -141,29 +141,29 @@ void warn_of_foreign_fit(Report& report, const BoundModel& model) {
 
 void report_bend(Report& report, const BendOptions& options, const Request& request, const BoundModel& model,
                  const Deformed& bent, double area_before) {
-    const fit::Bound& bound = model.bound;
+    const fit::Binding& binding = model.binding;
     std::vector<double> used;
-    for (std::size_t r = 0; r < bound.regions.size(); ++r)
-        used.push_back(used_angle(bound.body, r, request.pose.poses[r]));
+    for (std::size_t r = 0; r < binding.regions.size(); ++r)
+        used.push_back(used_angle(binding.body, r, request.pose.poses[r]));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
     // Of the base of a body that is bent at rest, or has an onset, no closed form is known.
     const bool known = model.cylinder.rest_angle == 0 && request.bind.options.onset.value_or(0) == 0;
     const double base_change = known ? base_area_change(model, request.bind.options, used) : 0;
     nlohmann::ordered_json& json = report.json;
-    report_poses(report, request.pose, bound);
+    report_poses(report, request.pose, binding);
     json["amplitude"] = options.bind.amplitude;
     json["profile"] = options.bind.profile;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
     json["base_area_change"] = known ? nlohmann::ordered_json(base_change) : nullptr;
-    json["bind_ms"] = bound.milliseconds;
+    json["bind_ms"] = binding.milliseconds;
     json["deform_us"] = bent.microseconds;
     json["isa"] = name(resolve(request.isa));
     json["threads"] = request.threads;
 
     report.line("area change", percent(area_after / area_before - 1) + " of the mesh" +
                                    (known ? ", " + percent(base_change) + " of its base" : ""));
-    report.line("time", number(bound.milliseconds) + " ms to bind, " + number(bent.microseconds) +
+    report.line("time", number(binding.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
     warn_of_folds(report, options.bind, model, used);
@@ -173,8 +173,8 @@ void run_bend(const BendOptions& options) {
     const Request request(options);
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request.bind, options.fit);
-    const bend::Body& body = model.bound.body;
-    const Deformed bent = deform(model.bound, model.rest, request);
+    const bend::Body& body = model.binding.body;
+    const Deformed bent = deform(model.binding, model.rest, request);
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
@@ -189,7 +189,7 @@ void run_bend(const BendOptions& options) {
                       options.ghost, options.png);
         report.line("picture", options.png.string());
     }
-    mesh::save(mesh::with_records(model.mesh, bent.records), options.output);
+    mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output);
     report.line("written", options.output.string());
     report.finish();
 }

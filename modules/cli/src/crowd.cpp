@@ -31,9 +31,9 @@ struct CrowdOptions {
     std::filesystem::path json;
 };
 
-Layout parse_layout(const std::string& text) {
-    if (text == "packed") return Layout::packed;
-    return text == "interleaved" ? Layout::interleaved : Layout::planar;
+StreamLayout parse_layout(const std::string& text) {
+    if (text == "packed") return StreamLayout::packed;
+    return text == "interleaved" ? StreamLayout::interleaved : StreamLayout::planar;
 }
 
 bend::Stores parse_stores(const std::string& text) {
@@ -78,7 +78,7 @@ std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindReque
 /// Of what a model's regions are asked for and cannot do.
 void warn_of_regions(Report& report, const CrowdOptions& options, const PoseRequest& pose,
                      const BoundModel& model, const std::string& where) {
-    const bend::Body& body = model.bound.body;
+    const bend::Body& body = model.binding.body;
     std::vector<double> used;
     for (std::size_t r = 0; r < pose.poses.size(); ++r) {
         used.push_back(used_angle(body, r, pose.poses[r]));
@@ -92,7 +92,7 @@ void warn_of_regions(Report& report, const CrowdOptions& options, const PoseRequ
 void report_models(Report& report, const CrowdOptions& options, const PoseRequest& pose,
                    std::span<const BoundModel> models) {
     for (const BoundModel& model : models) {
-        const bend::Body& body = model.bound.body;
+        const bend::Body& body = model.binding.body;
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
         warn_of_regions(report, options, pose, model, where);
@@ -101,8 +101,8 @@ void report_models(Report& report, const CrowdOptions& options, const PoseReques
         double limit = 0;
         for (std::size_t r = 0; r < body.region_count(); ++r) {
             const double own = degrees(static_cast<double>(body.max_angle(r)));
-            regions.push_back({{"folds", model.bound.folds(r)}, {"max_angle", own}});
-            folds += model.bound.folds(r);
+            regions.push_back({{"folds", model.binding.folds(r)}, {"max_angle", own}});
+            folds += model.binding.folds(r);
             limit += own;
         }
         report.json["models"].push_back({{"file", model.file.string()},

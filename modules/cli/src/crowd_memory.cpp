@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t position_floats = 3;
 constexpr std::size_t normal_floats = 3;
 
-Columns values_for(Layout layout, bool normals, std::size_t vertices) {
+Columns values_for(StreamLayout layout, bool normals, std::size_t vertices) {
     const std::size_t floats = CrowdMemory::vertex_bytes(layout, normals) / sizeof(float);
-    return layout == Layout::planar ? Columns(floats, vertices) : Columns(1, floats * vertices);
+    return layout == StreamLayout::planar ? Columns(floats, vertices) : Columns(1, floats * vertices);
 }
 
 /// FNV-1a by words of eight bytes; the shift lets high bits reach low ones, which bytes do by themselves.
@@ -38,26 +38,26 @@ std::uint64_t mixed(std::uint64_t hash, std::span<const float> values) noexcept 
 
 }  // namespace
 
-CrowdMemory::CrowdMemory(Layout layout, bool normals, std::size_t vertices)
+CrowdMemory::CrowdMemory(StreamLayout layout, bool normals, std::size_t vertices)
     : layout_(layout), normals_(normals), values_(values_for(layout, normals, vertices)) {}
 
-std::size_t CrowdMemory::vertex_bytes(Layout layout, bool normals) noexcept {
-    if (layout == Layout::packed) return sizeof(bend::PackedVertex);
+std::size_t CrowdMemory::vertex_bytes(StreamLayout layout, bool normals) noexcept {
+    if (layout == StreamLayout::packed) return sizeof(bend::PackedVertex);
     return (position_floats + (normals ? normal_floats : 0)) * sizeof(float);
 }
 
 void CrowdMemory::point(bend::Batch& batch, std::size_t first) noexcept {
-    batch.step = batch.body->vertex_count();
-    const std::size_t count = batch.count * batch.step;
+    batch.vertex_step = batch.body->vertex_count();
+    const std::size_t count = batch.count * batch.vertex_step;
     const std::size_t stride = vertex_bytes(layout_, normals_);
     const auto plane = [&](std::size_t column) { return values_[column].subspan(first, count); };
-    if (layout_ == Layout::planar) {
+    if (layout_ == StreamLayout::planar) {
         batch.positions = planar(plane(0), plane(1), plane(2));
         if (normals_) batch.normals = planar(plane(3), plane(4), plane(5));
         return;
     }
     float* const record = values_[0].data() + first * stride / sizeof(float);
-    if (layout_ == Layout::packed) {
+    if (layout_ == StreamLayout::packed) {
         batch.packed = {reinterpret_cast<bend::PackedVertex*>(record), stride, count};
         return;
     }

@@ -10,7 +10,7 @@
 namespace goffer::cli {
 
 /// How the vertices of a crowd lie in memory.
-enum class Layout : std::uint8_t {
+enum class StreamLayout : std::uint8_t {
     planar,       ///< a plane each of all x, all y, all z, and of the normals' three
     interleaved,  ///< records without gaps: three floats of position, and three of normal
     packed,       ///< records of 12 bytes, which hold normals too (bend::PackedVertex)
@@ -21,10 +21,10 @@ enum class Layout : std::uint8_t {
 class CrowdMemory {
 public:
     /// For `vertices` of all instances together. Throws std::bad_alloc.
-    CrowdMemory(Layout layout, bool normals, std::size_t vertices);
+    CrowdMemory(StreamLayout layout, bool normals, std::size_t vertices);
 
     /// Bytes that a vertex takes.
-    [[nodiscard]] static std::size_t vertex_bytes(Layout layout, bool normals) noexcept;
+    [[nodiscard]] static std::size_t vertex_bytes(StreamLayout layout, bool normals) noexcept;
 
     /// Points the streams of `batch` to the vertices of its instances, the first of which is vertex `first`
     /// of the crowd.
@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::uint64_t hash() const noexcept;
 
 private:
-    Layout layout_;
+    StreamLayout layout_;
     bool normals_;
     Columns values_;  // the planes; otherwise one column, whatever its values are
 };

@@ -29,14 +29,14 @@ using namespace glm;
 constexpr std::size_t most_instances = 400;
 constexpr std::size_t most_triangles = 4'000'000;
 
-/// Parts without a colour of their own, by model: clay, moss, straw, slate, plum.
+/// Parts without a color of their own, by model: clay, moss, straw, slate, plum.
 constexpr std::array<glm::vec3, 5> plain_colors = {glm::vec3{0.72f, 0.33f, 0.20f},
                                                    {0.30f, 0.48f, 0.24f},
                                                    {0.74f, 0.53f, 0.17f},
                                                    {0.24f, 0.40f, 0.56f},
                                                    {0.50f, 0.24f, 0.42f}};
 
-/// Not quite the same for any two neighbours.
+/// Not quite the same for any two neighbors.
 glm::vec4 tinted(const glm::vec4& color, std::size_t index) {
     const float turn = 2.4f * static_cast<float>(index % 1000);
     const glm::vec3 tint(1 + 0.12f * std::sin(turn), 1 + 0.12f * std::sin(1.31f * turn + 1),
@@ -119,8 +119,8 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     for (const std::size_t i : chosen) {
         const BoundModel& model = models[crowd.model(i)];
         Vertices& own = vertices.emplace_back(vertices_of(crowd.instance(i)));
-        put_in_model_order(own.positions, model.bound);
-        put_in_model_order(own.normals, model.bound);
+        put_in_model_order(own.positions, model.binding);
+        put_in_model_order(own.normals, model.binding);
         const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);
         const view::Model all{
             .positions = own.positions, .triangles = model.rest.triangles, .normals = own.normals};
@@ -130,7 +130,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
         }
     }
     view::Camera camera;
-    camera.towards = {0.12f, 1.0f, -0.85f};
+    camera.toward = {0.12f, 1.0f, -0.85f};
     view::save_png(view::render(parts, camera), file);
     return chosen.size();
 }

@@ -25,13 +25,13 @@ double scattered(std::size_t index, double ratio) {
     return std::modf(static_cast<double>(index) * ratio, &whole);
 }
 
-/// A square grid, on which neighbours in a column are of different models too.
+/// A square grid, on which neighbors in a column are of different models too.
 std::size_t columns_for(std::size_t instances, std::size_t models) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(instances))));
     return models > 1 && columns % models == 0 ? columns + 1 : columns;
 }
 
-/// So that neighbours, which bend much the same way, hardly touch. In lengths of a body.
+/// So that neighbors, which bend much the same way, hardly touch. In lengths of a body.
 double spacing_for(std::span<const BoundModel> models) {
     double thickest = 0;
     for (const BoundModel& model : models)
@@ -46,7 +46,7 @@ std::size_t instances_of(std::size_t model, std::size_t models, std::size_t inst
 std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instances) {
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < models.size(); ++i) {
-        vertices += instances_of(i, models.size(), instances) * models[i].bound.body.vertex_count();
+        vertices += instances_of(i, models.size(), instances) * models[i].binding.body.vertex_count();
     }
     return vertices;
 }
@@ -113,8 +113,8 @@ Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
     for (std::size_t m = 0; m < models.size(); ++m) {
         const std::size_t begin = members_.size();
         for (std::size_t place = m; place < plan.instances; place += models.size()) add(models[m], m, place);
-        add_batch(models[m].bound.body, begin, first_vertex);
-        first_vertex += batches_.back().count * batches_.back().step;
+        add_batch(models[m].binding.body, begin, first_vertex);
+        first_vertex += batches_.back().count * batches_.back().vertex_step;
     }
     job_ = {.batches = batches_, .stores = plan.stores, .isa = plan.isa};
     set_poses(0);
@@ -132,7 +132,7 @@ void Crowd::add(const BoundModel& model, std::size_t index, std::size_t place) {
                         .place = place,
                         .phase = 0.11 * x + 0.17 * y + 0.12 * own,
                         .direction = 0.05 * x - 0.04 * y + 0.10 * own - yaw});
-    transforms_.push_back(transform_to(model.bound.body, x, y, yaw));
+    transforms_.push_back(transform_to(model.binding.body, x, y, yaw));
 }
 
 /// Of the instances from `begin` on.
@@ -151,7 +151,8 @@ bend::DeformJob Crowd::instance(std::size_t index) const noexcept {
     const Member& member = members_[index];
     const bend::Batch& batch = batches_[member.model];
     const std::size_t count = batch.body->vertex_count();
-    const std::size_t first = member.place / batches_.size() * batch.step;  // models take turns on the grid
+    const std::size_t first =
+        member.place / batches_.size() * batch.vertex_step;  // models take turns on the grid
     bend::DeformJob job{.body = batch.body};
     job.poses = std::span(poses_).subspan(index * farthest_.size(), farthest_.size());
     job.transform = transforms_[index];

@@ -19,7 +19,7 @@ struct CrowdPlan {
     std::size_t instances = 0;
     /// The farthest, one per region; a region that cannot be bent so far goes as far as it can.
     std::vector<bend::Pose> poses;
-    Layout layout = Layout::planar;
+    StreamLayout layout = StreamLayout::planar;
     bool normals = false;
     Isa isa = Isa::automatic;
     bend::Stores stores = bend::Stores::automatic;

@@ -17,7 +17,7 @@ struct InspectOptions {
     std::filesystem::path json;
 };
 
-/// The arc of the rest centre line, if there is one, beside the straight line that it replaces.
+/// The arc of the rest center line, if there is one, beside the straight line that it replaces.
 void report_rest(Report& report, const InspectOptions& options, const BindRequest& request,
                  const BoundModel& model) {
     const fit::Cylinder& fitted = model.cylinder;
@@ -47,19 +47,19 @@ void run_inspect(const InspectOptions& options) {
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request);
-    const fit::Bound& bound = model.bound;
+    const fit::Binding& binding = model.binding;
 
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     if (options.rest == "auto") report_rest(report, options, request, model);
-    const double max_angle = degrees(static_cast<double>(bound.body.max_angle()));
+    const double max_angle = degrees(static_cast<double>(binding.body.max_angle()));
     report.json["max_angle"] = max_angle;
-    report.json["folds_capacity"] = bound.folds_capacity();
-    report.json["folds"] = bound.folds();
+    report.json["folds_capacity"] = binding.folds_capacity();
+    report.json["folds"] = binding.folds();
     report.line("largest angle", number(max_angle) + " degrees");
-    report.line("folds", std::to_string(bound.folds()) + " would be used; the mesh carries " +
-                             std::to_string(bound.folds_capacity()));
+    report.line("folds", std::to_string(binding.folds()) + " would be used; the mesh carries " +
+                             std::to_string(binding.folds_capacity()));
     report.finish();
 }
 

@@ -60,7 +60,7 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
                       const std::filesystem::path& fit) {
     const Progress progress("reading " + file.string());
     mesh::Mesh mesh = mesh::load(file);
-    mesh::Records rest = mesh::records(mesh);
+    mesh::VertexArrays rest = mesh::vertex_arrays(mesh);
     fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
@@ -70,35 +70,35 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     std::optional<Growth> growth;
     if (request.refine) {
         growth = in_file(file, [&] { return refine(mesh, cylinder, request.options); });
-        rest = mesh::records(mesh);
+        rest = mesh::vertex_arrays(mesh);
         geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
     }
-    fit::Bound bound =
+    fit::Binding binding =
         in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, request.options); });
-    return {file, std::move(mesh), std::move(rest), cylinder, std::move(bound), growth};
+    return {file, std::move(mesh), std::move(rest), cylinder, std::move(binding), growth};
 }
 
 void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
                    std::span<const double> angles, const std::string& where) {
-    const fit::Bound& bound = model.bound;
+    const fit::Binding& binding = model.binding;
     for (std::size_t r = 0; r < angles.size(); ++r) {
-        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, bound.regions[r].length);
+        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, binding.regions[r].length);
         const std::string which = where + region_words(r, angles.size());
         const int wanted = fit::sensible_folds(stretch, fit::BindOptions::max_folds);
-        const auto capacity = static_cast<std::size_t>(bound.folds_capacity(r));
-        if (bound.folds(r) > bound.folds_capacity(r)) {
+        const auto capacity = static_cast<std::size_t>(binding.folds_capacity(r));
+        if (binding.folds(r) > binding.folds_capacity(r)) {
             report.warn(which + "the mesh has vertices for " + counted(capacity, "fold") + ", not " +
-                        std::to_string(bound.folds(r)) +
+                        std::to_string(binding.folds(r)) +
                         ": wrinkles are coarse, and the area is not kept; goffer refine adds vertices");
-        } else if (!words.folds && bound.folds(r) == 0 && wanted > 0 && words.amplitude != "none") {
+        } else if (!words.folds && binding.folds(r) == 0 && wanted > 0 && words.amplitude != "none") {
             report.warn(which + "bent without wrinkles: the mesh has vertices for " +
                         counted(capacity, "fold") + ", and " + std::to_string(wanted) +
                         " would suit its length; use a finer mesh, which goffer refine makes, or --folds K "
                         "to insist");
         }
-        if (bound.folds(r) == 0) continue;
+        if (binding.folds(r) == 0) continue;
         const double squeeze = std::min(2 * angles[r] * stretch.radius / stretch.length, 0.999);
-        if (paper::amplitude(parse_profile(words.profile), bound.folds(r), stretch.length, squeeze) >
+        if (paper::amplitude(parse_profile(words.profile), binding.folds(r), stretch.length, squeeze) >
             stretch.radius) {
             report.warn(which +
                         "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "

@@ -51,13 +51,13 @@ struct BindRequest {
 };
 
 /// A model read, fitted, refined where that was asked for, and bound. Vertex i of the body is record
-/// bound.order[i], or i where that is empty.
+/// binding.order[i], or i where that is empty.
 struct BoundModel {
     std::filesystem::path file;
     mesh::Mesh mesh;
-    mesh::Records rest;
+    mesh::VertexArrays rest;
     fit::Cylinder cylinder;
-    fit::Bound bound;
+    fit::Binding binding;
     std::optional<Growth> growth = {};  ///< where the mesh was refined
 };
 
@@ -68,10 +68,10 @@ struct BoundModel {
 
 /// Values in the body's order, put into the model's.
 template <class T>
-void put_in_model_order(std::vector<T>& values, const fit::Bound& bound) {
-    if (bound.order.empty() || values.empty()) return;
+void put_in_model_order(std::vector<T>& values, const fit::Binding& binding) {
+    if (binding.order.empty() || values.empty()) return;
     std::vector<T> sorted(values.size());
-    for (std::size_t i = 0; i < bound.order.size(); ++i) sorted[bound.order[i]] = values[i];
+    for (std::size_t i = 0; i < binding.order.size(); ++i) sorted[binding.order[i]] = values[i];
     values = std::move(sorted);
 }
 

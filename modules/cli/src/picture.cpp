@@ -14,17 +14,17 @@ namespace {
 view::Camera camera_for(const bend::Body& body, const bend::Pose& pose) {
     const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
     const glm::dmat3& e = body.axes();
-    const glm::dvec3 towards = std::cos(theta) * e[0] + std::sin(theta) * e[1];
+    const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
     const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
     constexpr double elevation = 35 * std::numbers::pi / 180;
     view::Camera camera;
-    camera.towards = glm::vec3(-std::cos(elevation) * across - std::sin(elevation) * towards);
-    camera.up = glm::vec3(towards);
+    camera.toward = glm::vec3(-std::cos(elevation) * across - std::sin(elevation) * toward);
+    camera.up = glm::vec3(toward);
     return camera;
 }
 
-/// A material's colour, made readable: wrinkles drown in white and in black. A neutral grey, which is what a
-/// material says whose texture is not at hand, is no colour; such parts are `plain`.
+/// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
+/// material says whose texture is not at hand, is no color; such parts are `plain`.
 glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     const auto [low, high] = std::minmax({color.r, color.g, color.b});
     if (high > 0.5f && high - low < 0.02f) return plain;
@@ -53,19 +53,18 @@ std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& 
     return models;
 }
 
-void write_picture(const PictureSubject& subject, bool ghost, const std::filesystem::path& file) {
-    const view::Model bent{.positions = subject.bent_positions,
-                           .triangles = subject.rest.triangles,
-                           .normals = subject.bent_normals};
-    std::vector<view::Model> models = part_models(subject.mesh, bent, bent.color);
+void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file) {
+    const view::Model bent{
+        .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
+    std::vector<view::Model> models = part_models(model.mesh, bent, bent.color);
     if (ghost) {
         view::Model rest;
-        rest.positions = subject.rest.positions;
-        rest.triangles = subject.rest.triangles;
+        rest.positions = model.rest.positions;
+        rest.triangles = model.rest.triangles;
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
-    view::save_png(view::render(models, camera_for(subject.body, subject.pose)), file);
+    view::save_png(view::render(models, camera_for(model.body, model.pose)), file);
 }
 
 }  // namespace goffer::cli

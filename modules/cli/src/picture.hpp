@@ -16,16 +16,16 @@
 namespace goffer::cli {
 
 /// What a picture of a bend needs. The caller owns all of it.
-struct PictureSubject {
+struct BentModel {
     const bend::Body& body;
-    const mesh::Mesh& mesh;     ///< parts and materials
-    const mesh::Records& rest;  ///< rest positions and triangles
+    const mesh::Mesh& mesh;          ///< parts and materials
+    const mesh::VertexArrays& rest;  ///< rest positions and triangles
     std::span<const glm::vec3> bent_positions;
     std::span<const glm::vec3> bent_normals;
     bend::Pose pose;
 };
 
-/// One model per part of `mesh`, since each part has its material's colour; parts without one are `plain`.
+/// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
 /// `vertices` has the positions and normals; its triangles are those of all faces, each cut up into a fan, in
 /// their order. The models refer to the same memory.
 [[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
@@ -34,6 +34,6 @@ struct PictureSubject {
 /// Renders the bent model, seen across the plane that it bends in and from above its squeezed side, so that
 /// it lies from left to right and its wrinkles are in view; with `ghost` the rest shape too, translucent.
 /// Writes a PNG.
-void write_picture(const PictureSubject& subject, bool ghost, const std::filesystem::path& file);
+void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file);
 
 }  // namespace goffer::cli

@@ -62,13 +62,13 @@ void add_angle_words(CLI::App& command, PoseWords& words, const std::string& ang
 
 void add_pose_words(CLI::App& command, PoseWords& words) {
     add_angle_words(command, words, "How far the tip turns, degrees; negative: the other way");
-    CLI::Option* const towards =
-        command.add_option("--direction", words.direction, "Towards where, degrees about the axis")
+    CLI::Option* const toward =
+        command.add_option("--direction", words.direction, "Toward where, degrees about the axis")
             ->check(angle_in_degrees())
             ->capture_default_str();
-    command.add_option("--directions", words.directions, "Towards where each region turns, as 0,0,90")
+    command.add_option("--directions", words.directions, "Toward where each region turns, as 0,0,90")
         ->needs("--regions")
-        ->excludes(towards);
+        ->excludes(toward);
 }
 
 PoseRequest::PoseRequest(const PoseWords& words) {
@@ -114,8 +114,8 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
                 ", where the body would fold through itself; " + then);
 }
 
-void report_poses(Report& report, const PoseRequest& request, const fit::Bound& bound) {
-    const bend::Body& body = bound.body;
+void report_poses(Report& report, const PoseRequest& request, const fit::Binding& binding) {
+    const bend::Body& body = binding.body;
     nlohmann::ordered_json poses, regions;
     bool clamped = false;
     for (std::size_t i = 0; i < request.poses.size(); ++i) {
@@ -125,24 +125,24 @@ void report_poses(Report& report, const PoseRequest& request, const fit::Bound& 
         const double used = beyond ? std::copysign(limit, asked) : asked;
         clamped = clamped || beyond;
         poses.push_back({{"angle", used}, {"direction", request.directions[i]}});
-        regions.push_back({{"length", bound.regions[i].length},
-                           {"folds", bound.folds(i)},
-                           {"folds_capacity", bound.folds_capacity(i)},
+        regions.push_back({{"length", binding.regions[i].length},
+                           {"folds", binding.folds(i)},
+                           {"folds_capacity", binding.folds_capacity(i)},
                            {"max_angle", limit},
                            {"clamped", beyond}});
         const std::string which = region_words(i, request.poses.size());
-        report.line(i == 0 ? "bend" : "", which + number(used) + " degrees towards " +
+        report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
                                               number(request.directions[i]) + ", at most " + number(limit));
-        report.line(i == 0 ? "folds" : "", which + std::to_string(bound.folds(i)) + " of " +
-                                               std::to_string(bound.folds_capacity(i)) +
+        report.line(i == 0 ? "folds" : "", which + std::to_string(binding.folds(i)) + " of " +
+                                               std::to_string(binding.folds_capacity(i)) +
                                                " that the mesh carries");
         if (beyond) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
     report.json["max_angle"] = regions[0]["max_angle"];
-    report.json["folds_capacity"] = bound.folds_capacity();
+    report.json["folds_capacity"] = binding.folds_capacity();
     report.json["pose"] = poses[0];
     report.json["poses"] = poses;
-    report.json["folds"] = bound.folds();
+    report.json["folds"] = binding.folds();
     report.json["regions"] = regions;
     report.json["clamped"] = clamped;
 }

@@ -59,6 +59,6 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
                    const std::string& then);
 
 /// Says what each region was bent by, and warns of those that were clamped.
-void report_poses(Report& report, const PoseRequest& request, const fit::Bound& bound);
+void report_poses(Report& report, const PoseRequest& request, const fit::Binding& binding);
 
 }  // namespace goffer::cli

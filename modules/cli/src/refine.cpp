@@ -46,8 +46,8 @@ void run_refine(const RefineOptions& options) {
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     report_growth(report, *model.growth);
-    report.json["folds_capacity"] = model.bound.folds_capacity();
-    report.line("folds", "the mesh carries " + std::to_string(model.bound.folds_capacity()));
+    report.json["folds_capacity"] = model.binding.folds_capacity();
+    report.line("folds", "the mesh carries " + std::to_string(model.binding.folds_capacity()));
     mesh::save(model.mesh, options.output);
     report.line("written", options.output.string());
     report.finish();
@@ -75,7 +75,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     const fit::Geometry geometry{mesh.positions, triangles};
     const fit::Refinement made = fit::refine(geometry, cylinder, wanted);
-    std::vector<mesh::Between> vertices;
+    std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
     mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents});

@@ -101,7 +101,7 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     report.line("length, radius", number(cylinder.length) + ", " + number(cylinder.radius) + " (ratio " +
                                       number(cylinder.length / cylinder.radius) + ")");
     if (cylinder.rest_angle != 0) {
-        report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees towards " +
+        report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees toward " +
                                    number(degrees(cylinder.rest_direction)));
     }
     report.line("fit residual", number(cylinder.residual) + " of the radius");

@@ -49,8 +49,8 @@ Chord chord_of(const Body& cloud, const Vector3d& axis) {
 Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
     const double half = angle / 2;
     const double radius = std::sqrt(2 * chord.spread / (1 - std::sin(angle) / angle));
-    const double inwards = radius * (1 - std::sin(half) / half);
-    return line_through(chord.line.point - inwards * bow, chord.line.axis(), bow / radius);
+    const double inward = radius * (1 - std::sin(half) / half);
+    return line_through(chord.line.point - inward * bow, chord.line.axis(), bow / radius);
 }
 
 /// A body's sections, gathered in a few slices along its line: a bottle's neck is thinner than its belly, and
@@ -91,7 +91,7 @@ struct Sums {
 };
 
 /// Solves rho^2 = c + 2 (a + m z + n z^2) x + 2 (b + ..) y in least squares for (a, b, m, .., n, ..), with a
-/// c of its own in each slice: the circle of each section (Kasa 1976) with its centre on a parabola. Exact on
+/// c of its own in each slice: the circle of each section (Kasa 1976) with its center on a parabola. Exact on
 /// a cylinder.
 Row regress(const Body& body, const Line& line) {
     const View view(body, line);

@@ -26,9 +26,9 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
 }
 
 /// The regions' places on the axis, and what each can carry.
-std::vector<BoundRegion> plan(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options,
-                              std::vector<RestRegion>& rest) {
-    std::vector<BoundRegion> found;
+std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylinder,
+                                const BindOptions& options, std::vector<RestRegion>& rest) {
+    std::vector<RegionBinding> found;
     const Rows rows(geometry, cylinder);
     const bool none = options.amplitude == paper::Amplitude::none;
     for (const RegionOptions& region : regions_of(options)) {
@@ -133,7 +133,7 @@ std::vector<RegionOptions> regions_of(const BindOptions& options) {
     return regions;
 }
 
-Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
+Binding bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
     check(cylinder);
@@ -142,7 +142,7 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
     check(options, cylinder, onset);
 
     std::vector<RestRegion> places;
-    std::vector<BoundRegion> found = plan(geometry, cylinder, options, places);
+    std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
     RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
 
     std::vector<Plan> plans;
@@ -166,14 +166,14 @@ Bound bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions
             cylinder,        options.profile,  milliseconds_since(start)};
 }
 
-Bound bind_level(const Geometry& level, const Bound& rig) {
+Binding bind_level(const Geometry& level, const Binding& rig) {
     const auto start = std::chrono::steady_clock::now();
     check(level);
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or another's; give what bind returned");
     RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places_of(rig));
     std::vector<bend::RegionInput> regions = rig.body.region_inputs();
-    std::vector<BoundRegion> found = rig.regions;
+    std::vector<RegionBinding> found = rig.regions;
     const Rows rows(level, rig.cylinder);
     for (std::size_t i = 0; i < regions.size(); ++i) {
         regions[i].vertex_count = mesh.counts[i];

@@ -62,7 +62,7 @@ Line straighten(const Body& body, const Line& start) {
 
 /// The same body from its other end, if that is where `axis` says that its tip lies. Without an axis, the
 /// largest component of the direction from base to tip is positive.
-Fitted towards(const std::optional<glm::dvec3>& axis, const Fitted& fitted) {
+Fitted toward(const std::optional<glm::dvec3>& axis, const Fitted& fitted) {
     const Vector3d chord = moved_along(fitted.line, (fitted.low + fitted.high) / 2).axis();
     const double along = axis ? chord.dot(given_axis(*axis)) : chord[first_largest(chord.cwiseAbs())];
     if (!(along < 0)) return fitted;
@@ -116,7 +116,7 @@ void check_unit(const glm::dvec3& v, std::string_view name) {
     constexpr double tolerance = 1e-3;
     if (std::abs(glm::length(v) - 1) <= tolerance) return;
     throw Error("cylinder: " + std::string(name) + " " + text(eigen(v)) +
-                " is not of length 1; normalise it");
+                " is not of length 1; normalize it");
 }
 
 void check_positive(double value, std::string_view name) {
@@ -150,7 +150,7 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     std::optional<Fitted> found;
     if (rest == Rest::automatic) found = arc_instead(body, principal, best, axis);
     if (!found) found = measured(body, axis ? line : best);
-    const Cylinder cylinder = cylinder_of(body, towards(axis, *found));
+    const Cylinder cylinder = cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);
     return cylinder;
 }

@@ -65,7 +65,7 @@ double solve(const Surface& surface, std::span<const std::uint32_t> triangles, d
         const double error = at.area - wanted;
         if (std::fabs(error) < best_error) best = factor, best_error = std::fabs(error);
         if (best_error <= area_tolerance * wanted) break;
-        // Towards 0 the area no longer depends on the factor: a step is then no more than a try.
+        // Toward 0 the area no longer depends on the factor: a step is then no more than a try.
         const double change = at.slope > 1e-6 * wanted ? -error / at.slope : error < 0 ? 0.25 : -0.25;
         const double next = std::clamp(factor + std::clamp(change, -0.5, 0.5), 0.0, most);
         if (next == factor) break;
@@ -148,8 +148,8 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
         const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
         const float turned = 2 * std::numbers::pi_v<float> * static_cast<float>(direction) /
                              static_cast<float>(bend::FactorTable::directions);
-        const float towards = body.rest_pose(region).direction + turned;
-        poser.bend(region, {root * root * table.max_angle, towards}, surface);
+        const float toward = body.rest_pose(region).direction + turned;
+        poser.bend(region, {root * root * table.max_angle, toward}, surface);
         square = solve_square(surface, triangles, wanted, square > 0 ? std::sqrt(square) : 1);
         table.rows[row][direction] = static_cast<float>(square);
     }

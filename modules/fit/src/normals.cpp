@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <goffer/fit/cylinder.hpp>
+#include <goffer/fit/normals.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -64,13 +64,13 @@ std::vector<glm::vec3> make_normals(std::span<const glm::vec3> positions,
     for (std::size_t i = 0; i < own.size(); ++i) shared[place[i]] += own[i];
 
     // Where the sides of a sheet meet, back to back, they cancel: then each keeps its own.
-    constexpr double cancelled = 1e-6;
+    constexpr double canceled = 1e-6;
     std::vector<glm::vec3> normals;
     normals.reserve(positions.size());
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const glm::dvec3& sum = glm::length(shared[place[i]]) > cancelled ? shared[place[i]] : own[i];
+        const glm::dvec3& sum = glm::length(shared[place[i]]) > canceled ? shared[place[i]] : own[i];
         const double length = glm::length(sum);
-        normals.emplace_back(length > cancelled ? sum / length : glm::dvec3(0, 0, 1));
+        normals.emplace_back(length > canceled ? sum / length : glm::dvec3(0, 0, 1));
     }
     return normals;
 }

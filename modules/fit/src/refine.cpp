@@ -103,7 +103,7 @@ private:
     void cut(std::size_t triangle);
     void emit(std::size_t parent, const Upright& corners, std::array<std::uint32_t, 3> piece);
     [[nodiscard]] Upright upright(std::size_t triangle) const;
-    void append_inner(std::vector<std::uint32_t>& chain, Edge upwards);
+    void append_inner(std::vector<std::uint32_t>& chain, Edge upward);
     std::uint32_t first_between(Edge edge, std::uint32_t count);
     [[nodiscard]] double place(Edge edge, double height) const;
     [[nodiscard]] bool left_next(std::size_t i, std::size_t j) const;
@@ -114,7 +114,7 @@ private:
     std::vector<glm::dvec3> points_;  // the three below: of the mesh's vertices, then of the new ones
     std::vector<double> heights_, rows_;
     std::unordered_map<std::uint64_t, std::uint32_t> first_between_;
-    std::vector<std::uint32_t> left_, right_;  // the two sides of a triangle, inner vertices, upwards
+    std::vector<std::uint32_t> left_, right_;  // the two sides of a triangle, inner vertices, upward
     Refinement out_;
 };
 
@@ -146,7 +146,7 @@ void Refiner::emit(std::size_t parent, const Upright& corners, std::array<std::u
     out_.parents.push_back(static_cast<std::uint32_t>(parent));
 }
 
-/// The first of the `count` new vertices on an edge, which follow it upwards. Heights are the same on both
+/// The first of the `count` new vertices on an edge, which follow it upward. Heights are the same on both
 /// sides of a seam, so both name the edge that way and make the same sums.
 std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     const auto next = static_cast<std::uint32_t>(points_.size());
@@ -166,7 +166,7 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     return entry->second;
 }
 
-/// Where an edge, from a up to b, is at a height, as a share. About an arc's centre a straight edge turns one
+/// Where an edge, from a up to b, is at a height, as a share. About an arc's center a straight edge turns one
 /// way, but not evenly: by false position (the Illinois way), which brackets it whatever comes.
 double Refiner::place(Edge edge, double height) const {
     constexpr int most_steps = 60;
@@ -191,10 +191,10 @@ double Refiner::place(Edge edge, double height) const {
     return t;
 }
 
-void Refiner::append_inner(std::vector<std::uint32_t>& chain, Edge upwards) {
-    const auto count = static_cast<std::uint32_t>(pieces(upwards)) - 1;
+void Refiner::append_inner(std::vector<std::uint32_t>& chain, Edge upward) {
+    const auto count = static_cast<std::uint32_t>(pieces(upward)) - 1;
     if (count == 0) return;
-    const std::uint32_t first = first_between(upwards, count);
+    const std::uint32_t first = first_between(upward, count);
     for (std::uint32_t i = 0; i < count; ++i) chain.push_back(first + i);
 }
 

@@ -3,6 +3,8 @@
 
 #include "text.hpp"
 
+#include <goffer/fit/normals.hpp>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -138,10 +140,10 @@ glm::dmat3 axes_of(const Cylinder& cylinder) {
     return axes;
 }
 
-std::vector<RestRegion> places_of(const Bound& bound) {
+std::vector<RestRegion> places_of(const Binding& binding) {
     std::vector<RestRegion> places;
     double start = 0;
-    for (const BoundRegion& region : bound.regions) {
+    for (const RegionBinding& region : binding.regions) {
         places.push_back({start, region.length, region.folds});
         start += region.length;
     }

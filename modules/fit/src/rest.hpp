@@ -26,7 +26,7 @@ struct RestRegion {
 };
 
 /// The regions that `bound` was planned with.
-[[nodiscard]] std::vector<RestRegion> places_of(const Bound& bound);
+[[nodiscard]] std::vector<RestRegion> places_of(const Binding& binding);
 
 /// The base's axes in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);

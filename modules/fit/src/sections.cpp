@@ -10,7 +10,7 @@ namespace {
 using Row = Eigen::Matrix<double, 5, 1>;
 
 /// Solves rho^2 = c + 2 (a + m z) x + 2 (b + n z) y in least squares for (c, a, b, m, n): the circle of each
-/// section (Kasa 1976) with its centre on a line. Exact on a cylinder, wherever its vertices are.
+/// section (Kasa 1976) with its center on a line. Exact on a cylinder, wherever its vertices are.
 Row regress(const Body& body, const Line& line, bool tilt) {
     Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
     Row right = Row::Zero();
@@ -68,12 +68,12 @@ Straightened::Straightened(const Line& line)
 // As paper::to_cylindrical, about a point amid the line.
 Vector3d Straightened::unbent(const Vector3d& local) const {
     const double x = c_ * local.x() + s_ * local.y();
-    const double inwards = 1 - curvature_ * x, along = curvature_ * local.z();
+    const double inward = 1 - curvature_ * x, along = curvature_ * local.z();
     const double squared = x * x + local.z() * local.z();
-    const double far = 1 + std::sqrt(inwards * inwards + along * along);
+    const double far = 1 + std::sqrt(inward * inward + along * along);
     const double d = (2 * x - curvature_ * squared) / far;
     const double shift = curvature_ * (x * d - squared) / far;
-    return {local.x() + c_ * shift, local.y() + s_ * shift, std::atan2(along, inwards) / curvature_};
+    return {local.x() + c_ * shift, local.y() + s_ * shift, std::atan2(along, inward) / curvature_};
 }
 
 View::View(const Body& body, const Line& line) {

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-/// A surface about a centre line, straight or a circular arc: what its cross-sections are.
+/// A surface about a center line, straight or a circular arc: what its cross-sections are.
 
 namespace goffer::fit {
 
-/// A centre line. The columns of `frame` are e1, e2, e3; e3 is the tangent at `point`.
+/// A center line. The columns of `frame` are e1, e2, e3; e3 is the tangent at `point`.
 struct Line {
     Vector3d point;
     Matrix3d frame;
-    Vector3d bow = Vector3d::Zero();  // towards the arc's centre, of length 1 / its radius; 0: straight
+    Vector3d bow = Vector3d::Zero();  // toward the arc's center, of length 1 / its radius; 0: straight
 
     Vector3d axis() const { return frame.col(2); }
 };
@@ -108,7 +108,7 @@ struct Section {
 /// where there is no surface around the line.
 [[nodiscard]] Section section(const Body& body, const Line& line);
 
-/// A centre line with what is about it, in units of the body's size.
+/// A center line with what is about it, in units of the body's size.
 struct Fitted {
     Line line;
     double low, high;  // from the line's point to base and tip, along the line

@@ -15,11 +15,11 @@
 namespace goffer::fit {
 namespace {
 
-bend::Socket placed(const Bound& bound, const paper::Cylindrical& at) {
-    const std::vector<RestRegion> regions = places_of(bound);
+bend::Socket placed(const Binding& binding, const paper::Cylindrical& at) {
+    const std::vector<RestRegion> regions = places_of(binding);
     bend::Socket socket;
     socket.region = region_at(regions, at.z);
-    socket.vertex = rest_vertex(at, regions[socket.region], bound.cylinder.radius, bound.profile);
+    socket.vertex = rest_vertex(at, regions[socket.region], binding.cylinder.radius, binding.profile);
     return socket;
 }
 
@@ -50,15 +50,15 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3
 
 }  // namespace
 
-bend::Socket socket_at(const Bound& bound, double z, double beta, double rho) {
-    const double length = bound.cylinder.length;
+bend::Socket socket_at(const Binding& binding, double z, double beta, double rho) {
+    const double length = binding.cylinder.length;
     if (!(z >= 0 && z <= length)) throw Error("socket: z = " + text(z) + " is outside 0.." + text(length));
     if (!(rho >= 0) || !std::isfinite(rho)) throw Error("socket: rho = " + text(rho) + " is not a distance");
     if (!std::isfinite(beta)) throw Error("socket: beta = " + text(beta) + " is not an angle");
-    return placed(bound, {beta, z, rho});
+    return placed(binding, {beta, z, rho});
 }
 
-bend::Socket socket_near(const Bound& bound, const Geometry& geometry, const glm::dvec3& point) {
+bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const glm::dvec3& point) {
     check(geometry);
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
         throw Error("socket: the point is not finite");
@@ -74,12 +74,12 @@ bend::Socket socket_near(const Bound& bound, const Geometry& geometry, const glm
         nearest = on;
         normal = glm::normalize(own);
     }
-    const Straightening straightening(bound.cylinder);
+    const Straightening straightening(binding.cylinder);
     paper::Cylindrical at = straightening.vertex(nearest);
-    at.z = std::clamp(at.z, 0.0, bound.cylinder.length);
-    bend::Socket socket = placed(bound, at);
+    at.z = std::clamp(at.z, 0.0, binding.cylinder.length);
+    bend::Socket socket = placed(binding, at);
     socket.normal = straightening.normal(normal, at);
-    // Towards the tip, in the plane; on a cap, whose plane has no such direction, away from the axis.
+    // Toward the tip, in the plane; on a cap, whose plane has no such direction, away from the axis.
     const glm::dvec3 across(socket.normal.rho, socket.normal.beta, socket.normal.z);
     const glm::dvec3 wished = std::fabs(across.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 tangent = glm::normalize(wished - glm::dot(wished, across) * across);

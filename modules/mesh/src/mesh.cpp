@@ -160,9 +160,9 @@ void check_finite(const std::vector<glm::vec3>& values, const char* what, const 
 
 }  // namespace
 
-Records records(const Mesh& mesh) {
+VertexArrays vertex_arrays(const Mesh& mesh) {
     const Split parts = split(mesh);
-    Records out;
+    VertexArrays out;
     out.triangles = fans(mesh, parts.corners);
     out.normals = gather(mesh.normals, parts.keys, &Key::normal);
     out.tangents = gather(mesh.tangents, parts.keys, &Key::tangent);
@@ -181,12 +181,12 @@ std::vector<std::uint32_t> triangles(const Mesh& mesh) {
     return fans(mesh, mesh.corners);
 }
 
-Mesh with_records(const Mesh& mesh, const Records& bent) {
+Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {
     const Split parts = split(mesh);
     const auto enough = [&](const auto& stream) { return stream.size() >= parts.keys.size(); };
     if (!enough(bent.positions) || (!mesh.normals.empty() && !enough(bent.normals)) ||
         (!mesh.tangents.empty() && !enough(bent.tangents)))
-        throw Error("with_records: the mesh has " + std::to_string(parts.keys.size()) +
+        throw Error("with_vertex_arrays: the mesh has " + std::to_string(parts.keys.size()) +
                     " records; give each a position, and a normal and a tangent where the mesh has them");
     Mesh out = mesh;
     std::copy_n(bent.positions.begin(), out.positions.size(), out.positions.begin());
@@ -211,7 +211,7 @@ void check(const Mesh& mesh, const std::filesystem::path& file) {
     for (const auto& uvs : mesh.uvs)
         if (!fits(uvs, mesh)) fail(file, "the texture coordinates do not fit the vertices or the corners");
     if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
-        fail(file, "the colours do not fit the vertices; give one to each or none");
+        fail(file, "the colors do not fit the vertices; give one to each or none");
     if (!parts_fit(mesh)) fail(file, "the parts do not cover the faces in order, or name a missing material");
     check_finite(mesh.positions, "vertex", file);
     check_finite(mesh.normals.values, "normal", file);

@@ -68,10 +68,10 @@ private:
 };
 
 /// An attribute with an index of its own: new values where both ends have one, shared where the ends are.
-template <class T, class Between>
+template <class T, class EdgeVertex>
 class CornerMaker {
 public:
-    CornerMaker(const Cut& cut, const Attribute<T>& attribute, Between between)
+    CornerMaker(const Cut& cut, const Attribute<T>& attribute, EdgeVertex between)
         : cut_(cut), was_(attribute), out_{attribute.values, {}}, between_(between) {
         cut.each_face(*this);
     }
@@ -101,7 +101,7 @@ private:
     const Cut& cut_;
     const Attribute<T>& was_;
     Attribute<T> out_;
-    Between between_;
+    EdgeVertex between_;
     std::unordered_map<Mix, std::uint32_t, MixHash> made_;
 };
 
@@ -123,7 +123,7 @@ void refine(Attribute<T>& attribute, const Cut& cut, F between) {
 
 }  // namespace
 
-Cut::Cut(const Mesh& mesh, const Pieces& pieces) : mesh_(mesh), pieces_(pieces) {
+Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pieces) {
     std::size_t first = 0;
     fans_.reserve(3 * triangle_count(mesh));
     for (const std::uint32_t size : mesh.faces) {
@@ -223,7 +223,7 @@ Mesh refined_alone(const Cut& cut) {
     return out;
 }
 
-Mesh refined(const Mesh& mesh, const Pieces& pieces) {
+Mesh refined(const Mesh& mesh, const Subdivision& pieces) {
     const Cut cut(mesh, pieces);
     if (pieces.vertices.empty()) return mesh;
     Mesh alone = refined_alone(cut);

@@ -28,10 +28,10 @@ struct PieceCorner {
 class Cut {
 public:
     /// Throws Error where they don't fit.
-    Cut(const Mesh& mesh, const Pieces& pieces);
+    Cut(const Mesh& mesh, const Subdivision& pieces);
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-    [[nodiscard]] const Pieces& pieces() const { return pieces_; }
+    [[nodiscard]] const Subdivision& pieces() const { return pieces_; }
 
     /// The positions of the new vertices.
     [[nodiscard]] std::vector<glm::vec3> positions() const;
@@ -67,7 +67,7 @@ private:
     void check_piece(std::size_t piece) const;
 
     const Mesh& mesh_;
-    Pieces pieces_;
+    Subdivision pieces_;
     std::vector<std::size_t> fans_;         ///< the mesh's corners of each triangle, 3 each
     std::vector<std::size_t> first_piece_;  ///< of each triangle, and the number of pieces
 };

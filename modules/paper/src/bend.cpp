@@ -20,7 +20,7 @@ template <class... Parts>
     throw std::invalid_argument(text.str());
 }
 
-void require(const Body& body, const Pose& pose) {
+void require(const Parameters& body, const Pose& pose) {
     if (!(body.length > 0 && std::isfinite(body.length)))
         refuse("length is ", body.length, ": it must be a positive number");
     if (!(body.radius > 0 && std::isfinite(body.radius)))
@@ -36,13 +36,13 @@ void require(const Body& body, const Pose& pose) {
 
 }  // namespace
 
-Bend bend_of(const Body& body, const Pose& pose) {
+Bend bend_of(const Parameters& body, const Pose& pose) {
     require(body, pose);
     const double theta = pose.angle < 0 ? pose.direction + std::numbers::pi : pose.direction;
     return {body.length, body.radius, std::abs(pose.angle), theta};
 }
 
-// Eq 2-5 give the centre line X = z (1 - cos phi) / phi, Z = z sin phi / phi, both times 1 - kappa, and the
+// Eq 2-5 give the center line X = z (1 - cos phi) / phi, Z = z sin phi / phi, both times 1 - kappa, and the
 // turned cross-section on it. What is computed is the displacement from rest, so that it vanishes with alpha
 // to the last bit.
 glm::dvec3 Bend::position(const Cylindrical& rest, double wrinkle) const {
@@ -57,22 +57,22 @@ glm::dvec3 Bend::position(const Cylindrical& rest, double wrinkle) const {
                                            theta);
 }
 
-// In the bend plane, with k the curvature of the centre line, the arc's centre lies at x = 1 / k. The
-// distance from there, and the angle about it, are computed times k, and the distance d from the centre line
+// In the bend plane, with k the curvature of the center line, the arc's center lies at x = 1 / k. The
+// distance from there, and the angle about it, are computed times k, and the distance d from the center line
 // as the displacement d - x, so that nothing cancels and all of it vanishes with alpha to the last bit.
 Cylindrical Bend::inverse(const glm::dvec3& point) const {
     const double c = std::cos(theta), s = std::sin(theta);
     const double x = c * point.x + s * point.y;
     const double curvature = alpha / ((1 - kappa()) * length);
-    const double inwards = 1 - curvature * x, along = curvature * point.z;
+    const double inward = 1 - curvature * x, along = curvature * point.z;
     const double squared = x * x + point.z * point.z;
-    const double far = 1 + std::hypot(inwards, along);
+    const double far = 1 + std::hypot(inward, along);
     const double d = (2 * x - curvature * squared) / far;
     const double shift = curvature * (x * d - squared) / far;
     Cylindrical rest = to_cylindrical(point + glm::dvec3{c * shift, s * shift, 0});
     constexpr double none = 1e-100;  // so small that z is the point's own, to the last bit
     if (alpha < none) return rest;
-    double phi = std::atan2(along, inwards);
+    double phi = std::atan2(along, inward);
     if (phi < alpha / 2 - std::numbers::pi) phi += 2 * std::numbers::pi;
     rest.z = phi / alpha * length;
     return rest;

@@ -27,6 +27,6 @@ struct Bend {
 [[nodiscard]] glm::dvec3 turned(const glm::dvec3& vector, double theta);
 
 /// The bend of `body` in `pose`. Throws std::invalid_argument as the constructor of ClosedForm documents.
-[[nodiscard]] Bend bend_of(const Body& body, const Pose& pose);
+[[nodiscard]] Bend bend_of(const Parameters& body, const Pose& pose);
 
 }  // namespace goffer::paper

@@ -9,7 +9,7 @@
 
 namespace goffer::paper {
 
-Frame end_frame(const Frame& base, const Body& body, const Pose& pose) {
+Frame end_frame(const Frame& base, const Parameters& body, const Pose& pose) {
     const Bend bend = bend_of(body, pose);
     // The end's cross-section is the base's, turned by alpha in the bend plane: each axis is taken apart into
     // what lies in that plane and what does not.
@@ -22,7 +22,7 @@ Frame end_frame(const Frame& base, const Body& body, const Pose& pose) {
     return end;
 }
 
-Chain::Chain(std::span<const Body> regions, std::span<const Pose> poses) {
+Chain::Chain(std::span<const Parameters> regions, std::span<const Pose> poses) {
     if (regions.empty() || regions.size() != poses.size()) {
         throw std::invalid_argument("poses: " + std::to_string(poses.size()) + " for " +
                                     std::to_string(regions.size()) + " regions: it must be one for each");

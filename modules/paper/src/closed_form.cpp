@@ -18,7 +18,7 @@
 namespace goffer::paper {
 namespace {
 
-double area_factor(const Body& body, double alpha) {
+double area_factor(const Parameters& body, double alpha) {
     return area_factor(body.profile, body.folds, body.length, body.radius, alpha);
 }
 
@@ -27,7 +27,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0 ? v / length : v;
 }
 
-void require_rest(const Body& body) {
+void require_rest(const Parameters& body) {
     static_cast<void>(bend_of(body, {body.rest_angle, body.rest_direction}));  // throws where it cannot be
     if (!(body.rest_angle >= 0))
         throw std::invalid_argument("rest_angle is negative: turn rest_direction by pi");
@@ -83,7 +83,7 @@ struct ClosedForm::Local {
     glm::dmat3 frame;  // the bent frame's axes in (e_theta, e_theta_perp, e3)
 };
 
-ClosedForm::ClosedForm(const Body& body, const Pose& pose) : body_(body) {
+ClosedForm::ClosedForm(const Parameters& body, const Pose& pose) : body_(body) {
     const Bend bend = bend_of(body, pose);
     require_rest(body);
     alpha_ = bend.alpha;
@@ -179,7 +179,7 @@ glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector&
     return unit(turned(at.frame * bent, theta_));
 }
 
-glm::dvec3 ClosedForm::centre(double z) const {
+glm::dvec3 ClosedForm::center(double z) const {
     return Bend{body_.length, body_.radius, alpha_, theta_}.position({0, z, 0}, 0);
 }
 

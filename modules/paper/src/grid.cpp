@@ -21,7 +21,7 @@ glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double t) {
 
 }  // namespace
 
-Grid::Grid(const Body& body, std::uint32_t columns, std::uint32_t rows)
+Grid::Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows)
     : body_(body), columns_(columns), rows_(rows) {
     if (columns < 3 || rows < 2) {
         throw std::invalid_argument("the grid is " + std::to_string(columns) + " x " + std::to_string(rows) +
@@ -30,7 +30,7 @@ Grid::Grid(const Body& body, std::uint32_t columns, std::uint32_t rows)
     static_cast<void>(bend_of(body, {}));  // throws where the body's sizes are no sizes
 }
 
-Binding Grid::bind(const Cylindrical& vertex) const {
+GridVertex Grid::bind(const Cylindrical& vertex) const {
     if (!std::isfinite(vertex.beta) || !std::isfinite(vertex.z) || !std::isfinite(vertex.rho)) {
         throw std::invalid_argument("a vertex has a coordinate that is not finite: it cannot be bound");
     }
@@ -82,7 +82,7 @@ const glm::dvec3& BentGrid::node(std::uint32_t column, std::uint32_t row) const 
     return nodes_[index(shells.size() - 1, column, row)];
 }
 
-glm::dvec3 BentGrid::on_shell(std::size_t shell, const Binding& vertex) const {
+glm::dvec3 BentGrid::on_shell(std::size_t shell, const GridVertex& vertex) const {
     const std::uint32_t next = (vertex.column + 1) % columns_;
     const auto ring = [&](std::uint32_t row) {
         return between(nodes_[index(shell, vertex.column, row)], nodes_[index(shell, next, row)],
@@ -91,7 +91,7 @@ glm::dvec3 BentGrid::on_shell(std::size_t shell, const Binding& vertex) const {
     return between(ring(vertex.row), ring(vertex.row + 1), vertex.along);
 }
 
-glm::dvec3 BentGrid::position(const Binding& vertex) const {
+glm::dvec3 BentGrid::position(const GridVertex& vertex) const {
     const double depth = 1 + vertex.detail / radius_;
     const std::size_t inner = depth < shells[1] ? 0 : 1;
     const double t = (depth - shells[inner]) / (shells[inner + 1] - shells[inner]);

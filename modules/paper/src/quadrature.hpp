@@ -14,7 +14,7 @@ struct Rule {
 /// Gauss-Legendre with `order` points, exact for polynomials of degree 2 order - 1.
 [[nodiscard]] Rule gauss_legendre(int order);
 
-/// Gauss-Legendre behind the substitution t = s^2 (3 - 2 s), which draws the points towards both ends: for
+/// Gauss-Legendre behind the substitution t = s^2 (3 - 2 s), which draws the points toward both ends: for
 /// integrands that are smooth inside but bend sharply there.
 [[nodiscard]] Rule clustered(int order);
 

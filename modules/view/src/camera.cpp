@@ -49,15 +49,15 @@ Ray View::ray(const glm::vec2& place) const {
 
 View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {
     const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); };
-    if (!(length(camera.towards) > 0) || !std::isfinite(length(camera.towards)))
-        throw Error("the camera looks nowhere: towards must be a finite vector other than 0");
+    if (!(length(camera.toward) > 0) || !std::isfinite(length(camera.toward)))
+        throw Error("the camera looks nowhere: toward must be a finite vector other than 0");
     if (!(length(camera.up) > 0) || !std::isfinite(length(camera.up)))
         throw Error("the camera has no up: give a finite vector other than 0");
     if (!(camera.field_of_view >= 0.01f && camera.field_of_view <= 3.0f))
         throw Error("the camera's field of view must be from 0.01 to 3 rad");
 
     View view{};
-    view.forward = unit(camera.towards);
+    view.forward = unit(camera.toward);
     view.right = unit(upright(camera.up, view.forward));
     view.up = glm::cross(view.right, view.forward);
     view.tangent.y = std::tan(camera.field_of_view / 2);

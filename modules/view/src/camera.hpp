@@ -13,7 +13,7 @@ struct View {
     glm::vec3 eye, right, up, forward;
     glm::vec2 tangent;
 
-    /// The ray through a place of the picture, in -1..1 to the right and upwards.
+    /// The ray through a place of the picture, in -1..1 to the right and upward.
     [[nodiscard]] Ray ray(const glm::vec2& place) const;
 };
 

@@ -53,10 +53,10 @@ void fill(const Scene& scene, const View& view, const Settings& settings, Pictur
     std::vector<Hit> hits;
     for (int y = range.rows().begin(); y < range.rows().end(); ++y)
         for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
-            const glm::vec3 colour = pixel(scene, view, settings, x, y, hits);
+            const glm::vec3 color = pixel(scene, view, settings, x, y, hits);
             const std::size_t at = (static_cast<std::size_t>(y) * settings.width + x) * 3;
             const float dither = Sampler(pixel_index(settings, x, y), 0).next().x;
-            for (int c = 0; c < 3; ++c) picture.rgb[at + c] = to_srgb(colour[c], dither);
+            for (int c = 0; c < 3; ++c) picture.rgb[at + c] = to_srgb(color[c], dither);
         }
 }
 

@@ -123,7 +123,7 @@ Scene::Scene(std::span<const Model> models) {
         throw Error("the models cannot be prepared for rendering: Embree error " + std::to_string(error));
 }
 
-const glm::vec3* Scene::add(RTCScene scene, std::size_t index, const glm::dvec3& centre, double scale) {
+const glm::vec3* Scene::add(RTCScene scene, std::size_t index, const glm::dvec3& center, double scale) {
     const Model& model = bodies_[index].model;
     if (model.triangles.empty()) return nullptr;
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -133,7 +133,7 @@ const glm::vec3* Scene::add(RTCScene scene, std::size_t index, const glm::dvec3&
     auto* points =
         new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, model.positions.size());
     std::ranges::transform(model.positions, points,
-                           [&](const glm::vec3& p) { return glm::vec3((glm::dvec3(p) - centre) * scale); });
+                           [&](const glm::vec3& p) { return glm::vec3((glm::dvec3(p) - center) * scale); });
     auto* indices =
         new_buffer<glm::uvec3>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, model.triangles.size() / 3);
     std::ranges::copy(model.triangles, &indices->x);

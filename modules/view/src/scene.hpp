@@ -52,7 +52,7 @@ private:
     };
 
     [[nodiscard]] static std::optional<Hit> nearest(RTCScene scene, const Ray& ray);
-    const glm::vec3* add(RTCScene scene, std::size_t index, const glm::dvec3& centre, double scale);
+    const glm::vec3* add(RTCScene scene, std::size_t index, const glm::dvec3& center, double scale);
 
     EmbreeDevice device_;
     EmbreeScene solids_;

@@ -13,14 +13,14 @@ namespace goffer::view {
 namespace {
 
 // Light is in units of the reflection of a white wall; lengths are of a scene that measures 2.
-constexpr glm::vec3 key_colour{0.94f, 0.90f, 0.83f};
+constexpr glm::vec3 key_color{0.94f, 0.90f, 0.83f};
 constexpr float key_spread = 0.20f;  // tangent of the light's angular radius: how soft shadows are
 constexpr std::uint32_t key_rays = 2;
 constexpr glm::vec3 zenith{0.34f, 0.37f, 0.42f};
 constexpr glm::vec3 nadir{0.16f, 0.13f, 0.12f};
 constexpr float sky_reach = 1.0f;  // what is further away does not darken
 constexpr std::uint32_t sky_rays = 2;
-constexpr float bounce = 0.45f;     // of its own colour that a crease gets back where it does not see the sky
+constexpr float bounce = 0.45f;     // of its own color that a crease gets back where it does not see the sky
 constexpr float glow = 0.30f;       // light that comes through the material rather than off it
 constexpr float ghost_fade = 0.5f;  // how far a ghost must be in front of a solid to be seen over it
 
@@ -47,17 +47,17 @@ glm::vec3 key_direction(const View& view) {
 }
 
 glm::vec3 background(const glm::vec2& place) {
-    const glm::vec2 from_centre = place - glm::vec2(0, 0.25f);
+    const glm::vec2 from_center = place - glm::vec2(0, 0.25f);
     return glm::mix(glm::vec3(0.915f, 0.920f, 0.925f), glm::vec3(0.70f, 0.715f, 0.735f),
-                    std::min(1.0f, 0.36f * glm::dot(from_centre, from_centre)));
+                    std::min(1.0f, 0.36f * glm::dot(from_center, from_center)));
 }
 
 glm::vec3 sky(const glm::vec3& direction, const View& view) {
     return glm::mix(nadir, zenith, 0.5f + 0.5f * glm::dot(direction, view.up));
 }
 
-// The shading normal, leaned towards the eye where interpolation has turned it away.
-glm::vec3 towards_eye(const Surface& s, const glm::vec3& to_eye) {
+// The shading normal, leaned toward the eye where interpolation has turned it away.
+glm::vec3 toward_eye(const Surface& s, const glm::vec3& to_eye) {
     const float cosine = glm::dot(s.normal, to_eye);
     return cosine > 0.01f ? s.normal : glm::normalize(s.normal + (0.01f - cosine) * to_eye);
 }
@@ -78,7 +78,7 @@ float key_light(const Scene& scene, const View& view, const Surface& s, const gl
 }
 
 // Light of the sky over the hemisphere, cosine-weighted; near surfaces hide it and give a little of their own
-// colour.
+// color.
 glm::vec3 sky_light(const Scene& scene, const View& view, const Surface& s, const glm::vec3& normal,
                     Sampler& sampler) {
     const Frame frame = around(normal);
@@ -105,30 +105,30 @@ float rim(const glm::vec3& normal, const glm::vec3& to_eye, const View& view) {
 }
 
 // Light that enters where the key light is, lit face or not, and leaves with more of the material's own
-// colour.
-glm::vec3 through(const glm::vec3& colour, const glm::vec3& normal, const glm::vec3& key) {
+// color.
+glm::vec3 through(const glm::vec3& color, const glm::vec3& normal, const glm::vec3& key) {
     const float wrapped = std::max(0.0f, 0.4f + 0.6f * glm::dot(normal, key));
-    return glow * wrapped * colour * colour;
+    return glow * wrapped * color * color;
 }
 
 glm::vec3 solid(const Scene& scene, const View& view, const Surface& s, const glm::vec3& to_eye,
                 Sampler& sampler) {
-    const glm::vec3 normal = towards_eye(s, to_eye);
+    const glm::vec3 normal = toward_eye(s, to_eye);
     const float lit = key_light(scene, view, s, normal, sampler);
     const glm::vec3 ambient = sky_light(scene, view, s, normal, sampler);
     const float edge = rim(normal, to_eye, view);
     const float highlight = std::min(1.0f, 2 * lit) * sheen(normal, to_eye, key_direction(view));
-    const glm::vec3 colour(s.color);
-    return colour * (lit * key_colour + ambient * (1 + 2 * edge)) +
-           through(colour, normal, key_direction(view)) + highlight * key_colour + edge * ambient;
+    const glm::vec3 color(s.color);
+    return color * (lit * key_color + ambient * (1 + 2 * edge)) +
+           through(color, normal, key_direction(view)) + highlight * key_color + edge * ambient;
 }
 
 // A ghost neither casts nor catches shadows; its outline is denser than its middle, as with a bubble.
 glm::vec4 ghost(const View& view, const Surface& s, const glm::vec3& to_eye) {
-    const glm::vec3 normal = towards_eye(s, to_eye);
+    const glm::vec3 normal = toward_eye(s, to_eye);
     const float lit = 0.5f + 0.5f * glm::dot(normal, key_direction(view));
     const float edge = std::pow(1 - std::max(0.0f, glm::dot(normal, to_eye)), 2.0f);
-    return {glm::vec3(s.color) * (lit * key_colour + sky(normal, view)),
+    return {glm::vec3(s.color) * (lit * key_color + sky(normal, view)),
             glm::mix(0.75f, 1.5f, edge) * s.color.a};
 }
 
@@ -147,18 +147,18 @@ glm::vec3 exposed(const glm::vec3& light) {
 glm::vec3 shade(const Scene& scene, const View& view, const glm::vec2& place, Sampler& sampler,
                 std::vector<Hit>& hits) {
     Ray ray = view.ray(place);
-    glm::vec3 colour = background(place);
+    glm::vec3 color = background(place);
     if (const auto hit = scene.solid(ray)) {
-        colour = exposed(solid(scene, view, scene.surface(*hit, ray), -ray.direction, sampler));
+        color = exposed(solid(scene, view, scene.surface(*hit, ray), -ray.direction, sampler));
         ray.length = hit->distance;
     }
     scene.ghosts(ray, hits);
     for (const Hit& hit : hits) {
         const glm::vec4 over = ghost(view, scene.surface(hit, ray), -ray.direction);
         const float seen = std::min(1.0f, (ray.length - hit.distance) / ghost_fade);
-        colour = glm::mix(colour, exposed(glm::vec3(over)), glm::clamp(seen * over.a, 0.0f, 1.0f));
+        color = glm::mix(color, exposed(glm::vec3(over)), glm::clamp(seen * over.a, 0.0f, 1.0f));
     }
-    return colour;
+    return color;
 }
 
 }  // namespace goffer::view

@@ -6,7 +6,7 @@
 
 namespace goffer::view {
 
-/// Linear colour of what `place` of the picture shows (-1..1 to the right and upwards), 0..1. `hits` is
+/// Linear color of what `place` of the picture shows (-1..1 to the right and upward), 0..1. `hits` is
 /// scratch.
 [[nodiscard]] glm::vec3 shade(const Scene& scene, const View& view, const glm::vec2& place, Sampler& sampler,
                               std::vector<Hit>& hits);

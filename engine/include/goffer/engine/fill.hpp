@@ -11,7 +11,7 @@
 
 namespace goffer {
 
-/// Sets every float of `to`, the caller's memory, to a number from 1 to 2 that differs from its neighbours':
+/// Sets every float of `to`, the caller's memory, to a number from 1 to 2 that differs from its neighbors':
 /// memory that is all zeros or all one number is something that some machines are faster with. The numbers
 /// repeat every four cache lines, depend on `seed` and on where in its line a float lies, and not on where
 /// `to` begins. Does not allocate. Thread-safe where ranges do not overlap.

@@ -22,8 +22,8 @@ struct DoubledLanes {
         return part == 0 ? value.low : value.high;
     }
 
-    static Vec set(float value) {
-        const typename Lanes::Vec both = Lanes::set(value);
+    static Vec splat(float value) {
+        const typename Lanes::Vec both = Lanes::splat(value);
         return {both, both};
     }
     static Vec load(const float* from) { return {Lanes::load(from), Lanes::load(from + half)}; }
@@ -54,7 +54,7 @@ struct DoubledLanes {
         return {Lanes::where_less(a.low, b.low, yes.low, no.low),
                 Lanes::where_less(a.high, b.high, yes.high, no.high)};
     }
-    static Vec larger(Vec a, Vec b) { return {Lanes::larger(a.low, b.low), Lanes::larger(a.high, b.high)}; }
+    static Vec max(Vec a, Vec b) { return {Lanes::max(a.low, b.low), Lanes::max(a.high, b.high)}; }
     static Vec reciprocal(Vec a) { return {Lanes::reciprocal(a.low), Lanes::reciprocal(a.high)}; }
     static Vec with_sign(Vec magnitude, Vec sign) {
         return {Lanes::with_sign(magnitude.low, sign.low), Lanes::with_sign(magnitude.high, sign.high)};

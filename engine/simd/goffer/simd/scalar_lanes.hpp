@@ -19,7 +19,7 @@ struct ScalarLanes {
     using Single = ScalarLanes;
     static Vec single(Vec value, std::size_t /*part*/) { return value; }
 
-    static Vec set(float value) { return value; }
+    static Vec splat(float value) { return value; }
     static Vec load(const float* from) { return *from; }
     static void store(float* to, Vec value) { *to = value; }
     /// Past the cache where the processor can; `to` aligned to the batch. Ordered by the next simd::fence().
@@ -40,8 +40,8 @@ struct ScalarLanes {
     static Vec rsqrt(Vec a) { return 1.0f / std::sqrt(a); }
     /// a < b ? yes : no
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) { return a < b ? yes : no; }
-    static Vec larger(Vec a, Vec b) { return a > b ? a : b; }
-    static Vec smaller(Vec a, Vec b) { return a < b ? a : b; }
+    static Vec max(Vec a, Vec b) { return a > b ? a : b; }
+    static Vec min(Vec a, Vec b) { return a < b ? a : b; }
     static Vec sqrt(Vec a) { return std::sqrt(a); }
     /// 1 / a, a > 0, to about the last bit
     static Vec reciprocal(Vec a) { return 1.0f / a; }

@@ -24,7 +24,7 @@ struct XsimdLanes {
     /// Of Newton's, after an estimate: one from 12 bits, two from Arm's 8.
     static constexpr int estimate_steps = std::is_base_of_v<xsimd::neon, Arch> ? 2 : 1;
 
-    static Vec set(float value) { return Vec(value); }
+    static Vec splat(float value) { return Vec(value); }
     static Vec load(const float* from) { return Vec::load_unaligned(from); }
     static void store(float* to, Vec value) { value.store_unaligned(to); }
 
@@ -88,7 +88,7 @@ struct XsimdLanes {
     static Vec where_less(Vec a, Vec b, Vec yes, Vec no) {
         return xsimd::select(a < b, yes, no);
     }
-    static Vec larger(Vec a, Vec b) {
+    static Vec max(Vec a, Vec b) {
         return xsimd::max(a, b);
     }
     static Vec reciprocal(Vec a) {
@@ -107,7 +107,7 @@ struct XsimdLanes {
         return bits(lower | (xsimd::nearbyint_as_int(high) << 16));
     }
 
-    static Vec smaller(Vec a, Vec b) {
+    static Vec min(Vec a, Vec b) {
         return xsimd::min(a, b);
     }
     static Vec sqrt(Vec a) {

@@ -21,7 +21,7 @@ namespace goffer::bend {
 /// The frame that a region begins in: axes and origin in float, model space.
 struct Frame {
     float axes[3][4];  ///< e1, e2, e3, each followed by a 0
-    float origin[4];   ///< centre of the cross-section, followed by a 0
+    float origin[4];   ///< center of the cross-section, followed by a 0
 };
 
 /// What bounds() needs to know of the vertices in a band of z: one of `count` between the lowest and the
@@ -29,11 +29,11 @@ struct Frame {
 struct Bands {
     static constexpr std::size_t count = 11;
     static constexpr std::size_t places = 16;
-    float lowest = 0;                  ///< v = z / L - 1/2 where the first band begins
-    float highest = 0;                 ///< and where the last one ends
-    std::array<float, places> rho{};   ///< largest distance from the axis, model units; below 0: no vertex
-    std::array<float, places> lift{};  ///< largest g w, at least 0
-    std::array<float, places> dip{};   ///< largest -g w, at least 0
+    float lowest = 0;                     ///< v = z / L - 1/2 where the first band begins
+    float highest = 0;                    ///< and where the last one ends
+    std::array<float, places> rho{};      ///< largest distance from the axis, model units; below 0: no vertex
+    std::array<float, places> outward{};  ///< largest g w, at least 0
+    std::array<float, places> inward{};   ///< largest -g w, at least 0
 };
 
 /// What an instance's set-up reads of a region, beside its Region.

@@ -34,7 +34,7 @@ BodyFault first_fault(std::span<const Limited> numbers, std::size_t index) noexc
 }
 
 BodyFault check_origin(const glm::dvec3& origin) noexcept {
-    constexpr double most = Range::most_origin;
+    constexpr double most = Range::max_origin;
     const Limited numbers[] = {{BodyField::origin, origin.x, -most, most},
                                {BodyField::origin, origin.y, -most, most},
                                {BodyField::origin, origin.z, -most, most}};
@@ -63,7 +63,7 @@ Reason check_table(const Table& table) noexcept {
         if (!finite) return Reason::not_finite;
     }
     const auto angle = static_cast<double>(table.max_angle);
-    return reason_of(angle, Range::least_angle, static_cast<double>(std::numeric_limits<float>::max()));
+    return reason_of(angle, Range::min_angle, static_cast<double>(std::numeric_limits<float>::max()));
 }
 
 bool compares_with_rest(const RegionInput& region) noexcept {
@@ -112,18 +112,18 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
 
 bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
     constexpr double most_coefficient = 1e36;  // times 15 in a slope's, and still a float
-    return wrinkle.depth <= Range::most_depth && wrinkle.amplitude <= most_coefficient;
+    return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= most_coefficient;
 }
 
 BodyFault check_region(const RegionInput& region, std::size_t index, double radius) noexcept {
     const double most = region.length / (2 * radius);
-    const double most_angle = std::min(most * (1 + 1e-6), Range::most_angle);
-    const double most_rest = std::min(most * Range::most_rest, region.max_angle);
-    const double most_direction = Range::most_angle;
+    const double max_angle = std::min(most * (1 + 1e-6), Range::max_angle);
+    const double max_rest = std::min(most * Range::max_rest, region.max_angle);
+    const double most_direction = Range::max_angle;
     const Limited numbers[] = {
-        {BodyField::length, region.length, Range::least_length, Range::most_length},
-        {BodyField::max_angle, region.max_angle, Range::least_angle, most_angle},
-        {BodyField::rest_angle, region.rest_angle, 0, most_rest},
+        {BodyField::length, region.length, Range::min_length, Range::max_length},
+        {BodyField::max_angle, region.max_angle, Range::min_angle, max_angle},
+        {BodyField::rest_angle, region.rest_angle, 0, max_rest},
         {BodyField::rest_direction, region.rest_direction, -most_direction, most_direction},
         {BodyField::onset, region.onset, 0, 1}};
     if (const BodyFault fault = first_fault(numbers, index); !fault.none()) return fault;
@@ -146,18 +146,18 @@ BodyFault check_counts(const BodyInput& input) noexcept {
 
 BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,
                        double depth) noexcept {
-    constexpr double most = std::numeric_limits<double>::max(), most_wrinkle = Range::most_wrinkle;
+    constexpr double most = std::numeric_limits<double>::max(), max_wrinkle = Range::max_wrinkle;
     const double slack = 1e-3 * region.length;
     const double growth = depth * std::fabs(v.wrinkle);
     const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
     const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
                                {BodyField::z, v.z, -slack, region.length + slack},
-                               {BodyField::rho, v.rho, 0, Range::most_length},
-                               {BodyField::wrinkle, v.wrinkle, -most_wrinkle, most_wrinkle},
-                               {BodyField::slope, v.slope, -most_wrinkle, most_wrinkle},
-                               {BodyField::wrinkle, growth, 0, Range::most_growth},
-                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::most_growth},
-                               {BodyField::rho, reach, 0, Range::most_reach}};
+                               {BodyField::rho, v.rho, 0, Range::max_length},
+                               {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
+                               {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
+                               {BodyField::wrinkle, growth, 0, Range::max_growth},
+                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
+                               {BodyField::rho, reach, 0, Range::max_radius_ratio}};
     return first_fault(numbers, index);
 }
 
@@ -194,7 +194,7 @@ BodyFault check_signs(std::span<const float> signs, std::size_t count) noexcept 
 BodyFault check_frame(const BodyInput& input) noexcept {
     if (const BodyFault fault = check_origin(input.origin); !fault.none()) return fault;
     if (const BodyFault fault = check_axes(input.axes); !fault.none()) return fault;
-    const Limited radius{BodyField::radius, input.radius, Range::least_length, Range::most_length};
+    const Limited radius{BodyField::radius, input.radius, Range::min_length, Range::max_length};
     return first_fault({&radius, 1}, BodyFault::nowhere);
 }
 

@@ -15,7 +15,7 @@ enum Column : std::size_t {
     cos_half_beta,
     sin_half_beta,
     rho,
-    lift,
+    radial_offset,
     height,
     wrinkle,
     slope,
@@ -47,7 +47,7 @@ RestColumns columns_of(const Columns& storage, bool has_tangents) {
     columns.cos_half_beta = at(cos_half_beta);
     columns.sin_half_beta = at(sin_half_beta);
     columns.rho = at(rho);
-    columns.lift = at(lift);
+    columns.radial_offset = at(radial_offset);
     columns.height = at(height);
     columns.wrinkle = at(wrinkle);
     columns.slope = at(slope);
@@ -91,7 +91,7 @@ void write_vertices(Columns& storage, const Making& making, std::span<const Rest
         storage[cos_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::cos(v.beta / 2));
         storage[sin_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::sin(v.beta / 2));
         storage[rho][i] = static_cast<float>(v.rho);
-        storage[lift][i] = static_cast<float>(scale * v.wrinkle * v.rho);
+        storage[radial_offset][i] = static_cast<float>(scale * v.wrinkle * v.rho);
         storage[height][i] = static_cast<float>(v.z / making.region.length - 0.5);
         storage[wrinkle][i] = static_cast<float>(scale * v.wrinkle);
         storage[slope][i] = static_cast<float>(scale * v.slope);
@@ -134,8 +134,8 @@ Bands bands_of(const RestColumns& columns, const Making& making) {
         const auto band = static_cast<std::size_t>((columns.height[i] - bands.lowest) * per_height);
         const std::size_t place = std::min(band, Bands::count - 1) + 1;
         bands.rho[place] = std::max(bands.rho[place], columns.rho[i]);
-        bands.lift[place] = std::max(bands.lift[place], columns.lift[i]);
-        bands.dip[place] = std::max(bands.dip[place], -columns.lift[i]);
+        bands.outward[place] = std::max(bands.outward[place], columns.radial_offset[i]);
+        bands.inward[place] = std::max(bands.inward[place], -columns.radial_offset[i]);
     }
     return bands;
 }

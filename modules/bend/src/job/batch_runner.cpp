@@ -28,7 +28,7 @@ PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
 }
 
 /// Positions in steps of the box: what the packed kernel rounds.
-void quantise(Coefficients& k, const Bounds& bounds) noexcept {
+void quantize(Coefficients& k, const Bounds& bounds) noexcept {
     for (int row = 0; row < 3; ++row) {
         const float extent = bounds.high[row] - bounds.low[row];
         const float scale = extent > 0 ? 65535.0f / extent : 0.0f;
@@ -68,9 +68,9 @@ void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last)
     const bool whole = first == 0 && last == body_.vertex_count;
     if (!whole) finish();
     const std::size_t element = element_of(batch_, instance);
-    const std::size_t vertex =
-        batch_.places.empty() ? instance * batch_.step : std::size_t{batch_.places[element]};
-    members_[member_count_++] = {instance, element, vertex, plan_.head(vertex)};
+    const std::size_t vertex = batch_.vertex_offsets.empty() ? instance * batch_.vertex_step
+                                                             : std::size_t{batch_.vertex_offsets[element]};
+    members_[member_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
     if (!whole) {
         run_group(first, last);
     } else if (member_count_ == group_size_) {
@@ -89,9 +89,9 @@ void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
         const std::size_t end = (begin / block_vertices + 1) * block_vertices;
         for (std::size_t i = 0; i < member_count_; ++i) {
             // Blocks end where lines end, which is not at the same vertex for every instance.
-            const std::size_t head = members_[i].head;
-            const std::size_t from = begin == first ? first : std::min(begin + head, last);
-            deform(i, from, end >= last ? last : std::min(end + head, last));
+            const std::size_t peeled = members_[i].peeled;
+            const std::size_t from = begin == first ? first : std::min(begin + peeled, last);
+            deform(i, from, end >= last ? last : std::min(end + peeled, last));
         }
         begin = end;
     }
@@ -135,19 +135,19 @@ void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexce
         std::copy_n(coefficients(member, current), regions_, k);
         std::copy_n(squeezes(member, current), regions_, squeezes(member, packed));
     }
-    for (std::size_t r = 0; r < regions_; ++r) quantise(k[r], bounds);
+    for (std::size_t r = 0; r < regions_; ++r) quantize(k[r], bounds);
 }
 
 std::size_t BatchRunner::line_before(std::size_t member, std::size_t vertex) const noexcept {
-    const std::size_t head = members_[member].head;
-    return vertex < head ? 0 : vertex - (vertex - head) % line_floats;
+    const std::size_t peeled = members_[member].peeled;
+    return vertex < peeled ? 0 : vertex - (vertex - peeled) % line_floats;
 }
 
 std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) const noexcept {
     const std::size_t before = line_before(member, vertex);
-    return before == vertex                 ? vertex
-           : vertex < members_[member].head ? members_[member].head
-                                            : before + line_floats;
+    return before == vertex                   ? vertex
+           : vertex < members_[member].peeled ? members_[member].peeled
+                                              : before + line_floats;
 }
 
 /// Where a stretch that goes through the stage ends, which begins at `first` in `region`: behind the last
@@ -178,9 +178,9 @@ void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& 
 /// Where a block ends that begins at `first`: where lines end, and after at most `most` vertices.
 std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::size_t last,
                                    std::size_t most) const noexcept {
-    const std::size_t head = members_[member].head;
+    const std::size_t peeled = members_[member].peeled;
     const std::size_t end =
-        first < head ? head + most - line_floats : head + ((first - head) / most + 1) * most;
+        first < peeled ? peeled + most - line_floats : peeled + ((first - peeled) / most + 1) * most;
     return std::min(end, last);
 }
 

@@ -4,7 +4,7 @@
 #include "body/body_data.hpp"
 #include "kernel/args.hpp"
 #include "output/output_plan.hpp"
-#include "output/stage.hpp"
+#include "output/staging_buffer.hpp"
 #include "output/strips.hpp"
 #include "pose/posed_group.hpp"
 
@@ -38,7 +38,7 @@ private:
         std::size_t instance;  ///< of the batch
         std::size_t element;   ///< of its columns
         std::size_t vertex;    ///< its first one, in the buffer
-        std::size_t head;      ///< its vertices before the first one that begins a line
+        std::size_t peeled;    ///< its vertices before the first one that begins a line
     };
 
     /// Coefficients of a whole group: of `sets` poses each, and of each of these all regions.
@@ -92,7 +92,7 @@ private:
     Squeeze squeezes_[most_coefficients];
     Coefficients coefficients_[most_coefficients];
     PosedGroup posed_;
-    Stage stage_;
+    StagingBuffer stage_;
     Strips strips_;
 };
 

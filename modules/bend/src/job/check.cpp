@@ -124,16 +124,16 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     const std::size_t vertices = batch.body->vertex_count();
     if (room < vertices) return fault_of(shortest, Reason::too_short);
     const std::size_t last = room - vertices;
-    if (batch.places.empty()) {
+    if (batch.vertex_offsets.empty()) {
         if (batch.count == 1) return {};
         // Divided, since the product may be too large.
-        if (batch.step > last / (batch.count - 1)) return fault_of(shortest, Reason::too_short);
-        return batch.step < vertices ? fault_of(Field::step, Reason::overlap) : Fault{};
+        if (batch.vertex_step > last / (batch.count - 1)) return fault_of(shortest, Reason::too_short);
+        return batch.vertex_step < vertices ? fault_of(Field::vertex_step, Reason::overlap) : Fault{};
     }
     for (std::size_t i = 0; i < batch.count; ++i) {
         const std::size_t element = element_of(batch, i);
-        if (batch.places[element] > last)
-            return {.field = Field::places, .reason = Reason::out_of_range, .instance = i};
+        if (batch.vertex_offsets[element] > last)
+            return {.field = Field::vertex_offsets, .reason = Reason::out_of_range, .instance = i};
     }
     return {};
 }
@@ -185,7 +185,7 @@ Fault check_columns(const Batch& batch) noexcept {
     extent.take(Field::visible, batch.visible);
     extent.take(Field::changed, batch.changed);
     extent.take(Field::update_intervals, batch.update_intervals);
-    extent.take(Field::places, batch.places);
+    extent.take(Field::vertex_offsets, batch.vertex_offsets);
     if (extent.fault.none() && !batch.bounds.empty() && batch.bounds.size() < batch.count)
         return fault_of(Field::bounds, Reason::count);
     return extent.fault;

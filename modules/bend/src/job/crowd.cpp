@@ -182,8 +182,8 @@ Batch batch_of(const DeformJob& job) noexcept {
 
 glm::mat4x3 TransformColumn::operator[](std::size_t index) const noexcept {
     const float* from = first.at(index);
-    const int column = layout == Layout::columns3 ? 3 : layout == Layout::columns4 ? 4 : 1;
-    const int row = layout == Layout::rows4 ? 4 : 1;
+    const int column = layout == MatrixLayout::columns3 ? 3 : layout == MatrixLayout::columns4 ? 4 : 1;
+    const int row = layout == MatrixLayout::rows4 ? 4 : 1;
     glm::mat4x3 matrix;
     for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 3; ++r) matrix[c][r] = from[c * column + r * row];

@@ -37,10 +37,10 @@ std::string_view name(Field field) noexcept {
             return "previous_transform";
         case Field::outputs:
             return "outputs";
-        case Field::places:
-            return "places";
-        case Field::step:
-            return "step";
+        case Field::vertex_offsets:
+            return "vertex_offsets";
+        case Field::vertex_step:
+            return "vertex_step";
         case Field::indices:
             return "indices";
         case Field::visible:
@@ -83,7 +83,7 @@ std::string_view words(Field field, Reason reason) noexcept {
         case Reason::too_large:
             return "a number in it is beyond 1e18";
         case Reason::out_of_range:
-            return field == Field::places           ? "the instance would end behind the end of a stream"
+            return field == Field::vertex_offsets   ? "the instance would end behind the end of a stream"
                    : field == Field::wrinkle_weight ? "not in 0..1"
                                                     : "beyond the end of poses";
         case Reason::count:
@@ -95,8 +95,8 @@ std::string_view words(Field field, Reason reason) noexcept {
         case Reason::alignment:
             return "not aligned to the type of its elements";
         case Reason::overlap:
-            return field == Field::step ? "below the body's vertex_count(): instances would overlap"
-                                        : "writes to the same bytes as ";
+            return field == Field::vertex_step ? "below the body's vertex_count(): instances would overlap"
+                                               : "writes to the same bytes as ";
         case Reason::not_supported:
             return field == Field::isa ? "not built, or this machine cannot run it"
                                        : "the body was made without tangents";

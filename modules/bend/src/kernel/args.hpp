@@ -59,15 +59,15 @@ struct alignas(16) Coefficients {
     float cos_half_direction, sin_half_direction;  ///< of theta / 2
     float one_minus_kappa;
     float curvature;          ///< alpha / L
-    float reach[arc_terms];   ///< L sin delta / alpha = v sum reach[n] v^(2n), v = z / L - 1/2
-    float rise[arc_terms];    ///< L (1 - cos delta) / alpha = v^2 sum rise[n] v^(2n)
+    float arc_z[arc_terms];   ///< L sin delta / alpha = v sum arc_z[n] v^(2n), v = z / L - 1/2
+    float arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
     float first_curvature;    ///< alpha / 2^doublings / L
-    float doublings;          ///< rise and reach are for alpha / 2^doublings
+    float doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
     float half_radius;        ///< depth weight: inner parts lie below it
     float handedness;         ///< -1 where `matrix` mirrors, else 1
     float matrix[12];         ///< columns of four, the last 0: middle frame's n, b, t in the streams' space
     float offset[4];          ///< the arc's middle in the streams' space
-    float normal_matrix[12];  ///< as `matrix`: its cofactors, to scale and facing outwards
+    float normal_matrix[12];  ///< as `matrix`: its cofactors, to scale and facing outward
     /// A = |h| sum amplitude[n] T^n, dA/dbeta = sign(h) h' sum amplitude_slope[n] T^n; relative, with
     /// x = q^2 / (q + onset): A / S_0 = sqrt(x) sum amplitude[n] x^n, its slope over sqrt(x) likewise.
     float amplitude[amplitude_terms];
@@ -111,9 +111,9 @@ using RowKernel = void (*)(const RestColumns& rest, const Coefficients& k, const
 
 /// The same to records without gaps, of the vectors that the kernel makes and no others: lines of a single
 /// stream that begins at `record`. Write::non_temporal: from the first line on that begins with a vertex,
-/// `head` vertices behind.
+/// `peeled` vertices behind.
 using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, float* record,
-                               std::size_t first, std::size_t count, Write write, std::size_t head);
+                               std::size_t first, std::size_t count, Write write, std::size_t peeled);
 
 /// Writes records of as many floats as there are planes, `lines` times 16 of them. `non_temporal`: past the
 /// cache, and not fenced; `to` then begins a line.

@@ -149,15 +149,15 @@ template <class L, Squeeze squeeze, StreamSet streams, class Store>
 void deform_units(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t vertices,
                   std::size_t next, const Store& store) {
     constexpr bool looks_ahead = squeeze == Squeeze::relative && !has_normals(streams);
-    [[maybe_unused]] Ahead<L> ahead;
+    [[maybe_unused]] ColumnBuffer<L> ahead;
     [[maybe_unused]] std::size_t turned_from = 0, turned = 0;
     for (std::size_t j = 0; j < vertices; j = next, next += unit<L>) {
         if constexpr (looks_ahead) {
             if (j >= turned) {
                 turned_from = j;
-                turned = next + Ahead<L>::vertices - unit<L>;
+                turned = next + ColumnBuffer<L>::vertices - unit<L>;
                 turned = turned < vertices ? turned : vertices;
-                turn_ahead<L, squeeze>(rest, k, first + turned_from, first + turned, ahead);
+                fill_column_buffer<L, squeeze>(rest, k, first + turned_from, first + turned, ahead);
             }
         }
         Results<L> results[batches<L>];
@@ -185,9 +185,9 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
     const RestColumns rest = columns;
     const Coefficients k = coefficients;
     const PlaneOutput out = output;
-    std::size_t head = 0;
+    std::size_t peeled = 0;
     if (write == Write::non_temporal) {
-        head = floats_to_line<L>(out.position[0]);
+        peeled = floats_to_line<L>(out.position[0]);
         for (std::size_t c = 0; c < 3; ++c) {
             prefetch_ends<L>(out.position[c], vertices);
             if constexpr (has_normals(streams) && streams != StreamSet::packed)
@@ -196,7 +196,7 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
         }
     }
     deform_units<L, squeeze, streams>(
-        rest, k, first, vertices, head != 0 ? head : unit<L>,
+        rest, k, first, vertices, peeled != 0 ? peeled : unit<L>,
         [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
             store_planes<L>(results, &Results<L>::position, out.position, j, count, write);
             if constexpr (has_normals(streams) && streams != StreamSet::packed)
@@ -262,13 +262,13 @@ void write_records(const Results<L> (&results)[batches<L>], float* to, bool non_
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_records(const RestColumns& columns, const Coefficients& coefficients,
                                       float* record, std::size_t first, std::size_t vertices, Write write,
-                                      std::size_t head) {
+                                      std::size_t peeled) {
     const RestColumns rest = columns;
     const Coefficients k = coefficients;
     constexpr int floats = streams == StreamSet::positions_normals ? 6 : 3;
     if (write == Write::non_temporal) prefetch_ends<L>(record, floats * vertices);
     deform_units<L, squeeze, streams>(
-        rest, k, first, vertices, head != 0 ? head : unit<L>,
+        rest, k, first, vertices, peeled != 0 ? peeled : unit<L>,
         [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
             float* const to = record + j * floats;
             if (count == unit<L>) [[likely]] {

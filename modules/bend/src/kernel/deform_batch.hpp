@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/args.hpp"
+#include "kernel/sin_cos.hpp"
 
 /// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
 /// XsimdLanes<Arch>, or two of them in step.
@@ -15,8 +16,8 @@ namespace goffer::bend {
 
 template <class L, std::size_t N>
 typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
-    typename L::Vec sum = L::set(coefficients[N - 1]);
-    for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::set(coefficients[n]));
+    typename L::Vec sum = L::splat(coefficients[N - 1]);
+    for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(coefficients[n]));
     return sum;
 }
 
@@ -24,11 +25,11 @@ typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
 template <class L, std::size_t N>
 typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec x) {
     const typename L::Vec xx = x * x;
-    typename L::Vec even = L::set(coefficients[N - 2]);
-    typename L::Vec odd = L::set(coefficients[N - 1]);
+    typename L::Vec even = L::splat(coefficients[N - 2]);
+    typename L::Vec odd = L::splat(coefficients[N - 1]);
     for (std::size_t n = N - 2; n > 0; n -= 2) {
-        even = L::madd(even, xx, L::set(coefficients[n - 2]));
-        odd = L::madd(odd, xx, L::set(coefficients[n - 1]));
+        even = L::madd(even, xx, L::splat(coefficients[n - 2]));
+        odd = L::madd(odd, xx, L::splat(coefficients[n - 1]));
     }
     return L::madd(odd, x, even);
 }
@@ -44,39 +45,34 @@ struct Bent {
     Vec amplitude;     // A; A / S_0 where the squeeze is relative
     Vec slope;         // of the same over beta
     Vec rho_c, rho_s;  // rho' c, rho' s
-    Vec rise, reach;   // L (1 - cos delta) / alpha, L sin delta / alpha
+    Vec arc_x, arc_z;  // L (1 - cos delta) / alpha, L sin delta / alpha
     Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
-};
-
-/// Cosine and sine of an angle.
-template <class L>
-struct Turn {
-    typename L::Vec cosine, sine;
 };
 
 /// The columns' angles less the instance's. Of half angles times the root of two: the half difference, times
 /// that root.
 template <class L>
-Turn<L> turned_by(Turn<L> columns, float cos_direction, float sin_direction) {
-    const typename L::Vec ct = L::set(cos_direction);
-    const typename L::Vec st = L::set(sin_direction);
-    return {L::madd(columns.sine, st, columns.cosine * ct), L::nmadd(columns.cosine, st, columns.sine * ct)};
+SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction) {
+    const typename L::Vec ct = L::splat(cos_direction);
+    const typename L::Vec st = L::splat(sin_direction);
+    return {L::nmadd(columns.cosine, st, columns.sine * ct), L::madd(columns.sine, st, columns.cosine * ct)};
 }
 
 /// The directions of columns, and the wrinkle of those that are squeezed by q = kappa T, if by any.
 template <class L, Squeeze squeeze, bool slope>
 void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const auto [h, h_prime] = turned_by<L>({L::load(rest.cos_half_beta + i), L::load(rest.sin_half_beta + i)},
-                                           k.cos_half_direction, k.sin_half_direction);
+    const auto [h_prime, h] =
+        rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
+                      k.cos_half_direction, k.sin_half_direction);
     const Vec t = h * h;
-    b.c = t - L::set(1.0f);
+    b.c = t - L::splat(1.0f);
     b.s = h * h_prime;
     if constexpr (squeeze == Squeeze::none) return;
     b.amplitude = L::abs(h) * long_polynomial<L>(k.amplitude, t);
     if constexpr (slope) {
         // A has a corner where h changes sign, on the outer line; across it the two slopes are blended.
-        const Vec sign = L::clamp(h * L::set(per_crease_width), L::set(-1.0f), L::set(1.0f));
+        const Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
         b.slope = sign * h_prime * long_polynomial<L>(k.amplitude_slope, t);
     }
 }
@@ -85,27 +81,27 @@ void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& 
 template <class L, bool slope>
 void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const Turn<L> turn = turned_by<L>({L::load(rest.cos_beta + i), L::load(rest.sin_beta + i)},
-                                      k.cos_direction, k.sin_direction);
+    const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},
+                                         k.cos_direction, k.sin_direction);
     b.c = turn.cosine;
     b.s = turn.sine;
     const Vec rest_cosine = L::load(rest.rest_cosine + i);
     const Vec rest_sine = L::load(rest.rest_sine + i);
-    const Vec zero = L::set(0.0f);
-    const Vec q = L::larger(L::madd(L::set(k.squeeze[2]), rest_sine,
-                                    L::madd(L::set(k.squeeze[1]), rest_cosine, L::set(k.squeeze[0]))),
-                            zero);
-    const Vec per_root = L::rsqrt(q + L::set(k.onset));
+    const Vec zero = L::splat(0.0f);
+    const Vec q = L::max(L::madd(L::splat(k.squeeze[2]), rest_sine,
+                                 L::madd(L::splat(k.squeeze[1]), rest_cosine, L::splat(k.squeeze[0]))),
+                         zero);
+    const Vec per_root = L::rsqrt(q + L::splat(k.onset));
     const Vec root = q * per_root;
     const Vec x = root * root;
     b.amplitude = root * long_polynomial<L>(k.amplitude, x);
     if constexpr (slope) {
         const Vec rest_slope =
-            L::nmadd(L::set(k.rest_curl[1]), rest_cosine, L::set(k.rest_curl[0]) * rest_sine);
+            L::nmadd(L::splat(k.rest_curl[1]), rest_cosine, L::splat(k.rest_curl[0]) * rest_sine);
         const Vec turned =
-            L::nmadd(L::set(k.curl_change[0]), rest_sine, L::set(k.curl_change[1]) * rest_cosine);
+            L::nmadd(L::splat(k.curl_change[0]), rest_sine, L::splat(k.curl_change[1]) * rest_cosine);
         const Vec q_slope = L::nmadd(q, rest_slope, turned);
-        const Vec root_slope = per_root * L::nmadd(L::set(0.5f) * root, per_root, L::set(1.0f)) *
+        const Vec root_slope = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
                                L::where_less(zero, q, q_slope, zero);
         b.slope = L::madd(b.amplitude, rest_slope, root_slope * long_polynomial<L>(k.amplitude_slope, x));
     }
@@ -122,7 +118,7 @@ Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i
         set_plain_wrinkle<L, squeeze, slope>(rest, k, b, i);
     }
     Vec rho = L::load(rest.rho + i);
-    if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(rest.lift + i), rho);
+    if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(rest.radial_offset + i), rho);
     b.rho_c = rho * b.c;
     b.rho_s = rho * b.s;
     return b;
@@ -134,16 +130,16 @@ void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::si
     using Vec = typename L::Vec;
     const Vec v = L::load(rest.height + i);
     const Vec vv = v * v;
-    b.rise = vv * polynomial<L>(k.rise, vv);
-    b.reach = v * polynomial<L>(k.reach, vv);
+    b.arc_x = vv * polynomial<L>(k.arc_x, vv);
+    b.arc_z = v * polynomial<L>(k.arc_z, vv);
     float curvature = k.first_curvature;
     for (float n = 0; n < k.doublings; ++n) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
-        const Vec cosine = L::nmadd(L::set(curvature), b.rise, L::set(1.0f));
-        b.rise = L::set(curvature) * b.reach * b.reach;
-        b.reach = b.reach * cosine;
+        const Vec cosine = L::nmadd(L::splat(curvature), b.arc_x, L::splat(1.0f));
+        b.arc_x = L::splat(curvature) * b.arc_z * b.arc_z;
+        b.arc_z = b.arc_z * cosine;
         curvature += curvature;
     }
-    b.stretch = L::nmadd(L::set(k.curvature), b.rho_c, L::set(k.one_minus_kappa));
+    b.stretch = L::nmadd(L::splat(k.curvature), b.rho_c, L::splat(k.one_minus_kappa));
 }
 
 /// What positions need of batches that were turned ahead. A relative squeeze's operations are a longer chain
@@ -151,16 +147,16 @@ void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::si
 /// take 1.2 times a plain squeeze's time, in one loop with the rest 1.3 times. (Plain squeezes, and normals,
 /// lose by it.)
 template <class L>
-struct Ahead {
+struct ColumnBuffer {
     static constexpr std::size_t vertices = 256;
     alignas(64) float rho_c[vertices + L::width];
     alignas(64) float rho_s[vertices + L::width];
 };
 
-/// Turns the vertices [first, last), and less than a batch beyond; at most Ahead::vertices.
+/// Turns the vertices [first, last), and less than a batch beyond; at most ColumnBuffer::vertices.
 template <class L, Squeeze squeeze>
-void turn_ahead(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
-                Ahead<L>& ahead) {
+void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
+                        ColumnBuffer<L>& ahead) {
     for (std::size_t i = first; i < last; i += L::width) {
         const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, i);
         L::store(ahead.rho_c + (i - first), b.rho_c);
@@ -181,9 +177,9 @@ Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typ
     Vector<L> result;
     for (int row = 0; row < 3; ++row) {
         typename L::Vec sum =
-            offset ? L::madd(L::set(matrix[row]), x, L::set(offset[row])) : L::set(matrix[row]) * x;
-        sum = L::madd(L::set(matrix[4 + row]), y, sum);
-        result.component[row] = L::madd(L::set(matrix[8 + row]), z, sum);
+            offset ? L::madd(L::splat(matrix[row]), x, L::splat(offset[row])) : L::splat(matrix[row]) * x;
+        sum = L::madd(L::splat(matrix[4 + row]), y, sum);
+        result.component[row] = L::madd(L::splat(matrix[8 + row]), z, sum);
     }
     return result;
 }
@@ -194,8 +190,8 @@ template <class L>
 Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent<L>& b, typename L::Vec n,
                           typename L::Vec bt, typename L::Vec t) {
     using Vec = typename L::Vec;
-    const Vec cosine = L::nmadd(L::set(k.curvature), b.rise, L::set(1.0f));
-    const Vec sine = L::set(k.curvature) * b.reach;
+    const Vec cosine = L::nmadd(L::splat(k.curvature), b.arc_x, L::splat(1.0f));
+    const Vec sine = L::splat(k.curvature) * b.arc_z;
     const Vec p = L::nmadd(b.s, bt, b.c * n);
     const Vec x = L::madd(p, cosine, t * sine);
     const Vec y = L::madd(b.c, bt, b.s * n);
@@ -206,10 +202,10 @@ Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent
 /// To unit length. Last of all, so that a transform's scale and all roundings go out with it. A vector that
 /// the map squeezed to nothing stays zero: the bound keeps its root finite.
 template <class L>
-Vector<L> normalised(const Vector<L>& v) {
+Vector<L> normalized(const Vector<L>& v) {
     using Vec = typename L::Vec;
     const auto& [x, y, z] = v.component;
-    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::set(1e-30f));
+    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::splat(1e-30f));
     return {{x * inverse, y * inverse, z * inverse}};
 }
 
@@ -225,10 +221,10 @@ template <class L>
 Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
-    const Vec growth = L::madd(bent.amplitude, wrinkle, L::set(1.0f));
+    const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
     // Below half the radius the depth weight grows like rho, so the wrinkle stretches rho as it stretches the
     // circle.
-    return {growth, L::where_less(L::load(rest.rho + i), L::set(k.half_radius), growth, L::set(1.0f)),
+    return {growth, L::where_less(L::load(rest.rho + i), L::splat(k.half_radius), growth, L::splat(1.0f)),
             bent.slope * wrinkle, bent.amplitude * L::load(rest.slope + i)};
 }
 
@@ -268,14 +264,14 @@ Vector<L> bend_tangents(const RestColumns& rest, const Coefficients& k, const Be
 template <class L>
 Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
     using Vec = typename L::Vec;
-    const Vec zero = L::set(0.0f);
-    const auto step = [&](Vec value) { return L::clamp(value, zero, L::set(65535.0f)); };
+    const Vec zero = L::splat(0.0f);
+    const auto step = [&](Vec value) { return L::clamp(value, zero, L::splat(65535.0f)); };
     const auto& [x, y, z] = normal.component;
-    // Octahedral: onto |x| + |y| + |z| = 1; the lower half is folded outwards over the upper, to where
+    // Octahedral: onto |x| + |y| + |z| = 1; the lower half is folded outward over the upper, to where
     // |x| + |z| and |y| + |z| say.
-    const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::set(1e-30f);
-    const Vec scale = L::reciprocal(sum) * L::set(32767.0f);
-    const Vec below = L::larger(L::nmadd(z, scale, zero), zero);
+    const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::splat(1e-30f);
+    const Vec scale = L::reciprocal(sum) * L::splat(32767.0f);
+    const Vec below = L::max(L::nmadd(z, scale, zero), zero);
     const Vec u = x * scale;
     const Vec v = y * scale;
     return {{L::pair_words(step(position.component[0]), step(position.component[1])),
@@ -304,20 +300,20 @@ Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> 
     Results<L> results;
     set_arc<L>(rest, k, b, i);
     results.position =
-        place<L>(k.matrix, k.offset, L::madd(b.rise, b.stretch, b.rho_c), b.rho_s, b.reach * b.stretch);
+        place<L>(k.matrix, k.offset, L::madd(b.arc_x, b.stretch, b.rho_c), b.rho_s, b.arc_z * b.stretch);
     if constexpr (has_normals(streams)) {
         Jacobian<L> j;
         if constexpr (squeeze != Squeeze::none) j = jacobian<L>(rest, k, b, i);
         results.normal = bend_normals<L, squeeze>(rest, k, b, j, i);
         if constexpr (has_tangents(streams)) {
-            results.tangent = normalised<L>(bend_tangents<L, squeeze>(rest, k, b, j, i));
-            results.tangent_sign = L::set(k.handedness) * L::load(rest.tangent_sign + i);
+            results.tangent = normalized<L>(bend_tangents<L, squeeze>(rest, k, b, j, i));
+            results.tangent_sign = L::splat(k.handedness) * L::load(rest.tangent_sign + i);
         }
     }
     if constexpr (streams == StreamSet::packed) {
         results.position = pack<L>(results.position, results.normal);
     } else if constexpr (has_normals(streams)) {
-        results.normal = normalised<L>(results.normal);
+        results.normal = normalized<L>(results.normal);
     }
     return results;
 }

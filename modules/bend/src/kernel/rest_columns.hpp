@@ -8,7 +8,8 @@ struct RestColumns {
     const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
     const float* sin_half_beta = nullptr;  ///< sqrt(2) sin(beta / 2)
     const float* rho = nullptr;
-    const float* lift = nullptr;     ///< g w S, S of the column at rest: rho' = rho + amplitude * lift
+    const float* radial_offset =
+        nullptr;  ///< g w S, S of the column at rest: rho' = rho + amplitude * radial_offset
     const float* height = nullptr;   ///< z / L - 1/2, of its region
     const float* wrinkle = nullptr;  ///< g w S / rho
     const float* slope = nullptr;    ///< d(g w S) / dz

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/args.hpp"
+#include "kernel/sin_cos.hpp"
 
 /// Set-up, over as many instances at a time as a register has lanes. Each lane's result depends on that lane
 /// alone, so that an instance's bits are the same alone and in any company. `L` is ScalarLanes or
@@ -31,30 +32,25 @@ struct Vector3 {
 };
 
 template <class L>
-struct SineCosine {
-    typename L::Vec sine, cosine;
-};
-
-template <class L>
 typename L::Vec horner(const float (&terms)[arc_terms], typename L::Vec x) {
-    typename L::Vec sum = L::set(terms[arc_terms - 1]);
-    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = L::madd(sum, x, L::set(terms[n]));
+    typename L::Vec sum = L::splat(terms[arc_terms - 1]);
+    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(terms[n]));
     return sum;
 }
 
 /// Of twice the angle.
 template <class L>
-SineCosine<L> doubled(SineCosine<L> of) {
+SinCos<L> doubled(SinCos<L> of) {
     const typename L::Vec twice = of.sine + of.sine;
-    return {twice * of.cosine, L::nmadd(twice, of.sine, L::set(1.0f))};
+    return {twice * of.cosine, L::nmadd(twice, of.sine, L::splat(1.0f))};
 }
 
 /// Of an angle up to a quarter of pi either way.
 template <class L>
-SineCosine<L> sin_cos(typename L::Vec angle) {
+SinCos<L> sin_cos(typename L::Vec angle) {
     const typename L::Vec x = angle * angle;
     return {angle * horner<L>(quarter_terms.sinc, x),
-            L::nmadd(x, horner<L>(quarter_terms.versine, x), L::set(1.0f))};
+            L::nmadd(x, horner<L>(quarter_terms.versine, x), L::splat(1.0f))};
 }
 
 /// How many of a register's lanes are instances.
@@ -74,11 +70,11 @@ public:
     /// and what set_amplitude scales it by.
     void run(float* table_place, float* scale) {
         const Vec angle = L::load(columns_.angle + first_);
-        alpha_ = L::smaller(L::abs(angle), L::set(region_.max_angle));
+        alpha_ = L::min(L::abs(angle), L::splat(region_.max_angle));
         set_direction(angle);
-        curvature_ = alpha_ * L::set(region_.per_length);
-        const Vec kappa = curvature_ * L::set(region_.radius);
-        one_minus_kappa_ = L::set(1.0f) - kappa;
+        curvature_ = alpha_ * L::splat(region_.per_length);
+        const Vec kappa = curvature_ * L::splat(region_.radius);
+        one_minus_kappa_ = L::splat(1.0f) - kappa;
         put([](Coefficients& k) -> float* { return &k.cos_half_direction; }, half_.cosine, half_.sine,
             one_minus_kappa_, curvature_);
         set_arc();
@@ -107,24 +103,25 @@ private:
         Vec angle = alpha_;
         if (region_.relative) {
             constexpr float least_kappa = 1e-4f;
-            kappa = L::larger(kappa, L::set(least_kappa));
-            angle = kappa * L::set(1 / (region_.per_length * region_.radius));
+            kappa = L::max(kappa, L::splat(least_kappa));
+            angle = kappa * L::splat(1 / (region_.per_length * region_.radius));
         }
         L::store(scale + first_, region_.relative ? kappa : L::sqrt(kappa));
         const Vec fraction =
-            L::clamp(angle * L::set(1 / region_.table_max_angle), L::set(0.0f), L::set(1.0f));
-        L::store(table_place + first_, L::sqrt(fraction) * L::set(static_cast<float>(region_.row_count - 1)));
+            L::clamp(angle * L::splat(1 / region_.table_max_angle), L::splat(0.0f), L::splat(1.0f));
+        L::store(table_place + first_,
+                 L::sqrt(fraction) * L::splat(static_cast<float>(region_.row_count - 1)));
     }
 
-    static SineCosine<L> half_of(Vec direction) { return doubled<L>(sin_cos<L>(direction * L::set(0.25f))); }
-    static SineCosine<L> whole_of(SineCosine<L> half) {
+    static SinCos<L> half_of(Vec direction) { return doubled<L>(sin_cos<L>(direction * L::splat(0.25f))); }
+    static SinCos<L> whole_of(SinCos<L> half) {
         return {(half.sine + half.sine) * half.cosine, (half.cosine - half.sine) * (half.cosine + half.sine)};
     }
 
     /// A negative angle turns the direction by a half turn, half of which swaps sine and cosine.
     void set_direction(Vec angle) {
-        const SineCosine<L> half = half_of(L::load(columns_.direction + first_));
-        const Vec zero = L::set(0.0f);
+        const SinCos<L> half = half_of(L::load(columns_.direction + first_));
+        const Vec zero = L::splat(0.0f);
         half_.sine = L::where_less(angle, zero, half.cosine, half.sine);
         half_.cosine = L::where_less(angle, zero, zero - half.sine, half.cosine);
         whole_ = whole_of(half_);
@@ -133,27 +130,27 @@ private:
     /// Beyond a half turn delta leaves the polynomials' range: they then serve a fraction of the angle,
     /// doubled back.
     void set_arc() {
-        const Vec limit = L::set(half_turn * 1.000001f), zero = L::set(0.0f), one = L::set(1.0f);
+        const Vec limit = L::splat(half_turn * 1.000001f), zero = L::splat(0.0f), one = L::splat(1.0f);
         part_ = alpha_;
         doublings_ = zero;
         for (float halved = region_.max_angle; halved > half_turn * 1.000001f; halved *= 0.5f) {
             doublings_ = doublings_ + L::where_less(limit, part_, one, zero);
-            part_ = L::where_less(limit, part_, part_ * L::set(0.5f), part_);
+            part_ = L::where_less(limit, part_, part_ * L::splat(0.5f), part_);
         }
         const Vec square = part_ * part_;
-        Vec power = L::set(region_.length);
-        Vec reach[arc_terms], rise[arc_terms];
-        const Vec quarter = L::set(half_turn / 2);
+        Vec power = L::splat(region_.length);
+        Vec arc_z[arc_terms], arc_x[arc_terms];
+        const Vec quarter = L::splat(half_turn / 2);
         for (std::size_t n = 0; n < arc_terms; ++n) {
             const auto term = [&](float large, float small) {
-                return L::where_less(quarter, part_, L::set(large), L::set(small));
+                return L::where_less(quarter, part_, L::splat(large), L::splat(small));
             };
-            reach[n] = power * term(half_terms.sinc[n], quarter_terms.sinc[n]);
-            rise[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
+            arc_z[n] = power * term(half_terms.sinc[n], quarter_terms.sinc[n]);
+            arc_x[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
             power = power * square;
         }
-        put([](Coefficients& k) -> float* { return k.reach; }, reach[0], reach[1], reach[2], reach[3]);
-        put([](Coefficients& k) -> float* { return k.rise; }, rise[0], rise[1], rise[2], rise[3]);
+        put([](Coefficients& k) -> float* { return k.arc_z; }, arc_z[0], arc_z[1], arc_z[2], arc_z[3]);
+        put([](Coefficients& k) -> float* { return k.arc_x; }, arc_x[0], arc_x[1], arc_x[2], arc_x[3]);
     }
 
     [[nodiscard]] Vector3<L> frame(std::size_t from) const {
@@ -187,27 +184,27 @@ private:
     /// The arc's halves: its turn, and its chord.
     struct HalfArc {
         Vec sine, cosine;  // of alpha / 2
-        Vec out, up;       // from the base to the middle, towards the bend and along the base's axis
+        Vec out, up;       // from the base to the middle, toward the bend and along the base's axis
     };
 
     [[nodiscard]] HalfArc half_arc() const {
-        const Vec x = L::set(0.25f) * part_;
-        const SineCosine<L> quarter = sin_cos<L>(x);
+        const Vec x = L::splat(0.25f) * part_;
+        const SinCos<L> quarter = sin_cos<L>(x);
         const Vec sinc = horner<L>(quarter_terms.sinc, x * x);
-        SineCosine<L> half = doubled<L>(quarter);
-        const Vec arc = one_minus_kappa_ * L::set(0.5f * region_.length);
+        SinCos<L> half = doubled<L>(quarter);
+        const Vec arc = one_minus_kappa_ * L::splat(0.5f * region_.length);
         // arc (1 - cos(alpha / 2)) / (alpha / 2) and arc sin(alpha / 2) / (alpha / 2), without cancelling
         HalfArc result{half.sine, half.cosine, arc * quarter.sine * sinc, arc * sinc * quarter.cosine};
         Vec left = doublings_;
-        const Vec zero = L::set(0.0f), one = L::set(1.0f);
+        const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
         for (float halved = region_.max_angle; halved > half_turn * 1.000001f; halved *= 0.5f) {
-            const SineCosine<L> twice = doubled<L>({result.sine, result.cosine});
+            const SinCos<L> twice = doubled<L>({result.sine, result.cosine});
             result.sine = L::where_less(zero, left, twice.sine, result.sine);
             result.cosine = L::where_less(zero, left, twice.cosine, result.cosine);
             left = left - one;
         }
         if (region_.max_angle > half_turn) {
-            const Vec chord = one_minus_kappa_ * L::set(region_.length) / L::larger(alpha_, one);
+            const Vec chord = one_minus_kappa_ * L::splat(region_.length) / L::max(alpha_, one);
             result.out = L::where_less(zero, doublings_, chord * (one - result.cosine), result.out);
             result.up = L::where_less(zero, doublings_, chord * result.sine, result.up);
         }
@@ -218,13 +215,13 @@ private:
     /// the frame at the end, by the same turn and chord once more.
     void set_frames() {
         const HalfArc half = half_arc();
-        const Vec zero = L::set(0.0f);
+        const Vec zero = L::splat(0.0f);
         const Vector3<L> e1 = frame(0), e2 = frame(3), e3 = frame(6);
-        const Vector3<L> towards = combined(whole_.cosine, e1, whole_.sine, e2);
+        const Vector3<L> toward = combined(whole_.cosine, e1, whole_.sine, e2);
         const Vector3<L> b = combined(whole_.cosine, e2, zero - whole_.sine, e1);
-        const Vector3<L> n = combined(half.cosine, towards, zero - half.sine, e3);
-        const Vector3<L> t = combined(half.sine, towards, half.cosine, e3);
-        const Vector3<L> origin = sum(frame(9), combined(half.out, towards, half.up, e3));
+        const Vector3<L> n = combined(half.cosine, toward, zero - half.sine, e3);
+        const Vector3<L> t = combined(half.sine, toward, half.cosine, e3);
+        const Vector3<L> origin = sum(frame(9), combined(half.out, toward, half.up, e3));
         set_matrices(n, b, t, origin);
         const Vector3<L> end_n = combined(half.cosine, n, zero - half.sine, t);
         set_frame(0, combined(whole_.cosine, end_n, zero - whole_.sine, b));
@@ -244,7 +241,7 @@ private:
 
     void set_matrices(const Vector3<L>& frame_n, const Vector3<L>& frame_b, const Vector3<L>& frame_t,
                       const Vector3<L>& frame_origin) {
-        const Vec zero = L::set(0.0f);
+        const Vec zero = L::splat(0.0f);
         const Vector3<L> shift = {L::load(columns_.transform[9] + first_),
                                   L::load(columns_.transform[10] + first_),
                                   L::load(columns_.transform[11] + first_)};
@@ -257,55 +254,53 @@ private:
         set_normal_matrix(n, b, t);
     }
 
-    static Vec largest(const Vector3<L>& v) {
-        return L::larger(L::larger(L::abs(v.x), L::abs(v.y)), L::abs(v.z));
-    }
+    static Vec largest(const Vector3<L>& v) { return L::max(L::max(L::abs(v.x), L::abs(v.y)), L::abs(v.z)); }
 
     static Vector3<L> scaled(Vec by, const Vector3<L>& v) { return {by * v.x, by * v.y, by * v.z}; }
 
     // Normals go with the cofactors, which are the inverse transpose times the determinant; a determinant
-    // below 0 would turn them inwards. Scaled, since kernels bound squared lengths from below, and first of
+    // below 0 would turn them inward. Scaled, since kernels bound squared lengths from below, and first of
     // all where the cofactors' squares would leave float's range.
     void set_normal_matrix(Vector3<L> n, Vector3<L> b, Vector3<L> t) {
-        const Vec zero = L::set(0.0f), one = L::set(1.0f);
-        const Vec size = L::larger(L::larger(largest(n), largest(b)), largest(t));
-        const Vec inverse = one / L::larger(size, L::set(1e-37f));
+        const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
+        const Vec size = L::max(L::max(largest(n), largest(b)), largest(t));
+        const Vec inverse = one / L::max(size, L::splat(1e-37f));
         const Vec scale =
-            L::where_less(L::set(1e-4f), size, L::where_less(size, L::set(1e4f), one, inverse), inverse);
+            L::where_less(L::splat(1e-4f), size, L::where_less(size, L::splat(1e4f), one, inverse), inverse);
         n = scaled(scale, n), b = scaled(scale, b), t = scaled(scale, t);
         const Vector3<L> cofactors[3] = {cross(b, t), cross(t, n), cross(n, b)};
-        const Vec handedness = L::where_less(dot(n, cofactors[0]), zero, L::set(-1.0f), one);
+        const Vec handedness = L::where_less(dot(n, cofactors[0]), zero, L::splat(-1.0f), one);
         Vec squares = dot(cofactors[0], cofactors[0]);
         squares = squares + dot(cofactors[1], cofactors[1]) + dot(cofactors[2], cofactors[2]);
         const Vec to_unit =
-            L::where_less(zero, squares, handedness / L::sqrt(L::larger(squares, L::set(1e-37f))), zero);
+            L::where_less(zero, squares, handedness / L::sqrt(L::max(squares, L::splat(1e-37f))), zero);
         const auto put_column = [&](const auto& row, const Vector3<L>& v) {
             put(row, to_unit * v.x, to_unit * v.y, to_unit * v.z, zero);
         };
         put_column([](Coefficients& k) -> float* { return k.normal_matrix; }, cofactors[0]);
         put_column([](Coefficients& k) -> float* { return k.normal_matrix + 4; }, cofactors[1]);
         put_column([](Coefficients& k) -> float* { return k.normal_matrix + 8; }, cofactors[2]);
-        put([](Coefficients& k) -> float* { return &k.first_curvature; }, part_* L::set(region_.per_length),
-            doublings_, L::set(region_.radius * 0.5f), handedness);
+        put([](Coefficients& k) -> float* { return &k.first_curvature; }, part_* L::splat(region_.per_length),
+            doublings_, L::splat(region_.radius * 0.5f), handedness);
     }
 
     /// The scale of a column is S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa
     /// (cos theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), which makes q
     /// linear in p. The differences vanish exactly at the rest pose.
     void set_squeeze(Vec kappa) {
-        const Vec zero = L::set(0.0f);
+        const Vec zero = L::splat(0.0f);
         // By the same operations as the pose's, so that they cancel.
         const Vec rest_kappa =
-            L::set(region_.rest_angle) * L::set(region_.per_length) * L::set(region_.radius);
-        const SineCosine<L> rest = whole_of(half_of(L::set(region_.rest_direction)));
+            L::splat(region_.rest_angle) * L::splat(region_.per_length) * L::splat(region_.radius);
+        const SinCos<L> rest = whole_of(half_of(L::splat(region_.rest_direction)));
         const Vec rest_cosine = rest_kappa * rest.cosine, rest_sine = rest_kappa * rest.sine;
         const Vec change_cosine = kappa * whole_.cosine - rest_cosine;
         const Vec change_sine = kappa * whole_.sine - rest_sine;
-        const Vec squeeze = (kappa - rest_kappa) / (L::set(1.0f) - rest_kappa);
+        const Vec squeeze = (kappa - rest_kappa) / (L::splat(1.0f) - rest_kappa);
         put([](Coefficients& k) -> float* { return &k.cos_direction; }, whole_.cosine, whole_.sine,
             rest_cosine, rest_sine);
         put([](Coefficients& k) -> float* { return k.curl_change; }, change_cosine, change_sine,
-            L::set(region_.onset > 1e-12f ? region_.onset : 1e-12f), zero);
+            L::splat(region_.onset > 1e-12f ? region_.onset : 1e-12f), zero);
         put([](Coefficients& k) -> float* { return k.squeeze; }, squeeze,
             L::madd(squeeze, rest_cosine, change_cosine), L::madd(squeeze, rest_sine, change_sine), zero);
     }
@@ -316,7 +311,7 @@ private:
     Coefficients* k_;
     std::size_t step_;
     Vec alpha_, part_, doublings_, curvature_, one_minus_kappa_;
-    SineCosine<L> half_, whole_;  // of half the direction, and of it
+    SinCos<L> half_, whole_;  // of half the direction, and of it
 };
 
 /// Two rows of the wrinkle table, and where between them an instance is.

@@ -78,8 +78,8 @@ bool has_tangents(const PassPlan& pass) noexcept {
 std::size_t Record::to_line(std::size_t vertex) const noexcept {
     const float* at = first + vertex * stride_floats();
     if (plane()) return floats_to_line<Record>(at);
-    for (std::size_t head = 0; head < line_floats; ++head, at += stride_floats())
-        if (floats_to_line<Record>(at) == 0) return head;
+    for (std::size_t peeled = 0; peeled < line_floats; ++peeled, at += stride_floats())
+        if (floats_to_line<Record>(at) == 0) return peeled;
     return line_floats;
 }
 
@@ -145,7 +145,7 @@ Way OutputPlan::way_of_rows(const PassPlan& pass) const noexcept {
     return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? Way::records : way;
 }
 
-/// Sorts the components by stride and address; neighbours within a stride make a record.
+/// Sorts the components by stride and address; neighbors within a stride make a record.
 void OutputPlan::find_records(bool scratch_gaps) noexcept {
     const std::span components(components_, component_count_);
     std::ranges::sort(components, [](const Component& a, const Component& b) {
@@ -215,9 +215,9 @@ bool OutputPlan::set_rows(PassPlan& pass, const Batch& batch) const noexcept {
            (!has_tangents(pass) || set_rows(pass.rows[2], batch.tangents));
 }
 
-std::size_t OutputPlan::head(std::size_t vertex) const noexcept {
-    const std::size_t head = lines_ == nullptr ? line_floats : lines_->to_line(vertex);
-    return head == line_floats ? 0 : head;
+std::size_t OutputPlan::peeled(std::size_t vertex) const noexcept {
+    const std::size_t peeled = lines_ == nullptr ? line_floats : lines_->to_line(vertex);
+    return peeled == line_floats ? 0 : peeled;
 }
 
 std::size_t vertex_bytes(const Batch& batch) noexcept {

@@ -91,7 +91,7 @@ public:
     [[nodiscard]] bool has(Way way) const noexcept { return has_[static_cast<std::size_t>(way)]; }
     /// Vertices from vertex `vertex` of the buffer to the first one that begins a line, in the first plane or
     /// record that is written as whole lines; 0 where none is, or no vertex does.
-    [[nodiscard]] std::size_t head(std::size_t vertex) const noexcept;
+    [[nodiscard]] std::size_t peeled(std::size_t vertex) const noexcept;
 
 private:
     template <std::size_t N>

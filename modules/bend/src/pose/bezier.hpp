@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pose/centre_places.hpp"
+#include "pose/center_places.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -43,11 +43,11 @@ struct BezierStretch {
         return along * (splat(begin_pace) + along * (splat(1 - begin_pace - bend) + along * splat(bend)));
     }
     /// From the region's places number `i` to `point`.
-    [[nodiscard]] static Three4 away(const Three4& point, const CentrePlaces& places, int i) noexcept {
+    [[nodiscard]] static Three4 away(const Three4& point, const CenterPlaces& places, int i) noexcept {
         Three4 away;
         for (int c = 0; c < 3; ++c) {
-            away.c[c] = point.c[c] - places.rise[i] * splat(places.across[c]) -
-                        places.reach[i] * splat(places.onward[c]);
+            away.c[c] = point.c[c] - places.arc_x[i] * splat(places.across[c]) -
+                        places.arc_z[i] * splat(places.onward[c]);
         }
         return away;
     }
@@ -99,7 +99,7 @@ public:
     }
     /// Goes on by the length of a region. The largest squared distance of its places from the stretch of the
     /// path between, or up to about as far again before and behind it.
-    [[nodiscard]] double go(const CentrePlaces& places) noexcept;
+    [[nodiscard]] double go(const CenterPlaces& places) noexcept;
 
 private:
     static constexpr int pieces = 16;  // equal in the parameter
@@ -116,7 +116,7 @@ private:
     [[nodiscard]] glm::dvec3 slope(double t) const noexcept {
         return t > 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
-    [[nodiscard]] BezierStretch stretch_to(const Place& to, const CentrePlaces& places) const noexcept;
+    [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterPlaces& places) const noexcept;
 
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
@@ -176,7 +176,7 @@ inline Bezier::Place Bezier::at(double length) noexcept {
     return {t, (from + x * (2 * square + 3 * x * cubic)) * (per_whole / pieces)};
 }
 
-inline BezierStretch Bezier::stretch_to(const Place& to, const CentrePlaces& places) const noexcept {
+inline BezierStretch Bezier::stretch_to(const Place& to, const CenterPlaces& places) const noexcept {
     const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / places.length;
     const double t = std::min(here_.t, 1.0), left = std::max(1 - here_.t, 0.0) * per_span;
     BezierStretch stretch;
@@ -196,10 +196,10 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CentrePlaces& pla
     return stretch;
 }
 
-inline double Bezier::go(const CentrePlaces& places) noexcept {
+inline double Bezier::go(const CenterPlaces& places) noexcept {
     constexpr int most_steps = 4;
     constexpr float near = 0.004f;  // of a step: what is left is its square
-    constexpr int fours = CentrePlaces::fours;
+    constexpr int fours = CenterPlaces::fours;
     gone_ += places.length;
     const Place to = at(gone_);
     const BezierStretch stretch = stretch_to(to, places);

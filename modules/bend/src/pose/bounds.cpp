@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/kernels.hpp"
 #include "pose/bounds_of.hpp"
-#include "pose/centre_line.hpp"
+#include "pose/center_line.hpp"
 #include "pose/posed_group.hpp"
 
 #include <goffer/bend/bounds.hpp>
@@ -14,6 +14,9 @@
 #include <limits>
 
 namespace goffer::bend {
+
+using namespace simd;
+
 namespace {
 
 static_assert(Bands::count % 4 == 3 && Bands::places >= Bands::count + 5,
@@ -22,18 +25,18 @@ constexpr std::size_t edges = Bands::count + 1;
 
 /// The widest vertex and the deepest wrinkles of four bands, or of what meets at four edges.
 struct Girth {
-    Float4 rho, lift, dip;  // rho below 0: no vertex there
+    Float4 rho, outward, inward;  // rho below 0: no vertex there
 };
 
 Girth of_bands(const Bands& bands, std::size_t j) noexcept {
-    return {load4(&bands.rho[j + 1]), load4(&bands.lift[j + 1]), load4(&bands.dip[j + 1])};
+    return {load4(&bands.rho[j + 1]), load4(&bands.outward[j + 1]), load4(&bands.inward[j + 1])};
 }
 
 /// Edge j is where bands j - 1 and j meet.
 Girth at_edges(const Bands& bands, std::size_t j) noexcept {
     const Girth behind = of_bands(bands, j);
-    return {max(behind.rho, load4(&bands.rho[j])), max(behind.lift, load4(&bands.lift[j])),
-            max(behind.dip, load4(&bands.dip[j]))};
+    return {max(behind.rho, load4(&bands.rho[j])), max(behind.outward, load4(&bands.outward[j])),
+            max(behind.inward, load4(&bands.inward[j]))};
 }
 
 /// Four cross-sections at one amplitude, in each sector.
@@ -47,8 +50,8 @@ struct Sections {
 Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
     Sections sections;
     for (int i = 0; i < sectors; ++i) {
-        sections.radius[i] = girth.rho + splat(amplitude[i]) * girth.lift;
-        sections.through[i] = splat(amplitude[i]) * girth.dip;
+        sections.radius[i] = girth.rho + splat(amplitude[i]) * girth.outward;
+        sections.through[i] = splat(amplitude[i]) * girth.inward;
     }
     sections.none = girth.rho < splat(0);
     sections.deep = any(sections.through[sectors - 1] > girth.rho);
@@ -56,7 +59,7 @@ Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
 }
 
 /// How far cross-sections reach along an axis, and against it.
-struct Reach {
+struct Support {
     Float4 up, down;
 };
 
@@ -66,25 +69,25 @@ Float4 where(Mask4 holds, Float4 value) noexcept {
 }
 
 /// `radius`: in each sector, no smaller than in the one before. (a, b): the axis within the section's plane,
-/// a towards the bend, b >= 0 across; `whole` its length there. Of an arc the farthest point is where the
+/// a toward the bend, b >= 0 across; `whole` its length there. Of an arc the farthest point is where the
 /// axis points to, or an end; of two that meet, the inner one's.
-inline Reach reach(const Float4 (&radius)[sectors], Float4 a, Float4 b, Float4 whole) noexcept {
+inline Support support_of(const Float4 (&radius)[sectors], Float4 a, Float4 b, Float4 whole) noexcept {
     const Float4 half = splat(0.5f) * whole, slant = splat(0.8660254f) * b, middle = radius[2] * b;
-    const auto towards = [&](Float4 c, Float4 half_c) {
+    const auto toward = [&](Float4 c, Float4 half_c) {
         const Float4 outer = max(radius[0], where(c > -half, radius[1]));
         const Float4 inner = max(where(c > splat(0), radius[2]), where(c > half, radius[3]));
         const Float4 ends = max(radius[3] * max(c, slant + half_c), radius[1] * (slant - half_c));
         return max(max(ends, middle), max(outer, inner) * whole);
     };
     const Float4 half_a = splat(0.5f) * a;
-    return {towards(a, half_a), towards(-a, -half_a)};
+    return {toward(a, half_a), toward(-a, -half_a)};
 }
 
-inline Reach reach(const Sections& sections, Float4 a, Float4 b, Float4 whole) noexcept {
-    const Reach outside = reach(sections.radius, a, b, whole);
+inline Support support_of(const Sections& sections, Float4 a, Float4 b, Float4 whole) noexcept {
+    const Support outside = support_of(sections.radius, a, b, whole);
     if (!sections.deep) return outside;
     // Wrinkles deeper than the radius move vertices through the axis to its other side.
-    const Reach inside_out = reach(sections.through, a, b, whole);
+    const Support inside_out = support_of(sections.through, a, b, whole);
     return {max(outside.up, inside_out.down), max(outside.down, inside_out.up)};
 }
 
@@ -102,7 +105,7 @@ public:
     }
 
     /// The edges from j on.
-    void take_edges(const CentreLine& line, std::size_t j, const Sections& sections) noexcept {
+    void take_edges(const CenterLine& line, std::size_t j, const Sections& sections) noexcept {
         const Float4 at = splat(m0_) * line.x + splat(m2_) * line.z;
         const Float4 a = splat(m0_) * line.cosine - splat(m2_) * line.sine;
         store4(at_ + j, at);
@@ -112,17 +115,18 @@ public:
     }
 
     /// The bands that run square to the axis somewhere, once all edges are taken. `radius` and `sagitta` of
-    /// the centre line in a band, for an axis in the bend's plane.
+    /// the center line in a band, for an axis in the bend's plane.
     void take_bands(const Bands& bands, Float4 amplitude, float radius, float sagitta) noexcept {
         for (std::size_t j = 0; j < Bands::count; ++j) {
             if (!(tau_[j] * tau_[j + 1] < 0) || bands.rho[j + 1] < 0) continue;
             // From the nearer edge, so that little cancels.
             const std::size_t i = std::fabs(tau_[j]) < std::fabs(tau_[j + 1]) ? j : j + 1;
-            const float rise =
+            const float arc_x =
                 std::min(radius * tau_[i] * tau_[i] / (in_plane_ + std::fabs(a_[i])), sagitta * in_plane_);
             const float side = a_[i] > 0 ? 1.0f : -1.0f;
-            const Girth girth = {splat(bands.rho[j + 1]), splat(bands.lift[j + 1]), splat(bands.dip[j + 1])};
-            take(sections_of(girth, amplitude), splat(at_[i] - side * rise), splat(side * in_plane_),
+            const Girth girth = {splat(bands.rho[j + 1]), splat(bands.outward[j + 1]),
+                                 splat(bands.inward[j + 1])};
+            take(sections_of(girth, amplitude), splat(at_[i] - side * arc_x), splat(side * in_plane_),
                  splat(whole_));
         }
     }
@@ -141,7 +145,7 @@ public:
 
 private:
     void take(const Sections& sections, Float4 at, Float4 a, Float4 whole) noexcept {
-        const auto [up, down] = reach(sections, a, across_, whole);
+        const auto [up, down] = support_of(sections, a, across_, whole);
         high_ = select(sections.none, high_, max(high_, at + up));
         low_ = select(sections.none, low_, min(low_, at - down));
     }
@@ -149,7 +153,7 @@ private:
     float m0_, m2_;
     Float4 across_;
     float in_plane_, whole_;
-    float at_[edges], a_[edges], tau_[edges];  // of the centre line; tau: the axis along it
+    float at_[edges], a_[edges], tau_[edges];  // of the center line; tau: the axis along it
     Float4 low_ = splat(std::numeric_limits<float>::max());
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
@@ -158,8 +162,8 @@ private:
 Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
     const Float4 amplitude = amplitudes(k, squeeze);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
-    const float length = k.one_minus_kappa * k.reach[0] * height;  // of a band's arc; reach[0] is L
-    const float turn = k.curvature * k.reach[0] * height;
+    const float length = k.one_minus_kappa * k.arc_z[0] * height;  // of a band's arc; arc_z[0] is L
+    const float turn = k.curvature * k.arc_z[0] * height;
     const float radius = k.one_minus_kappa / k.curvature;
     Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
     for (std::size_t j = 0; j < edges; j += 4) {
@@ -169,7 +173,7 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
             continue;
         }
         const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
-        const CentreLine line = centre_line(k, splat(bands.lowest) + place * splat(height));
+        const CenterLine line = center_line(k, splat(bands.lowest) + place * splat(height));
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
         for (Extent& extent : extents) extent.take_edges(line, j, sections);
     }
@@ -177,7 +181,7 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
     for (int row = 0; row < 3; ++row) {
         Extent& extent = extents[row];
         if (!(turn > 3)) extent.take_bands(bands, amplitude, radius, length * turn / 8);
-        const float margin = 1e-5f * extent.whole() * k.reach[0] + 1e-6f * std::fabs(k.offset[row]);
+        const float margin = 1e-5f * extent.whole() * k.arc_z[0] + 1e-6f * std::fabs(k.offset[row]);
         bounds.low[row] = k.offset[row] + extent.low() - margin;
         bounds.high[row] = k.offset[row] + extent.high() + margin;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/kernels.hpp"
-#include "pose/centre_line.hpp"
+#include "pose/center_line.hpp"
 #include "pose/posed_group.hpp"
 
 #include <goffer/bend/capsules.hpp>
@@ -10,9 +10,12 @@
 #include <cmath>
 
 namespace goffer::bend {
+
+using namespace simd;
+
 namespace {
 
-/// How far vertices between two heights (of z / L - 1/2) lie from the centre line at most.
+/// How far vertices between two heights (of z / L - 1/2) lie from the center line at most.
 float widest(const Bands& bands, float amplitude, float from, float to) noexcept {
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
     float radius = 0;
@@ -21,8 +24,8 @@ float widest(const Bands& bands, float amplitude, float from, float to) noexcept
         const float low = bands.lowest + (static_cast<float>(j) - 1) * height;
         const bool apart = low > to || low + 3 * height < from;
         if (apart || bands.rho[j + 1] < 0) continue;
-        radius = std::max({radius, bands.rho[j + 1] + amplitude * bands.lift[j + 1],
-                           amplitude * bands.dip[j + 1] - bands.rho[j + 1]});
+        radius = std::max({radius, bands.rho[j + 1] + amplitude * bands.outward[j + 1],
+                           amplitude * bands.inward[j + 1] - bands.rho[j + 1]});
     }
     return radius;
 }
@@ -43,7 +46,7 @@ float largest_scale(const glm::mat4x3& transform) noexcept {
     return std::sqrt(largest);
 }
 
-glm::vec3 placed(const Coefficients& k, const CentreLine& line, int i) noexcept {
+glm::vec3 placed(const Coefficients& k, const CenterLine& line, int i) noexcept {
     glm::vec3 point;
     for (int row = 0; row < 3; ++row)
         point[row] = k.offset[row] + k.matrix[row] * line.x[i] + k.matrix[8 + row] * line.z[i];
@@ -62,7 +65,7 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
     const float sagitta = turn < 3 ? arc * turn / 8 : arc;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
-        const CentreLine line = centre_line(k, Float4{from, from + step, from, from});
+        const CenterLine line = center_line(k, Float4{from, from + step, from, from});
         const float radius =
             region.first == region.last
                 ? 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pose/bezier.hpp"
-#include "pose/centre_places.hpp"
+#include "pose/center_places.hpp"
 #include "pose/polyline.hpp"
 
 #include <goffer/bend/path.hpp>
@@ -35,14 +35,14 @@ glm::dmat3 turned_to(const glm::dmat3& axes, const dvec3& direction) noexcept {
     return {turn(axes[0]), turn(axes[1]), direction};
 }
 
-/// The turn of a region's end: by `angle` towards (`cosine`, `sine`) about the axis.
+/// The turn of a region's end: by `angle` toward (`cosine`, `sine`) about the axis.
 struct Turn {
     double angle, cosine, sine;
     bool clamped;
 };
 
-/// From the axis of `axes` towards `heading`, at most by `most`. Straight on where there is no heading.
-Turn turn_towards(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
+/// From the axis of `axes` toward `heading`, at most by `most`. Straight on where there is no heading.
+Turn turn_toward(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
     const dvec3 local = heading * axes;  // its components along them
     const double across = std::sqrt(local.x * local.x + local.y * local.y);
     const double wanted = std::atan2(across, local.z), angle = std::min(wanted, most);
@@ -50,19 +50,19 @@ Turn turn_towards(const glm::dmat3& axes, const dvec3& heading, double most) noe
     return {angle, local.x / across, local.y / across, wanted > most};
 }
 
-/// A frame on the way along the body's centre line.
+/// A frame on the way along the body's center line.
 struct Way {
     dvec3 point;
     glm::dmat3 axes;
 };
 
-/// Goes on to the end of a region whose centre line has `length` and is bent by `turn`.
-CentrePlaces go(Way& way, const Turn& turn, double length) noexcept {
+/// Goes on to the end of a region whose center line has `length` and is bent by `turn`.
+CenterPlaces go(Way& way, const Turn& turn, double length) noexcept {
     const dvec3 n = turn.cosine * way.axes[0] + turn.sine * way.axes[1];
     const dvec3 b = turn.cosine * way.axes[1] - turn.sine * way.axes[0];
     const dvec3 t = way.axes[2];
     const Arc arc(turn.angle);
-    const CentrePlaces places(way.point, length, n, t, arc);
+    const CenterPlaces places(way.point, length, n, t, arc);
     const double sine = arc.sine[Arc::doublings], versine = arc.versine[Arc::doublings];
     const dvec3 turned_n = n - versine * n - sine * t;
     way.axes = {turn.cosine * turned_n - turn.sine * b, turn.sine * turned_n + turn.cosine * b,
@@ -83,7 +83,7 @@ double about_angle(const glm::dmat3& axes, const dvec3& heading, double most) no
     return std::min(above / std::max(below, least_square), most);
 }
 
-/// How far ahead on `path` a region of `length` ends: as far as its centre line is long, which is shorter
+/// How far ahead on `path` a region of `length` ends: as far as its center line is long, which is shorter
 /// than the region by what the region bends, which depends on where it ends. `guess`: of it.
 template <class Path>
 double end_of_region(Path& path, const glm::dmat3& axes, double guess, double length, double radius,
@@ -118,7 +118,7 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
     if (heading == dvec3(0)) return straight(body, path.start(), poses);
     Way way{path.start(), turned_to(body.axes(), glm::normalize(heading))};
     PathFit fit{.transform = transform_to(way, body)};
-    double farthest = 0, share = 1;  // of the last region's length, its centre line's
+    double farthest = 0, share = 1;  // of the last region's length, its center line's
     const std::span<const Region> regions = body.regions();
     const double radius = body.radius();
     for (std::size_t r = 0; r < poses.size(); ++r) {
@@ -127,12 +127,12 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
         double ahead = share * length;
         for (int steps = r == 0 ? 2 : 1; steps > 0; --steps)
             ahead = end_of_region(path, way.axes, ahead, length, radius, most);
-        const Turn turn = turn_towards(way.axes, path.heading(ahead), most);
+        const Turn turn = turn_toward(way.axes, path.heading(ahead), most);
         poses[r] = {static_cast<float>(turn.angle), static_cast<float>(std::atan2(turn.sine, turn.cosine))};
         fit.clamped = fit.clamped || turn.clamped;
-        const double centre = length - turn.angle * radius;
-        farthest = std::max(farthest, path.go(go(way, turn, centre)));
-        share = centre / length;
+        const double center = length - turn.angle * radius;
+        farthest = std::max(farthest, path.go(go(way, turn, center)));
+        share = center / length;
     }
     fit.error = static_cast<float>(std::sqrt(farthest));
     return fit;

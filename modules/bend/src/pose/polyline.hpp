@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pose/centre_places.hpp"
+#include "pose/center_places.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -15,7 +15,7 @@
 namespace goffer::bend {
 
 /// A polyline, gone along by length. Beyond its end it goes straight on. At least one point, all finite;
-/// neighbours may be equal.
+/// neighbors may be equal.
 class Polyline {
 public:
     explicit Polyline(std::span<const glm::vec3> points) noexcept : points_(without_repeated_end(points)) {
@@ -34,7 +34,7 @@ public:
     /// Goes on by the length of a region. The largest squared distance of its places from the part of the
     /// path that is near: each place's foot is looked for half the region beyond the one before it.
     /// So each piece is looked at for a few places only.
-    [[nodiscard]] double go(const CentrePlaces& places) noexcept;
+    [[nodiscard]] double go(const CenterPlaces& places) noexcept;
 
 private:
     /// From a point to the next.
@@ -96,10 +96,10 @@ inline Polyline::Foot Polyline::foot(const glm::dvec3& place, double ahead) cons
     return nearest;
 }
 
-inline double Polyline::go(const CentrePlaces& places) noexcept {
-    const double step = places.length / CentrePlaces::count;
+inline double Polyline::go(const CenterPlaces& places) noexcept {
+    const double step = places.length / CenterPlaces::count;
     double farthest = 0;
-    for (int i = 0; i < CentrePlaces::count; ++i) {
+    for (int i = 0; i < CenterPlaces::count; ++i) {
         move(near_, gone_ + i * step - places.length);
         const Foot nearest = foot(places[i], 8 * step);
         farthest = std::max(farthest, nearest.square);

@@ -41,11 +41,11 @@ float usable_weight(float weight) noexcept {
 /// Column after column, as set-up reads them.
 void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
                     std::size_t i) noexcept {
-    using Layout = TransformColumn::Layout;
+    using MatrixLayout = TransformColumn::MatrixLayout;
     const float* const from = transforms.first.at(element);
     std::size_t column = 3, row = 1;
-    if (transforms.layout == Layout::columns4) column = 4;
-    if (transforms.layout == Layout::rows4) column = 1, row = 4;
+    if (transforms.layout == MatrixLayout::columns4) column = 4;
+    if (transforms.layout == MatrixLayout::rows4) column = 1, row = 4;
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::size_t r = 0; r < 3; ++r) columns[3 * c + r][i] = from[column * c + row * r];
     }
@@ -94,7 +94,7 @@ PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& tr
 
 PoseState PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {
     const TransformColumn column(StridedView<float>{.data = &transform[0][0], .count = 1},
-                                 TransformColumn::Layout::columns3);
+                                 TransformColumn::MatrixLayout::columns3);
     return add(poses, column, 0, weight);
 }
 

@@ -40,7 +40,7 @@ struct RestVector {
 
 /// What a body is made from. The spans are the caller's and are copied.
 struct BodyInput {
-    glm::dvec3 origin{0};  ///< centre of the base end, model space
+    glm::dvec3 origin{0};  ///< center of the base end, model space
     glm::dmat3 axes{1};    ///< columns e1, e2, e3 of the body frame, orthonormal, right-handed
     double radius = 0;     ///< r > 0, model units
     std::span<const RegionInput> regions;  ///< from base to tip, 1..max_regions
@@ -58,18 +58,18 @@ struct BodyInput {
 /// positive and at their largest. For tables that fit makes it is up to five times the depth, and up to two
 /// hundred times in a region with a rest angle or an onset.
 struct WorkingRange {
-    static constexpr double least_length = 1e-12;  ///< of a region, and least radius
-    static constexpr double most_length = 1e12;    ///< of a region; most radius, and most rho of a vertex
-    static constexpr double most_origin = 1e15;    ///< |origin| on each axis
-    static constexpr double least_angle = 1e-12;  ///< least max_angle, of a region and of its tables, radians
-    static constexpr double most_angle = 1000;    ///< most max_angle; most |rest_direction|, radians
-    static constexpr double most_rest = 1 - 1e-5;  ///< most rest_angle, as a share of length / (2 radius)
-    static constexpr double most_wrinkle = 1e18;   ///< |wrinkle| and |slope| of a vertex, 1 / model units
-    static constexpr double most_depth = 1e15;     ///< deepest wrinkle that a table may ask for
-    static constexpr double most_growth = 1e6;     ///< what a wrinkle may stretch the surface by
+    static constexpr double min_length = 1e-12;   ///< of a region, and least radius
+    static constexpr double max_length = 1e12;    ///< of a region; most radius, and most rho of a vertex
+    static constexpr double max_origin = 1e15;    ///< |origin| on each axis
+    static constexpr double min_angle = 1e-12;    ///< least max_angle, of a region and of its tables, radians
+    static constexpr double max_angle = 1000;     ///< most max_angle; most |rest_direction|, radians
+    static constexpr double max_rest = 1 - 1e-5;  ///< most rest_angle, as a share of length / (2 radius)
+    static constexpr double max_wrinkle = 1e18;   ///< |wrinkle| and |slope| of a vertex, 1 / model units
+    static constexpr double max_depth = 1e15;     ///< deepest wrinkle that a table may ask for
+    static constexpr double max_growth = 1e6;     ///< what a wrinkle may stretch the surface by
     /// What a vertex's distance from the axis, lifted by the deepest wrinkle, may be of the arc's radius
     /// length / max_angle. (From 1 on the body folds through itself.)
-    static constexpr double most_reach = 1e4;
+    static constexpr double max_radius_ratio = 1e4;
 };
 
 /// What of a BodyInput is wrong.
@@ -153,7 +153,7 @@ public:
     [[nodiscard]] float max_angle(std::size_t region = 0) const noexcept;
     /// Region::rest of region `region` < region_count().
     [[nodiscard]] Pose rest_pose(std::size_t region = 0) const noexcept;
-    /// Centre of the base end, model space. An empty body has the frame of a default-made BodyInput.
+    /// Center of the base end, model space. An empty body has the frame of a default-made BodyInput.
     [[nodiscard]] glm::dvec3 origin() const noexcept;
     /// Columns e1, e2, e3 of the body frame.
     [[nodiscard]] glm::dmat3 axes() const noexcept;

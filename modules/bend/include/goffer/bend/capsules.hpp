@@ -30,7 +30,7 @@ struct Capsule {
 /// not null; poses finite and as many as validate() asks for; a pose beyond its region's max_angle() is
 /// clamped.
 ///
-/// A capsule's line is the chord of its piece of the centre line; its radius is that of the piece's widest
+/// A capsule's line is the chord of its piece of the center line; its radius is that of the piece's widest
 /// vertex, with its deepest wrinkle, and the chord's distance from the arc, times the transform's largest
 /// scale: no vertex's distance from the chain is less than its radius by more than wrinkles, detail and that
 /// sagitta make up. More pieces fit closer: the sagitta falls with their square. A region without vertices

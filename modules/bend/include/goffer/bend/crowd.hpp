@@ -18,7 +18,7 @@
 ///     batch.poses = strided(std::span(worms), &Worm::pose);
 ///     batch.transforms = strided(std::span(worms), &Worm::model);
 ///     batch.positions = interleaved<3>(&vertices[0].x, vertices.size(), sizeof(Vertex));
-///     batch.step = body.vertex_count();  // instance i begins at vertex i * step
+///     batch.vertex_step = body.vertex_count();  // instance i begins at vertex i * vertex_step
 ///     const bend::CrowdResult result = bend::run_parallel({.batches = {&batch, 1}});
 ///
 /// Nothing is gathered and nothing is kept between frames. The order of instances in a batch has no bearing
@@ -29,19 +29,20 @@ namespace goffer::bend {
 /// A column of affine transforms, one per instance, in one of the layouts that engines use.
 struct TransformColumn {
     /// How the twelve numbers lie. All are of the matrix that takes column vectors to the outputs' space.
-    enum class Layout : std::uint8_t {
+    enum class MatrixLayout : std::uint8_t {
         columns3,  ///< four columns of 3 floats: glm::mat4x3
         columns4,  ///< four columns of 4 floats, the fourth not read: glm::mat4
         rows4,     ///< three rows of 4 floats: the usual buffer of instances on a GPU
     };
 
     StridedView<float> first;  ///< each matrix's first float; the others follow it
-    Layout layout = Layout::columns3;
+    MatrixLayout layout = MatrixLayout::columns3;
 
     TransformColumn() = default;  ///< not given: the identity for all
-    TransformColumn(StridedView<float> view, Layout how) : first(view), layout(how) {}
+    TransformColumn(StridedView<float> view, MatrixLayout how) : first(view), layout(how) {}
     TransformColumn(const StridedView<glm::mat4x3>& view) : first(floats(view)) {}
-    TransformColumn(const StridedView<glm::mat4>& view) : first(floats(view)), layout(Layout::columns4) {}
+    TransformColumn(const StridedView<glm::mat4>& view)
+        : first(floats(view)), layout(MatrixLayout::columns4) {}
 
     [[nodiscard]] bool empty() const noexcept { return first.empty(); }
     [[nodiscard]] glm::mat4x3 operator[](std::size_t index) const noexcept;
@@ -84,9 +85,10 @@ struct Batch {
     PackedStream packed = {};
     Stream3 previous_positions = {};
     std::span<Bounds> bounds = {};  ///< empty, or one per instance i, where a run leaves its bounds
-    /// The first vertex of instance i is places[i] (or [indices[i]]), or i * step where there are no places.
-    StridedView<std::uint32_t> places = {};
-    std::size_t step = 0;
+    /// The first vertex of instance i is vertex_offsets[i] (or [indices[i]]), or i * vertex_step where no
+    /// offsets are given.
+    StridedView<std::uint32_t> vertex_offsets = {};
+    std::size_t vertex_step = 0;
     bool scratch_gaps = false;  ///< as DeformJob::scratch_gaps
 };
 
@@ -121,7 +123,7 @@ struct CrowdJob {
 
 /// The first fault of `job`, or none; of every instance, whatever its masks say, so that what validates once
 /// is safe in later frames with other masks, frame numbers, weights, transforms and poses. Columns that say
-/// where to read or write (indices, places) are looked through. Does not allocate. Thread-safe.
+/// where to read or write (indices, vertex_offsets) are looked through. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const CrowdJob& job) noexcept;
 
 /// What a run did.

@@ -25,8 +25,8 @@ enum class Field : std::uint8_t {
     previous_poses,
     previous_transform,
     outputs,  ///< all streams together
-    places,
-    step,
+    vertex_offsets,
+    vertex_step,
     indices,
     visible,
     changed,

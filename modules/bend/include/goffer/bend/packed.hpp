@@ -18,7 +18,7 @@ struct PackedVertex {
     /// length, beside what the float kernels are off.
     std::uint16_t position[3];
     std::uint16_t unused;  ///< 0
-    /// The unit normal, octahedral: (x, y) / (|x| + |y| + |z|), the lower half folded outwards, in steps of 1
+    /// The unit normal, octahedral: (x, y) / (|x| + |y| + |z|), the lower half folded outward, in steps of 1
     /// / 32767. Off by less than 0.004 degrees.
     std::int16_t normal[2];
 };

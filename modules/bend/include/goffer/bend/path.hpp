@@ -26,17 +26,17 @@ enum class PathFault : std::uint8_t { none, too_few_points, not_finite, repeated
 
 /// How a body lies along a path.
 struct PathFit {
-    /// From model space to the path's: a rotation and a shift that put the base's centre on the first point,
+    /// From model space to the path's: a rotation and a shift that put the base's center on the first point,
     /// the axis along the path's beginning. The job's transform, if the instance is to lie on the path.
     glm::mat4x3 transform{1};
-    /// The largest distance from the centre line to the path's part that it runs along, measured at 16 places
+    /// The largest distance from the center line to the path's part that it runs along, measured at 16 places
     /// of each region, units of the path. A path shorter than the body goes straight on.
     float error = 0;
     bool clamped = false;  ///< a region would have had to bend beyond its max_angle(): it bends so far only
 };
 
 /// Poses for the regions of `body`, one each into `poses` (the caller's; of fewer, the first regions get
-/// theirs, and the rest of the body is not looked at), such that its centre line runs along the polyline
+/// theirs, and the rest of the body is not looked at), such that its center line runs along the polyline
 /// `points`. Each region ends in the direction that the path has as far along as the region reaches;
 /// positions follow from that. For a smooth path the error falls with the square of the regions' lengths;
 /// more of them fit closer. The path's corners are not rounded first: of a path with long pieces only

@@ -12,7 +12,7 @@ struct Pose {
     /// (|angle|, direction + pi). Beyond the body's max_angle() it is clamped, and the job's result says so.
     float angle = 0;
 
-    /// Direction theta that the body bends towards, radians about the axis from the body's e1 to its e2. Any
+    /// Direction theta that the body bends toward, radians about the axis from the body's e1 to its e2. Any
     /// value.
     float direction = 0;
 

@@ -23,8 +23,8 @@ namespace goffer::bend {
 struct Socket {
     std::size_t region = 0;
     RestVertex vertex;               ///< z from where the region begins
-    RestVector normal = {1, 0, 0};   ///< unit length: the frame's third axis; outwards
-    RestVector tangent = {0, 0, 1};  ///< unit length, orthogonal to `normal`: the first axis; towards the tip
+    RestVector normal = {1, 0, 0};   ///< unit length: the frame's third axis; outward
+    RestVector tangent = {0, 0, 1};  ///< unit length, orthogonal to `normal`: the first axis; toward the tip
 };
 
 /// A socket's deformed frame: `axes` are orthonormal and right-handed, the columns being tangent, normal x
@@ -37,7 +37,7 @@ struct SocketFrame {
 /// The sockets of a body. Immutable; move-only; share it by reference among instances and threads.
 class Sockets {
 public:
-    /// Sockets of `body`, which is not needed afterwards. Nothing where a socket is at fault: its region, or
+    /// Sockets of `body`, which is not needed afterward. Nothing where a socket is at fault: its region, or
     /// what Body::check finds of its vertex, normal and tangent. Allocates; may throw std::bad_alloc.
     [[nodiscard]] static std::optional<Sockets> make(const Body& body, std::span<const Socket> sockets);
 

@@ -39,7 +39,7 @@ struct WrinkleTable {
 
 /// Factors on the amplitude by angle and direction (mode `mesh`: with them the bound mesh keeps its own
 /// area). Rows at angles as those of WrinkleTable; value j of a row is for the direction 2 pi j / directions
-/// from that of the region's rest arc, towards e2. Squares of factors, in which area is nearly linear; below
+/// from that of the region's rest arc, toward e2. Squares of factors, in which area is nearly linear; below
 /// 0 where even no wrinkle is too much. A plain value; empty where all factors are 1.
 struct FactorTable {
     static constexpr std::size_t directions = 16;
@@ -48,7 +48,7 @@ struct FactorTable {
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
-    /// The factor at `angle` and any `direction`: its square linear between its four neighbours, the angle
+    /// The factor at `angle` and any `direction`: its square linear between its four neighbors, the angle
     /// clamped to the table's; 1 where there are no rows. What is not finite counts as 0. Does not allocate.
     /// Thread-safe.
     [[nodiscard]] float at(float angle, float direction) const noexcept;

@@ -15,12 +15,12 @@ namespace goffer::fit {
 
 /// The base cylinder of a body, in model space and model units. A plain value.
 struct Cylinder {
-    glm::dvec3 origin{0};       ///< centre of the base end: z = 0
+    glm::dvec3 origin{0};       ///< center of the base end: z = 0
     glm::dvec3 axis{0, 0, 1};   ///< e3, unit, from base to tip
     glm::dvec3 zero{1, 0, 0};   ///< e1, unit, orthogonal to axis: the zero of beta
     double length = 1;          ///< L > 0
     double radius = 0.1;        ///< r > 0
-    double rest_angle = 0;      ///< alpha_0 (rad) of the centre line at rest; 0 for a straight body
+    double rest_angle = 0;      ///< alpha_0 (rad) of the center line at rest; 0 for a straight body
     double rest_direction = 0;  ///< theta_0 (rad)
     double residual = 0;        ///< area-weighted rms of (rho - r) / r over the lateral surface
 };
@@ -37,7 +37,7 @@ enum class Rest {
 /// axis. A found axis is signed so that its largest component is positive. `zero` is the world axis (the one
 /// most nearly orthogonal to `axis`; x before y before z) made orthogonal to `axis`.
 ///
-/// With Rest::automatic the centre line may be an arc. `rest_angle` is then that of the arc, below 2 pi and
+/// With Rest::automatic the center line may be an arc. `rest_angle` is then that of the arc, below 2 pi and
 /// below length / (2 radius), and `rest_direction` (-pi..pi) is where it bends to at the base; `axis` is the
 /// tangent at the base end, `length` that of the outer line, and `residual` is measured about the arc.
 /// A vertex's coordinates are paper::to_cylindrical's. An `axis` that is given then means the general
@@ -80,12 +80,5 @@ void check(const Cylinder& cylinder);
 /// most what the mesh can carry; none where it can carry less than half of that, since fewer and so deeper
 /// folds would reach past the axis. At least 0. Pure; may be called from any thread.
 [[nodiscard]] int sensible_folds(const Cylinder& cylinder, int capacity);
-
-/// Unit normals, one per vertex: angle-weighted over the triangles that meet at the vertex's place, so that
-/// duplicated vertices agree; where they cancel (two sheets back to back), over the vertex's own. A vertex
-/// without a direction (no triangles, or none with an area) gets (0, 0, 1). Indices as `check` accepts them.
-/// Pure; may be called from any thread.
-[[nodiscard]] std::vector<glm::vec3> make_normals(std::span<const glm::vec3> positions,
-                                                  std::span<const std::uint32_t> triangles);
 
 }  // namespace goffer::fit

@@ -30,7 +30,7 @@ namespace goffer::fit {
 /// A vertex on the line between two of the mesh: at (1 - t) a + t b, 0 < t < 1. Every attribute goes the same
 /// way. Where several stand at one place, on the two sides of a seam, their a's do too, and so their b's; t
 /// is the same to the last bit.
-struct Between {
+struct EdgeVertex {
     std::uint32_t a = 0, b = 0;  ///< vertices of the mesh before; b is the higher one
     double t = 0;
 };
@@ -38,7 +38,7 @@ struct Between {
 /// How to refine a mesh: a recipe that whoever owns the attributes carries out. Vertices of the mesh keep
 /// their numbers.
 struct Refinement {
-    std::vector<Between> vertices;         ///< vertex n + i, where the mesh had n before
+    std::vector<EdgeVertex> vertices;      ///< vertex n + i, where the mesh had n before
     std::vector<std::uint32_t> triangles;  ///< 3 vertices each; turned as the parent is
     std::vector<std::uint32_t> parents;  ///< of each triangle, ascending; an uncut one is its own only piece
 };
@@ -63,7 +63,7 @@ struct RefineOptions {
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                                 const RefineOptions& options = {});
 
-/// The same for a body of several stretches, from z = 0 upwards; what lies below or above all of them counts
+/// The same for a body of several stretches, from z = 0 upward; what lies below or above all of them counts
 /// to the first or last. Throws Error: the same; no stretches, or one out of range.
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder,
                                 std::span<const Stretch> stretches, const RefineOptions& options = {});

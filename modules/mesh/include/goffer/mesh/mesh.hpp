@@ -91,7 +91,7 @@ void save(const Mesh& mesh, const std::filesystem::path& file);
 /// index records. Record i < positions.size() of the mesh is vertex i; vertices that occur with several
 /// normals or tangents (OBJ) have further records behind those. A vertex that has no normal or tangent in the
 /// file has a zero one.
-struct Records {
+struct VertexArrays {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;        ///< empty where the mesh has none
     std::vector<glm::vec4> tangents;       ///< empty where the mesh has none
@@ -100,7 +100,7 @@ struct Records {
 };
 
 /// The records of `mesh`. Pure; may be called from any thread.
-[[nodiscard]] Records records(const Mesh& mesh);
+[[nodiscard]] VertexArrays vertex_arrays(const Mesh& mesh);
 
 /// The number of triangles once polygons are cut up into fans.
 [[nodiscard]] std::size_t triangle_count(const Mesh& mesh);
@@ -109,10 +109,10 @@ struct Records {
 /// any thread.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
 
-/// `mesh` with the positions, normals and tangents of `bent`, which holds as many records as `records(mesh)`
-/// in the same order. Streams that the mesh does not have are ignored. Keeps `source`. Attribute values keep
-/// their places; one that several vertices share and that is no longer the same for all is split, its copies
-/// behind the others. Throws Error where `bent` holds too few records.
-[[nodiscard]] Mesh with_records(const Mesh& mesh, const Records& bent);
+/// `mesh` with the positions, normals and tangents of `bent`, which holds as many records as
+/// `vertex_arrays(mesh)` in the same order. Streams that the mesh does not have are ignored. Keeps `source`.
+/// Attribute values keep their places; one that several vertices share and that is no longer the same for all
+/// is split, its copies behind the others. Throws Error where `bent` holds too few records.
+[[nodiscard]] Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent);
 
 }  // namespace goffer::mesh

@@ -9,7 +9,7 @@
 /// A mesh with more vertices: edges cut, triangles replaced by pieces of themselves, everything else kept.
 ///
 /// What is to be cut comes from elsewhere (fit::refine makes it), as numbers; here all that a mesh and its
-/// file carry is interpolated along: normals, tangents, texture coordinates, colours, of glTF also joints and
+/// file carry is interpolated along: normals, tangents, texture coordinates, colors, of glTF also joints and
 /// weights, morph targets and attributes of other names.
 
 namespace goffer::mesh {
@@ -17,14 +17,14 @@ namespace goffer::mesh {
 /// A vertex on an edge of the mesh: at (1 - t) a + t b, 0 < t < 1. Along a seam, where an edge has vertices
 /// of its own on either side, both name it in the same direction and with the same t, and get positions of
 /// the same bits.
-struct Between {
+struct EdgeVertex {
     std::uint32_t a = 0, b = 0;  ///< vertices of the mesh
     double t = 0;
 };
 
 /// How a mesh with n vertices is cut up. The caller owns the memory.
-struct Pieces {
-    std::span<const Between> vertices;         ///< vertex n + i
+struct Subdivision {
+    std::span<const EdgeVertex> vertices;      ///< vertex n + i
     std::span<const std::uint32_t> triangles;  ///< 3 vertices each
     std::span<const std::uint32_t> parents;    ///< of each triangle: which of triangles(mesh), ascending
 };
@@ -49,6 +49,6 @@ struct Pieces {
 /// Throws Error: pieces that are not of this mesh (a number out of range, a triangle none of whose corners
 /// lie in its parent, a parent without pieces); a glTF attribute that nothing can be put between (matrices;
 /// joints without weights), by its path. Pure; may be called from any thread.
-[[nodiscard]] Mesh refined(const Mesh& mesh, const Pieces& pieces);
+[[nodiscard]] Mesh refined(const Mesh& mesh, const Subdivision& pieces);
 
 }  // namespace goffer::mesh

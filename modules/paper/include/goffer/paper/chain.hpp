@@ -15,7 +15,7 @@
 
 namespace goffer::paper {
 
-/// A frame in the body frame of the whole: columns e1, e2, e3 of `axes`, and the centre of a cross-section.
+/// A frame in the body frame of the whole: columns e1, e2, e3 of `axes`, and the center of a cross-section.
 struct Frame {
     glm::dmat3 axes{1};
     glm::dvec3 origin{0};
@@ -23,14 +23,14 @@ struct Frame {
 
 /// The frame that the end of `body`, bare and bent by `pose`, carries, if it begins in `base`. Throws as
 /// ClosedForm's constructor. Thread-safe.
-[[nodiscard]] Frame end_frame(const Frame& base, const Body& body, const Pose& pose);
+[[nodiscard]] Frame end_frame(const Frame& base, const Parameters& body, const Pose& pose);
 
 /// The map of a chain of regions in one pose each. Immutable; thread-safe.
 class Chain {
 public:
     /// `regions` and `poses`: from base to tip, as many. Throws as ClosedForm's constructor, and
     /// std::invalid_argument where the counts differ or are 0.
-    Chain(std::span<const Body> regions, std::span<const Pose> poses);
+    Chain(std::span<const Parameters> regions, std::span<const Pose> poses);
 
     /// As ClosedForm's, for a vertex of region `region`, with z from where that begins; results in the body
     /// frame of the whole.

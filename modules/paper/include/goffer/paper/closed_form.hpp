@@ -11,11 +11,11 @@
 /// The deformation as a closed-form map, in double and without a grid: bend (eq 2-5), wrinkle (eq 6-10), and
 /// the analytic Jacobian that carries normals and tangents. The float32 kernels are tested against it.
 ///
-/// Body frame: origin at the centre of the base end, e3 along the axis from base to tip, e1 the zero of beta,
-/// e2 = e3 x e1. Angles are radians. Every function is pure and may be called from any thread.
+/// Body frame: origin at the center of the base end, e3 along the axis from base to tip, e1 the zero of
+/// beta, e2 = e3 x e1. Angles are radians. Every function is pure and may be called from any thread.
 ///
 /// Chen et al. 2015 (see wrinkle.hpp). Errata used: eq 5's dist is -x sin(theta) + y cos(theta), signed; eq
-/// 2's R0 lies at distance L / alpha - r from the centre line, so that the outer column keeps its length.
+/// 2's R0 lies at distance L / alpha - r from the center line, so that the outer column keeps its length.
 
 namespace goffer::paper {
 
@@ -34,7 +34,7 @@ struct CylindricalVector {
 };
 
 /// The base cylinder and its wrinkle: what is fixed at bind.
-struct Body {
+struct Parameters {
     double length = 1;    ///< L, of the outer (never compressed) line
     double radius = 0.1;  ///< r
     int folds = 0;        ///< k; 0: no wrinkle
@@ -57,7 +57,7 @@ public:
     /// Throws std::invalid_argument where length or radius is not positive or |angle| >= length / (2 radius),
     /// rest_angle likewise; where onset is negative; and for Amplitude::area of a body that is bent at rest
     /// or has an onset, for which no factor is known.
-    ClosedForm(const Body& body, const Pose& pose);
+    ClosedForm(const Parameters& body, const Pose& pose);
 
     /// Deformed position in the body frame (eq 2-6). No division by alpha: at 0 exactly the rest position. Of
     /// a body that is bent at rest, `rest` is where the vertex would be if straightened (to_cylindrical).
@@ -75,9 +75,9 @@ public:
     /// Amplitude A of the column at beta, m(alpha) included; model units.
     [[nodiscard]] double column_amplitude(double beta) const;
 
-    /// Bent position of the centre line at height z, and the frame carried along it: columns (n, b, t) with n
-    /// towards theta, t along the centre line, in the body frame.
-    [[nodiscard]] glm::dvec3 centre(double z) const;
+    /// Bent position of the center line at height z, and the frame carried along it: columns (n, b, t) with n
+    /// toward theta, t along the center line, in the body frame.
+    [[nodiscard]] glm::dvec3 center(double z) const;
 
 private:
     struct Local;  // what position, normal and tangent share at one vertex
@@ -86,7 +86,7 @@ private:
     [[nodiscard]] Column relative_column(double beta) const;  // of a body with a rest arc, or an onset
     [[nodiscard]] double wrinkle(const Cylindrical& rest) const;
 
-    Body body_;
+    Parameters body_;
     double alpha_ = 0;
     double theta_ = 0;
     double kappa_ = 0;
@@ -108,7 +108,7 @@ private:
 /// = 2 z / L - 1 by clamp(x / crease_width, -1, 1). About 0.1 degrees, and a thousandth of the half length.
 inline constexpr double crease_width = 1e-3;
 
-/// Depth weight w(rho) = min(1, 2 rho / r): the wrinkle fades towards the axis, so that inner parts keep
+/// Depth weight w(rho) = min(1, 2 rho / r): the wrinkle fades toward the axis, so that inner parts keep
 /// their side.
 [[nodiscard]] double depth_weight(double rho, double radius);
 
@@ -121,7 +121,7 @@ inline constexpr double crease_width = 1e-3;
 
 /// Cylinder coordinates of a point of a body of `length` L and `radius` r that is bent at rest: the inverse
 /// of the bend (eq 2-5) in `rest`, without a wrinkle. The point is in the body frame of the bent body: origin
-/// at the centre of the base end, e3 the centre line's tangent there.
+/// at the center of the base end, e3 the center line's tangent there.
 ///
 /// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The
 /// whole circle is shared out so that the gap between tip and base is cut in its middle. beta is 0 on the

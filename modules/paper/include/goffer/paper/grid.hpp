@@ -13,7 +13,7 @@
 /// per vertex (the detail), the base grid is bent (eq 2-5) and wrinkled (eq 6-10, solved once per column),
 /// and the detail is put back by trilinear interpolation from the grid.
 ///
-///     initialise   Grid grid(body, columns, rows);  Binding at = grid.bind(vertex);
+///     initialize   Grid grid(body, columns, rows);  GridVertex at = grid.bind(vertex);
 ///     deform       BentGrid bent = grid.bend(pose);  bent.position(at);
 ///
 /// Chen et al. 2015 (see wrinkle.hpp). As the grid is refined the result converges to ClosedForm: with the
@@ -23,7 +23,7 @@
 namespace goffer::paper {
 
 /// A vertex as the grid knows it.
-struct Binding {
+struct GridVertex {
     std::uint32_t column = 0;  ///< of the cell: it lies between this column of the grid and the next
     std::uint32_t row = 0;     ///< likewise
     double across = 0;         ///< where in the cell, 0..1 from column to column (on the chord between them)
@@ -37,7 +37,7 @@ class BentGrid {
 public:
     /// Deformed position in the body frame of a vertex that the same Grid has bound: trilinear in the cell
     /// and between the two shells around it. In the rest pose it is the vertex's rest position.
-    [[nodiscard]] glm::dvec3 position(const Binding& vertex) const;
+    [[nodiscard]] glm::dvec3 position(const GridVertex& vertex) const;
 
     /// Deformed position of a point of the base grid.
     [[nodiscard]] const glm::dvec3& node(std::uint32_t column, std::uint32_t row) const;
@@ -49,7 +49,7 @@ private:
     static constexpr std::array<double, 3> shells{0, 0.5, 1};
 
     [[nodiscard]] std::size_t index(std::size_t shell, std::uint32_t column, std::uint32_t row) const;
-    [[nodiscard]] glm::dvec3 on_shell(std::size_t shell, const Binding& vertex) const;
+    [[nodiscard]] glm::dvec3 on_shell(std::size_t shell, const GridVertex& vertex) const;
 
     std::uint32_t columns_ = 0;
     std::uint32_t rows_ = 0;
@@ -62,17 +62,17 @@ class Grid {
 public:
     /// `columns` >= 3 vertices around, the first at beta = 0; `rows` >= 2 rings of vertices from z = 0 to z =
     /// L. Throws std::invalid_argument below that.
-    Grid(const Body& body, std::uint32_t columns, std::uint32_t rows);
+    Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows);
 
-    /// The cell of a vertex and its detail (initialisation part). Any beta; z beyond the ends is extrapolated
+    /// The cell of a vertex and its detail (initialization part). Any beta; z beyond the ends is extrapolated
     /// from the last cell. Throws std::invalid_argument where a coordinate is not finite.
-    [[nodiscard]] Binding bind(const Cylindrical& vertex) const;
+    [[nodiscard]] GridVertex bind(const Cylindrical& vertex) const;
 
     /// The grid bent and wrinkled (deformation part). Throws as the constructor of ClosedForm documents.
     [[nodiscard]] BentGrid bend(const Pose& pose) const;
 
 private:
-    Body body_;
+    Parameters body_;
     std::uint32_t columns_;
     std::uint32_t rows_;
 };

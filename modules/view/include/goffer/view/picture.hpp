@@ -32,9 +32,9 @@ struct Model {
 
 /// Where the camera looks from. It is framed on all models' bounds.
 struct Camera {
-    glm::vec3 towards{-0.4f, -1.0f, -0.35f};  ///< viewing direction, world space, any length
-    glm::vec3 up{0, 0, 1};                    ///< up in the picture, world space; not parallel to `towards`
-    float field_of_view = 0.5f;               ///< vertical, rad
+    glm::vec3 toward{-0.4f, -1.0f, -0.35f};  ///< viewing direction, world space, any length
+    glm::vec3 up{0, 0, 1};                   ///< up in the picture, world space; not parallel to `toward`
+    float field_of_view = 0.5f;              ///< vertical, rad
 };
 
 struct Settings {

@@ -25,11 +25,11 @@ namespace goffer::test {
 ///
 /// "xyzuvw" is records of 24 bytes, "xyz uvw" two arrays of records, "x y z" planes, "zyx." components in
 /// another order, with a gap.
-class Layout {
+class OutputBuffer {
 public:
     /// Vertices [first, last) of `planes`, which are expected from vertex `to` of a layout on.
     struct Part {
-        const Layout* planes = nullptr;
+        const OutputBuffer* planes = nullptr;
         std::size_t first = 0, last = 0;
         std::size_t to = 0;
         bool ends = true;  ///< if not, the gap behind its last vertex is between outputs of one instance, too
@@ -44,7 +44,7 @@ public:
     /// Memory for `count` vertices. Arrays begin `shift` floats behind a cache line, each of them `skew`
     /// further than the one before; without skew at places that differ modulo a page as those of separate
     /// allocations might, so that planes can be written past the cache.
-    Layout(std::string_view picture, std::size_t count, std::size_t shift = 0, std::size_t skew = 0)
+    OutputBuffer(std::string_view picture, std::size_t count, std::size_t shift = 0, std::size_t skew = 0)
         : count_(count) {
         constexpr std::size_t line = 16, way = 256, margin = 16;
         const bool one = picture.find(' ') == std::string_view::npos;
@@ -91,12 +91,12 @@ public:
         return difference(expected);
     }
     /// The same of the vertices [first, last), at their own places.
-    [[nodiscard]] std::string fault(const Layout& planes, std::size_t first, std::size_t last,
+    [[nodiscard]] std::string fault(const OutputBuffer& planes, std::size_t first, std::size_t last,
                                     Gaps gaps = Gaps::kept) const {
         const Part part{&planes, first, last, first, last == count_};
         return fault({&part, 1}, gaps);
     }
-    [[nodiscard]] std::string fault(const Layout& planes, Gaps gaps = Gaps::kept) const {
+    [[nodiscard]] std::string fault(const OutputBuffer& planes, Gaps gaps = Gaps::kept) const {
         return fault(planes, 0, count_, gaps);
     }
 

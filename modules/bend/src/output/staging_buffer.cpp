@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "output/stage.hpp"
+#include "output/staging_buffer.hpp"
 
 #include <algorithm>
 
 namespace goffer::bend {
 
-Stage::Stage(const OutputPlan& plan) noexcept {
+StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     const std::size_t room = most_floats / std::max<std::size_t>(plan.value_count(), 1) - spare;
     capacity_ = std::min(most_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
 }
 
-PlaneOutput Stage::output(const PassPlan& pass, std::size_t vertex) noexcept {
+PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
     PlaneOutput out = {};
     const auto plane = [&](std::size_t value) { return planes_ + (pass.value + value) * stride_ + vertex; };
     for (std::size_t c = 0; c < 3; ++c) out.position[c] = plane(c);
@@ -22,8 +22,8 @@ PlaneOutput Stage::output(const PassPlan& pass, std::size_t vertex) noexcept {
     return out;
 }
 
-void Stage::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
-                  std::size_t count) const noexcept {
+void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
+                          std::size_t count) const noexcept {
     for (const Record& record : plan.records()) {
         // Of the two ways that come by here, only one is all the plan's: that of planes has no other records.
         if (way == Way::planes && !record.plane()) continue;
@@ -40,8 +40,8 @@ void Stage::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std
     }
 }
 
-void Stage::write_values(const Record& record, std::span<const Component> components, std::size_t vertex,
-                         std::size_t first, std::size_t last) const noexcept {
+void StagingBuffer::write_values(const Record& record, std::span<const Component> components,
+                                 std::size_t vertex, std::size_t first, std::size_t last) const noexcept {
     const std::size_t step = record.stride_floats();
     for (const Component& component : components) {
         const float* const from = planes_ + component.value * stride_;
@@ -50,22 +50,23 @@ void Stage::write_values(const Record& record, std::span<const Component> compon
     }
 }
 
-void Stage::weave(const Record& record, std::span<const Component> components, const KernelSet& kernels,
-                  std::size_t vertex, std::size_t count, bool non_temporal) const noexcept {
+void StagingBuffer::weave(const Record& record, std::span<const Component> components,
+                          const KernelSet& kernels, std::size_t vertex, std::size_t count,
+                          bool non_temporal) const noexcept {
     float* const to = record.first + vertex * record.stride_floats();
-    std::size_t head = 0;  // vertices before the first that begins a line
+    std::size_t peeled = 0;  // vertices before the first that begins a line
     if (non_temporal) {
-        head = record.to_line(vertex);
-        if (head == line_floats) non_temporal = false, head = 0;
-        head = std::min(head, count);
+        peeled = record.to_line(vertex);
+        if (peeled == line_floats) non_temporal = false, peeled = 0;
+        peeled = std::min(peeled, count);
     }
     const float* planes[most_woven];
     for (std::size_t c = 0; c < components.size(); ++c)
-        planes[c] = planes_ + components[c].value * stride_ + head;
-    const std::size_t lines = (count - head) / line_floats;
-    kernels.weave[components.size()](planes, lines, to + head * record.stride_floats(), non_temporal);
-    write_values(record, components, vertex, 0, head);
-    write_values(record, components, vertex, head + lines * line_floats, count);
+        planes[c] = planes_ + components[c].value * stride_ + peeled;
+    const std::size_t lines = (count - peeled) / line_floats;
+    kernels.weave[components.size()](planes, lines, to + peeled * record.stride_floats(), non_temporal);
+    write_values(record, components, vertex, 0, peeled);
+    write_values(record, components, vertex, peeled + lines * line_floats, count);
 }
 
 }  // namespace goffer::bend

@@ -42,7 +42,7 @@ glm::vec3 Placement::normal(const glm::vec3& local) const {
     return identity_ ? local : glm::vec3(unit(cofactors_ * glm::dvec3(local)));
 }
 
-// A mirror turns the bitangent's side, since normals keep looking outwards.
+// A mirror turns the bitangent's side, since normals keep looking outward.
 glm::vec4 Placement::tangent(const glm::vec4& local) const {
     if (identity_) return local;
     return glm::vec4(glm::vec3(unit(glm::dmat3(matrix_) * glm::dvec3(local))),

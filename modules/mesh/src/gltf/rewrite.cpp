@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_edit.hpp"
+#include "edit.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -329,7 +329,7 @@ void SceneReader::read_streams(Block& block, const Value& attributes) {
     tangents_.first.push_back(block.first[tangent]);
 }
 
-/// A vertex without a colour has the one that glTF gives it: white, which changes nothing.
+/// A vertex without a color has the one that glTF gives it: white, which changes nothing.
 void SceneReader::read_colors(const Block& block, const Value& attributes) {
     if (!attributes.has("COLOR_0")) return;
     const Value accessor = document_.entry("accessors", attributes["COLOR_0"]);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "support/bodies.hpp"
-#include "support/layout.hpp"
+#include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -49,10 +49,10 @@ enum class Storage : std::uint8_t { arrays, members, paged_arrays, paged_members
 inline constexpr Storage all_storages[] = {Storage::arrays, Storage::members, Storage::paged_arrays,
                                            Storage::paged_members};
 
-/// How a herd is kept and where it is deformed to.
-struct HerdStyle {
+/// How a test_batch is kept and where it is deformed to.
+struct BatchStyle {
     Storage storage = Storage::members;
-    bend::TransformColumn::Layout transforms = bend::TransformColumn::Layout::columns3;
+    bend::TransformColumn::MatrixLayout transforms = bend::TransformColumn::MatrixLayout::columns3;
     bool indices = false;   ///< elements at random places of a pool of twice as many
     bool places = false;    ///< vertices in another order; else by step
     bool masks = false;     ///< visible, changed and update_intervals are given
@@ -62,9 +62,9 @@ struct HerdStyle {
     std::string_view picture = "x y z u v w a b c d p q r 123";
 };
 
-class Herd {
+class TestBatch {
 public:
-    Herd(Random& random, const bend::Body& body, std::size_t count, const HerdStyle& style)
+    TestBatch(Random& random, const bend::Body& body, std::size_t count, const BatchStyle& style)
         : body_(body),
           style_(style),
           count_(count),
@@ -80,7 +80,7 @@ public:
             indices_.resize(count);
         }
         const std::size_t vertices = set_places(random);
-        out_ = Layout(style.picture, vertices, random() % 16, random() % 2 == 0 ? 0 : random() % 16);
+        out_ = OutputBuffer(style.picture, vertices, random() % 16, random() % 2 == 0 ? 0 : random() % 16);
         for (std::size_t i = 0; i < count; ++i) planes_.emplace_back(all_planes, body.vertex_count());
     }
 
@@ -104,9 +104,9 @@ public:
             batch.update_intervals = column<std::uint8_t>(&Worm::interval);
         }
         if (style_.places) {
-            batch.places = column<std::uint32_t>(&Worm::place);
+            batch.vertex_offsets = column<std::uint32_t>(&Worm::place);
         } else {
-            batch.step = step_;
+            batch.vertex_step = step_;
         }
         out_.attach(batch);
         batch.bounds = boxes_;
@@ -157,14 +157,15 @@ public:
 
     /// Empty if the active instances hold what is expected, and nothing else was written; or what is not so.
     [[nodiscard]] std::string fault(std::uint32_t frame) const {
-        std::vector<Layout::Part> parts;
+        std::vector<OutputBuffer::Part> parts;
         for (std::size_t i = 0; i < count_; ++i) {
             const bool runs = active(i, frame);
             if (runs) parts.push_back({&planes_[i], 0, body_.vertex_count(), place(i)});
             const bend::Bounds& box = runs ? expected_boxes_[i] : untouched;
             if (std::memcmp(&box, &boxes_[i], sizeof box) != 0) return "bounds of " + std::to_string(i);
         }
-        return out_.fault(parts, style_.scratch_gaps ? Layout::Gaps::scratch : Layout::Gaps::kept);
+        return out_.fault(parts,
+                          style_.scratch_gaps ? OutputBuffer::Gaps::scratch : OutputBuffer::Gaps::kept);
     }
 
     [[nodiscard]] std::size_t count() const { return count_; }
@@ -186,7 +187,7 @@ private:
                 static_cast<float>(uniform(random, -9, 9))};
     }
 
-    /// A fourth of them of any bits, among them infinities and NaNs, where the herd is hostile.
+    /// A fourth of them of any bits, among them infinities and NaNs, where the test_batch is hostile.
     float hostile(Random& random, float value) const {
         if (!style_.hostile || random() % 4 != 0) return value;
         const auto bits = static_cast<std::uint32_t>(random());
@@ -244,7 +245,7 @@ private:
 
     template <class M3, class M4, class Rows>
     bend::TransformColumn transforms(M3 Worm::*columns3, M4 Worm::*columns4, Rows Worm::*rows) {
-        using Kind = bend::TransformColumn::Layout;
+        using Kind = bend::TransformColumn::MatrixLayout;
         if (style_.transforms == Kind::columns3) return column<glm::mat4x3>(columns3);
         if (style_.transforms == Kind::columns4) return column<glm::mat4>(columns4);
         return {column<float>(rows, 12), Kind::rows4};
@@ -286,7 +287,7 @@ private:
     }
 
     const bend::Body& body_;
-    HerdStyle style_;
+    BatchStyle style_;
     std::size_t count_;
     std::vector<Worm> worms_;
     std::vector<std::uint32_t> indices_;
@@ -297,32 +298,32 @@ private:
     std::deque<std::vector<std::byte>> pages_;
     std::deque<std::vector<const void*>> addresses_;
     std::vector<bend::Bounds> boxes_, expected_boxes_;
-    std::vector<Layout> planes_;  // what each instance leaves
-    Layout out_;
+    std::vector<OutputBuffer> planes_;  // what each instance leaves
+    OutputBuffer out_;
 };
 
-/// What a crowd of several herds is deformed to.
-struct Herds {
-    std::deque<Herd> herds;
+/// What a crowd of several batches is deformed to.
+struct TestBatches {
+    std::deque<TestBatch> tests;
     std::vector<bend::Batch> batches;
 
-    void add(Random& random, const bend::Body& body, std::size_t count, const HerdStyle& style) {
-        batches.push_back(herds.emplace_back(random, body, count, style).batch());
+    void add(Random& random, const bend::Body& body, std::size_t count, const BatchStyle& style) {
+        batches.push_back(tests.emplace_back(random, body, count, style).batch());
     }
 
     [[nodiscard]] bend::CrowdResult expect(Isa isa, std::uint32_t frame = 0) {
         bend::CrowdResult result;
-        for (Herd& herd : herds) herd.expect(isa, frame, result);
+        for (TestBatch& test : tests) test.expect(isa, frame, result);
         return result;
     }
 
     void clear() {
-        for (Herd& herd : herds) herd.clear();
+        for (TestBatch& test : tests) test.clear();
     }
 
     [[nodiscard]] std::string fault(std::uint32_t frame = 0) const {
-        for (std::size_t i = 0; i < herds.size(); ++i) {
-            if (std::string text = herds[i].fault(frame); !text.empty())
+        for (std::size_t i = 0; i < tests.size(); ++i) {
+            if (std::string text = tests[i].fault(frame); !text.empty())
                 return "batch " + std::to_string(i) + ": " + text;
         }
         return {};

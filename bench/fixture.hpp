@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "subject.hpp"
+#include "model.hpp"
 
 #include <goffer/bend/body.hpp>
 #include <goffer/engine/columns.hpp>
@@ -18,7 +18,7 @@ namespace goffer::bench {
 
 /// What cases share, made when first asked for: the bodies, the memory that they are deformed into, the
 /// threads. Cases run one after the other, so none of it is guarded.
-class Stage {
+class Fixture {
 public:
     /// The body of so many vertices.
     [[nodiscard]] const bend::Body& body(std::size_t vertices, Shape shape = Shape::plain);

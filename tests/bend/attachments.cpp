@@ -17,29 +17,29 @@ namespace {
 
 /// A body of regions, bent at rest or not, and poses of it.
 struct Chain {
-    Subject subject;
-    fit::Bound bound;
+    TestMesh test_mesh;
+    fit::Binding binding;
     std::vector<bend::Pose> poses;
 };
 
 Chain random_chain(Random& random, std::size_t regions, bool bent) {
-    Subject subject = random_subject(random, uniform(random, 10, 20), 1);
-    if (bent) subject = bent_at_rest(subject, uniform(random, 0.2, 1.5), uniform(random, -3, 3));
+    TestMesh test_mesh = random_mesh(random, uniform(random, 10, 20), 1);
+    if (bent) test_mesh = bent_at_rest(test_mesh, uniform(random, 0.2, 1.5), uniform(random, -3, 3));
     fit::BindOptions options;
     options.folds = 3;
     for (std::size_t i = 0; i < regions; ++i)
         options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
-    fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
     std::vector<bend::Pose> poses;
-    for (const bend::Region& region : bound.body.regions()) {
+    for (const bend::Region& region : binding.body.regions()) {
         poses.push_back({static_cast<float>(uniform(random, 0, 0.9 * static_cast<double>(region.max_angle))),
                          static_cast<float>(uniform(random, -3, 3))});
     }
-    return {std::move(subject), std::move(bound), std::move(poses)};
+    return {std::move(test_mesh), std::move(binding), std::move(poses)};
 }
 
 std::uint32_t place_of(const Chain& chain, std::size_t vertex) {
-    return chain.bound.order.empty() ? static_cast<std::uint32_t>(vertex) : chain.bound.order[vertex];
+    return chain.binding.order.empty() ? static_cast<std::uint32_t>(vertex) : chain.binding.order[vertex];
 }
 
 double distance(const glm::dvec3& p, const bend::Capsule& capsule) {
@@ -55,7 +55,7 @@ TEST_CASE("a socket goes where the vertex at its place goes") {
     Random random(81);
     for (int trial = 0; trial < 10; ++trial) {
         const Chain chain = random_chain(random, 1 + random() % 4, trial % 2 == 0);
-        const Subject& s = chain.subject;
+        const TestMesh& s = chain.test_mesh;
         const std::size_t count = s.positions.size();
         const glm::dmat3 axes(s.cylinder.zero, glm::cross(s.cylinder.axis, s.cylinder.zero), s.cylinder.axis);
         std::vector<bend::Socket> sockets;
@@ -66,17 +66,17 @@ TEST_CASE("a socket goes where the vertex at its place goes") {
                 glm::transpose(axes) * (glm::dvec3(s.positions[place_of(chain, vertex)]) - s.cylinder.origin),
                 s.cylinder.length, s.cylinder.radius, {s.cylinder.rest_angle, s.cylinder.rest_direction});
             sockets.push_back(
-                fit::socket_at(chain.bound, std::clamp(at.z, 0.0, s.cylinder.length), at.beta, at.rho));
+                fit::socket_at(chain.binding, std::clamp(at.z, 0.0, s.cylinder.length), at.beta, at.rho));
             vertices.push_back(vertex);
         }
-        const std::optional<bend::Sockets> made = bend::Sockets::make(chain.bound.body, sockets);
+        const std::optional<bend::Sockets> made = bend::Sockets::make(chain.binding.body, sockets);
         REQUIRE(made);
         REQUIRE(made->count() == sockets.size());
         const glm::mat4x3 transform = random_transform(random, 1);
         double size = 0;
         for (int c = 0; c < 3; ++c) size = std::max(size, static_cast<double>(glm::length(transform[c])));
         Output out(count);
-        bend::DeformJob job = make_job(chain.bound.body, {}, Isa::automatic, out);
+        bend::DeformJob job = make_job(chain.binding.body, {}, Isa::automatic, out);
         job.poses = chain.poses;
         job.transform = transform;
         bend::run(job);
@@ -99,7 +99,7 @@ TEST_CASE("the socket nearest to a point lies on the surface there, its axis alo
     Random random(82);
     for (const bool bent : {false, true}) {
         const Chain chain = random_chain(random, 2, bent);
-        const Subject& s = chain.subject;
+        const TestMesh& s = chain.test_mesh;
         for (int trial = 0; trial < 20; ++trial) {
             // Off a triangle's middle, along its normal.
             const std::size_t t = random() % (s.triangles.size() / 3) * 3;
@@ -108,11 +108,11 @@ TEST_CASE("the socket nearest to a point lies on the surface there, its axis alo
             const glm::dvec3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
             const glm::dvec3 normal =
                 glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-            const bend::Socket socket = fit::socket_near(chain.bound, s.geometry(), middle + 1e-5 * normal);
-            const std::optional<bend::Sockets> made = bend::Sockets::make(chain.bound.body, {&socket, 1});
+            const bend::Socket socket = fit::socket_near(chain.binding, s.geometry(), middle + 1e-5 * normal);
+            const std::optional<bend::Sockets> made = bend::Sockets::make(chain.binding.body, {&socket, 1});
             REQUIRE(made);
             std::vector<bend::Pose> rest;
-            for (const bend::Region& region : chain.bound.body.regions()) rest.push_back(region.rest);
+            for (const bend::Region& region : chain.binding.body.regions()) rest.push_back(region.rest);
             bend::SocketFrame frame;
             made->frames(rest, {&frame, 1});
             REQUIRE(glm::length(glm::dvec3(frame.position) - middle) < 3e-6);
@@ -124,17 +124,17 @@ TEST_CASE("the socket nearest to a point lies on the surface there, its axis alo
 TEST_CASE("sockets that cannot be are refused") {
     Random random(83);
     const Chain chain = random_chain(random, 2, false);
-    CHECK_THROWS_WITH_AS(static_cast<void>(fit::socket_at(chain.bound, 2, 0, 0.1)),
+    CHECK_THROWS_WITH_AS(static_cast<void>(fit::socket_at(chain.binding, 2, 0, 0.1)),
                          doctest::Contains("socket: z = 2"), fit::Error);
-    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.bound, 0.5, 0, -1)), fit::Error);
+    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.binding, 0.5, 0, -1)), fit::Error);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.bound, 0.5, nan, 0.1)), fit::Error);
+    CHECK_THROWS_AS(static_cast<void>(fit::socket_at(chain.binding, 0.5, nan, 0.1)), fit::Error);
     CHECK_THROWS_AS(
-        static_cast<void>(fit::socket_near(chain.bound, chain.subject.geometry(), glm::dvec3(nan, 0, 0))),
+        static_cast<void>(fit::socket_near(chain.binding, chain.test_mesh.geometry(), glm::dvec3(nan, 0, 0))),
         fit::Error);
-    bend::Socket socket = fit::socket_at(chain.bound, 0.5, 0, 0.1);
+    bend::Socket socket = fit::socket_at(chain.binding, 0.5, 0, 0.1);
     socket.region = 2;
-    CHECK_FALSE(bend::Sockets::make(chain.bound.body, {&socket, 1}));
+    CHECK_FALSE(bend::Sockets::make(chain.binding.body, {&socket, 1}));
 }
 
 TEST_CASE("capsules hold every vertex, and more of them fit closer") {
@@ -142,15 +142,15 @@ TEST_CASE("capsules hold every vertex, and more of them fit closer") {
     double before[3] = {};
     for (int trial = 0; trial < 30; ++trial) {
         const Chain chain = random_chain(random, 1 + random() % 4, trial % 2 == 0);
-        const std::size_t count = chain.subject.positions.size();
+        const std::size_t count = chain.test_mesh.positions.size();
         Output out(count);
-        bend::DeformJob job = make_job(chain.bound.body, {}, Isa::automatic, out);
+        bend::DeformJob job = make_job(chain.binding.body, {}, Isa::automatic, out);
         job.poses = chain.poses;
         if (trial % 3 == 0) job.transform = random_transform(random, 1);
         bend::run(job);
         std::size_t step = 0;
         for (const std::size_t pieces : {1u, 4u, 16u}) {
-            std::vector<bend::Capsule> chain_of(bend::capsule_count(chain.bound.body, pieces));
+            std::vector<bend::Capsule> chain_of(bend::capsule_count(chain.binding.body, pieces));
             bend::capsules(job, pieces, chain_of);
             double widest = 0;
             for (const bend::Capsule& capsule : chain_of)
@@ -169,9 +169,9 @@ TEST_CASE("capsules hold every vertex, and more of them fit closer") {
     CHECK(before[2] <= before[1]);
 }
 
-TEST_CASE("poses along a path: the centre line follows it, the better the more regions there are") {
+TEST_CASE("poses along a path: the center line follows it, the better the more regions there are") {
     Random random(85);
-    const Subject subject = random_subject(random, 30, 10, 12, 65, 0);
+    const TestMesh test_mesh = random_mesh(random, 30, 10, 12, 65, 0);
     const glm::vec3 control[4] = {{1, 2, 3}, {5, 2, 3}, {6, 7, 3}, {9, 5, 6}};  // about as long as the body
     double last = 2;
     for (const std::size_t regions : {2u, 4u, 8u, 16u}) {
@@ -179,18 +179,18 @@ TEST_CASE("poses along a path: the centre line follows it, the better the more r
         options.folds = 0;
         for (std::size_t i = 0; i < regions; ++i)
             options.regions.push_back({1.0 / static_cast<double>(regions), std::nullopt});
-        const fit::Bound bound = fit::bind(subject.geometry(), subject.cylinder, options);
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
         std::vector<bend::Pose> poses(regions);
-        const bend::PathFit fit = bend::poses_along_bezier(bound.body, control, poses);
+        const bend::PathFit fit = bend::poses_along_bezier(binding.body, control, poses);
         CAPTURE(regions);
         CHECK_FALSE(fit.clamped);
         CHECK(fit.error > 0);
         CHECK(static_cast<double>(fit.error) < 0.45 * last);  // nearly a quarter each time
         last = static_cast<double>(fit.error);
-        // What is said of the centre line holds for what is deformed: sockets on the axis.
+        // What is said of the center line holds for what is deformed: sockets on the axis.
         std::vector<bend::Socket> sockets;
-        for (int i = 0; i <= 50; ++i) sockets.push_back(fit::socket_at(bound, 0.2 * i, 0, 0));
-        const std::optional<bend::Sockets> made = bend::Sockets::make(bound.body, sockets);
+        for (int i = 0; i <= 50; ++i) sockets.push_back(fit::socket_at(binding, 0.2 * i, 0, 0));
+        const std::optional<bend::Sockets> made = bend::Sockets::make(binding.body, sockets);
         REQUIRE(made);
         std::vector<bend::SocketFrame> frames(sockets.size());
         made->frames(poses, frames, fit.transform);

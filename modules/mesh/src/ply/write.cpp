@@ -79,7 +79,7 @@ std::vector<glm::vec3> vertex_normals(const Mesh& mesh) {
     return out;
 }
 
-/// Whether colours come from bytes and can go back to bytes.
+/// Whether colors come from bytes and can go back to bytes.
 bool are_bytes(const std::vector<glm::vec4>& colors) {
     const auto is_byte = [](float c) {
         return c >= 0 && c <= 1 && static_cast<float>(std::round(c * 255.0) / 255.0) == c;

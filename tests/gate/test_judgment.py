@@ -7,7 +7,7 @@ import unittest.mock
 import warnings
 
 from support import seeded
-from gating import judgement
+from gating import judgment
 
 CASES, PAIRS, THRESHOLD = 8, 20, 0.05
 NOISES = {
@@ -30,13 +30,13 @@ def pairs(random, noise, change=0.0, count=PAIRS):
 def gates(random, noise, number, slower_case=0.0):
     """Estimates of so many gates, the first case of each slower by so much."""
     for _ in range(number):
-        yield list(judgement.estimates({case: pairs(random, noise, 0 if case else slower_case)
+        yield list(judgment.estimates({case: pairs(random, noise, 0 if case else slower_case)
                                         for case in range(CASES)}).values())
 
 
-class Judgement(unittest.TestCase):
+class Judgment(unittest.TestCase):
     def setUp(self):  # quicker, and still fine enough
-        patch = unittest.mock.patch.object(judgement, "RESAMPLES", 999)
+        patch = unittest.mock.patch.object(judgment, "RESAMPLES", 999)
         patch.start()
         self.addCleanup(patch.stop)
 
@@ -54,9 +54,9 @@ class Judgement(unittest.TestCase):
             for change, least in ((0.07, 80), (0.15, 97)):
                 with self.subTest(f"{name}; {change}"):
                     random = seeded(seed)
-                    found = [judgement.estimate(pairs(random, noise, change), CASES) for _ in range(100)]
+                    found = [judgment.estimate(pairs(random, noise, change), CASES) for _ in range(100)]
                     # With Holm's largest factor.
-                    seen = sum(one.slower(judgement.ALPHA / CASES) and one.change > THRESHOLD for one in found)
+                    seen = sum(one.slower(judgment.ALPHA / CASES) and one.change > THRESHOLD for one in found)
                     self.assertGreaterEqual(seen, least)
 
     def test_gains_are_seen(self):
@@ -66,32 +66,32 @@ class Judgement(unittest.TestCase):
 
     def test_the_interval_is_wider_for_more_cases(self):
         found = pairs(seeded(6), NOISES["normal, 3 %"])
-        one, many = (judgement.estimate(found, cases) for cases in (1, 20))
+        one, many = (judgment.estimate(found, cases) for cases in (1, 20))
         self.assertLess(many.low, one.low)
         self.assertGreater(many.high, one.high)
         self.assertEqual(one.change, many.change)
 
     def test_equal_pairs(self):
-        same = judgement.estimate([(2.0, 2.0)] * PAIRS, 1)
+        same = judgment.estimate([(2.0, 2.0)] * PAIRS, 1)
         self.assertEqual((same.change, same.low, same.high, same.p), (0, 0, 0, 1))
-        slower = judgement.estimate([(2.0, 2.2)] * PAIRS, 1)
+        slower = judgment.estimate([(2.0, 2.2)] * PAIRS, 1)
         self.assertAlmostEqual(slower.low, 0.1)
         self.assertTrue(slower.slower())
 
     def test_some_equal_pairs(self):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            found = judgement.estimate([(2.0, 2.0)] * 3 + pairs(seeded(7), NOISES["normal, 3 %"], 0.1), 1)
+            found = judgment.estimate([(2.0, 2.0)] * 3 + pairs(seeded(7), NOISES["normal, 3 %"], 0.1), 1)
         self.assertTrue(found.slower())
 
     def test_holm(self):
-        for got, expected in zip(judgement.holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
+        for got, expected in zip(judgment.holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
             self.assertAlmostEqual(got, expected)
-        self.assertEqual(judgement.holm([0.9, 0.8]), [1, 1])
+        self.assertEqual(judgment.holm([0.9, 0.8]), [1, 1])
 
     def test_unclear(self):
         def unclear(low, high):
-            return judgement.Estimate(0, low, high, 1, PAIRS).unclear(THRESHOLD)
+            return judgment.Estimate(0, low, high, 1, PAIRS).unclear(THRESHOLD)
         self.assertTrue(unclear(-0.04, 0.06))
         self.assertFalse(unclear(-0.2, 0.04))  # whatever it is, it is below the threshold
         self.assertFalse(unclear(0.01, 0.3))  # there is a change

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_edit.hpp"
-#include "interpolate.hpp"
 #include "refine.hpp"
+
+#include "edit.hpp"
+#include "interpolate.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -21,7 +22,7 @@ constexpr std::uint64_t u8_type = 5121, u16_type = 5123, u32_type = 5125, float_
 /// New vertices of a block, in the block's own numbers.
 struct BlockCut {
     std::size_t count = 0;  ///< vertices before
-    std::vector<Between> vertices;
+    std::vector<EdgeVertex> vertices;
     std::vector<std::uint32_t>
         number;  ///< of the mesh's new vertices, those in this block: their place in it
 };
@@ -120,7 +121,7 @@ void SceneRefiner::share_out() {
     }
     const auto before = static_cast<std::uint32_t>(cut_.mesh().positions.size());
     for (std::uint32_t i = 0; i < cut_.pieces().vertices.size(); ++i) {
-        const Between& v = cut_.pieces().vertices[i];
+        const EdgeVertex& v = cut_.pieces().vertices[i];
         const auto b = static_cast<std::size_t>(std::ranges::upper_bound(ends, v.a) - ends.begin());
         const Block& block = scene_.blocks[b];
         const auto first = static_cast<std::uint32_t>(block.first[position]);

@@ -8,31 +8,32 @@
 #include <algorithm>
 #include <cmath>
 
-/// What bounds and capsules need to know of a region's coefficients: where its centre line runs, and how deep
+/// What bounds and capsules need to know of a region's coefficients: where its center line runs, and how deep
 /// its wrinkles are.
 
 namespace goffer::bend {
 
-using namespace simd;
+using simd::Float4;
+using simd::splat;
 
-/// The centre line at bands' edges, in the middle frame.
-struct CentreLine {
+/// The center line at bands' edges, in the middle frame.
+struct CenterLine {
     Float4 x, z;          // along n and t
     Float4 cosine, sine;  // of the arc angle
 };
 
-inline CentreLine centre_line(const Coefficients& k, Float4 v) noexcept {
+inline CenterLine center_line(const Coefficients& k, Float4 v) noexcept {
     const Float4 vv = v * v;
-    Float4 rise = polynomial(k.rise, vv) * vv;
-    Float4 reach = polynomial(k.reach, vv) * v;
+    Float4 arc_x = polynomial(k.arc_x, vv) * vv;
+    Float4 arc_z = polynomial(k.arc_z, vv) * v;
     float curvature = k.first_curvature;
     for (float n = 0; n < k.doublings; ++n, curvature += curvature) {
-        const Float4 cosine = splat(1) - splat(curvature) * rise;
-        rise = splat(curvature) * reach * reach;
-        reach *= cosine;
+        const Float4 cosine = splat(1) - splat(curvature) * arc_x;
+        arc_x = splat(curvature) * arc_z * arc_z;
+        arc_z *= cosine;
     }
-    return {splat(k.one_minus_kappa) * rise, splat(k.one_minus_kappa) * reach,
-            splat(1) - splat(k.curvature) * rise, splat(k.curvature) * reach};
+    return {splat(k.one_minus_kappa) * arc_x, splat(k.one_minus_kappa) * arc_z,
+            splat(1) - splat(k.curvature) * arc_x, splat(k.curvature) * arc_z};
 }
 
 /// A cross-section's columns are taken in sectors, from the outer line to the inner one: T = 1 + cos(beta -
@@ -54,7 +55,7 @@ inline float relative_amplitude(const Coefficients& k) noexcept {
     float largest = 0;
     for (const float part : {0.25f, 0.5f, 0.75f, 1.0f}) {
         const float x = part * q * part * q / (part * q + k.onset);
-        largest = std::max(largest, std::fabs(polynomial(k.amplitude, x)) * std::sqrt(x));
+        largest = std::max(largest, std::fabs(simd::polynomial(k.amplitude, x)) * std::sqrt(x));
     }
     return 1.001f * largest;
 }

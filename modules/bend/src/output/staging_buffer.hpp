@@ -12,10 +12,10 @@ namespace goffer::bend {
 /// A block of one instance's vertices as planes in the first-level cache, on the way from kernels to outputs
 /// that these can't write themselves: planes that can't be written side by side, lines that two regions
 /// share, components in an order of their own.
-class Stage {
+class StagingBuffer {
 public:
     /// Of what the plan's passes make.
-    explicit Stage(const OutputPlan& plan) noexcept;
+    explicit StagingBuffer(const OutputPlan& plan) noexcept;
 
     /// Vertices that it holds: whole lines.
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }

@@ -44,7 +44,7 @@ T get(const char* bytes) {
     return value;
 }
 
-/// A component as a number; normalised integers by the formulas of glTF 2.0, 3.11 (Animations) and
+/// A component as a number; normalized integers by the formulas of glTF 2.0, 3.11 (Animations) and
 /// KHR_mesh_quantization.
 double component_at(const char* bytes, std::uint64_t component, bool normalized) {
     switch (component) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "subject.hpp"
+#include "model.hpp"
 
 #include <goffer/fit/bind.hpp>
 #include <goffer/paper/closed_form.hpp>

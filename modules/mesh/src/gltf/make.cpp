@@ -126,7 +126,7 @@ std::size_t Maker::add_stream(const std::vector<glm::vec<N, float>>& values) {
     return add_accessor(bytes_of(values), float_type, shapes[N - 2], values.size(), attribute_target);
 }
 
-/// For each glTF vertex the sum of its faces' normals, not normalised; only where a normal of the mesh is no
+/// For each glTF vertex the sum of its faces' normals, not normalized; only where a normal of the mesh is no
 /// direction.
 std::vector<glm::vec3> Maker::face_normals() const {
     std::vector<glm::dvec3> sums(split_.keys.size(), glm::dvec3(0.0));

@@ -60,7 +60,7 @@ Mesh ObjReader::read() {
         mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
     if (not_finite_ > 0)
         mesh_.warnings.push_back(std::to_string(not_finite_) +
-                                 " uv or colour values are not finite: taken as 0");
+                                 " uv or color values are not finite: taken as 0");
     drop_unused_attributes();
     read_materials();
     return std::move(mesh_);
@@ -78,7 +78,7 @@ void ObjReader::take(const Statement& statement) {
     seen_.add(statement);
 }
 
-/// x y z, then maybe w (meaningless in a mesh of faces), or a colour r g b and maybe its alpha.
+/// x y z, then maybe w (meaningless in a mesh of faces), or a color r g b and maybe its alpha.
 void ObjReader::take_vertex(const Statement& statement) {
     const std::size_t count = numbers(statement, 3);
     const auto& n = numbers_;
@@ -90,7 +90,7 @@ void ObjReader::take_vertex(const Statement& statement) {
     mesh_.positions.emplace_back(n[0], n[1], n[2]);
     constexpr glm::vec4 white(1.0f);
     if (count >= 6) {
-        mesh_.colors.resize(mesh_.positions.size() - 1, white);  // the vertices before that had no colour
+        mesh_.colors.resize(mesh_.positions.size() - 1, white);  // the vertices before that had no color
         mesh_.colors.emplace_back(finite_or_zero(n[3]), finite_or_zero(n[4]), finite_or_zero(n[5]),
                                   count >= 7 ? finite_or_zero(n[6]) : 1.0f);
     } else if (!mesh_.colors.empty()) {
@@ -204,7 +204,7 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     try {
         text.str(read_bytes(library));
     } catch (const Error& error) {
-        mesh_.warnings.push_back(std::string("materials keep a grey: ") + error.what());
+        mesh_.warnings.push_back(std::string("materials keep a gray: ") + error.what());
     }
     std::map<std::string, int> index;
     std::string warnings, errors;

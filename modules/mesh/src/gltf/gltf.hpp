@@ -98,7 +98,7 @@ struct Document : Source {
 [[nodiscard]] std::filesystem::path path_of(std::string_view uri);
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
 
-/// The components of an accessor, `components` for each element, in element order; normalised integers as
+/// The components of an accessor, `components` for each element, in element order; normalized integers as
 /// numbers in -1..1. `index` is the reference to it. Nothing is allocated before the size is known to be
 /// backed by bytes.
 [[nodiscard]] std::vector<float> read_floats(const Document& document, const Value& index,

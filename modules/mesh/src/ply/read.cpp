@@ -67,7 +67,7 @@ Mesh PlyReader::read() {
         mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
     if (not_finite_ > 0)
         mesh_.warnings.push_back(std::to_string(not_finite_) +
-                                 " uv or colour values are not finite: taken as 0");
+                                 " uv or color values are not finite: taken as 0");
     return std::move(mesh_);
 }
 

@@ -8,11 +8,12 @@
 #include <algorithm>
 #include <limits>
 
-/// Where the centre line of a bent region runs, for comparing it with a path.
+/// Where the center line of a bent region runs, for comparing it with a path.
 
 namespace goffer::bend {
 
-using namespace simd;
+using simd::Float4;
+using simd::splat;
 
 /// Below any squared length that coordinates in float can have, but 0: keeps quotients by one from being NaN.
 inline constexpr double least_square = std::numeric_limits<double>::min();
@@ -35,17 +36,17 @@ struct Arc {
     }
 };
 
-/// Sixteen places at equal steps along a region's centre line, the last of them at its end.
-struct CentrePlaces {
+/// Sixteen places at equal steps along a region's center line, the last of them at its end.
+struct CenterPlaces {
     static constexpr int fours = 4, count = 4 * fours;
 
-    glm::dvec3 begin;                  // of the region
-    double length;                     // of the centre line
-    glm::vec3 across, onward;          // the arc's plane: to its centre, and along the axis at its beginning
-    Float4 rise[fours], reach[fours];  // in lengths, a place's coordinates in it
+    glm::dvec3 begin;                   // of the region
+    double length;                      // of the center line
+    glm::vec3 across, onward;           // the arc's plane: to its center, and along the axis at its beginning
+    Float4 arc_x[fours], arc_z[fours];  // in lengths, a place's coordinates in it
 
     /// By the sums of angles: the four first places, then twice as many each time.
-    CentrePlaces(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
+    CenterPlaces(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
                  const Arc& arc) noexcept
         : begin(from), length(whole), across(n), onward(t) {
         const auto angle = static_cast<float>(arc.angle);
@@ -53,19 +54,19 @@ struct CentrePlaces {
         const auto sine = [&](int i) { return static_cast<float>(arc.sine[i] * per_angle); };
         const auto versine = [&](int i) { return static_cast<float>(arc.versine[i] * per_angle); };
         const float s1 = sine(0), s2 = sine(1), v1 = versine(0), v2 = versine(1);
-        reach[0] = Float4{s1, s2, s1 + s2 - angle * (s1 * v2 + v1 * s2), sine(2)};
-        rise[0] = Float4{v1, v2, v1 + v2 + angle * (s1 * s2 - v1 * v2), versine(2)};
+        arc_z[0] = Float4{s1, s2, s1 + s2 - angle * (s1 * v2 + v1 * s2), sine(2)};
+        arc_x[0] = Float4{v1, v2, v1 + v2 + angle * (s1 * s2 - v1 * v2), versine(2)};
         for (int known = 1, doubling = 2; known < fours; known *= 2, ++doubling) {
             const Float4 s = splat(sine(doubling)), v = splat(versine(doubling));
             for (int i = 0; i < known; ++i) {
-                reach[known + i] = s + reach[i] - splat(angle) * (s * rise[i] + v * reach[i]);
-                rise[known + i] = v + rise[i] + splat(angle) * (s * reach[i] - v * rise[i]);
+                arc_z[known + i] = s + arc_z[i] - splat(angle) * (s * arc_x[i] + v * arc_z[i]);
+                arc_x[known + i] = v + arc_x[i] + splat(angle) * (s * arc_z[i] - v * arc_x[i]);
             }
         }
     }
 
     [[nodiscard]] glm::dvec3 operator[](int i) const noexcept {
-        return begin + length * glm::dvec3(rise[i / 4][i % 4] * across + reach[i / 4][i % 4] * onward);
+        return begin + length * glm::dvec3(arc_x[i / 4][i % 4] * across + arc_z[i / 4][i % 4] * onward);
     }
 };
 
