@@ -9,7 +9,8 @@
 
 namespace goffer::fit {
 
-/// Amplitude mode `mesh`: solves each region's factors m(alpha, theta), 0 <= m <= 2, such that
+/// Amplitude mode `mesh` (modules/paper/README.md, "Amplitude modes"):
+/// solves each region's factors m(alpha, theta), 0 <= m <= 2, such that
 /// the region's own triangles keep the area that they have at rest. `body`: made from the same regions
 /// without factors; `order`: as Binding::order. Runs on all processors.
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,

@@ -55,6 +55,7 @@ constexpr std::size_t arc_terms = 4;
 /// One region's numbers in one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
 /// where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in the streams' space by `matrix`
 /// and `offset`. In rows of four floats, which is how set-up writes them.
+/// See modules/paper/README.md, "Bend".
 struct alignas(16) Coefficients {
     float cos_half_direction, sin_half_direction;  ///< of theta / 2
     float one_minus_kappa;

@@ -11,6 +11,7 @@
 /// h' = sqrt(2) sin((beta - theta) / 2) come from the columns by a rotation, and give T = h^2 = 1 + c with
 /// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root, unless
 /// the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
+/// See modules/paper/README.md, "Bend".
 
 namespace goffer::bend {
 
@@ -211,6 +212,7 @@ Vector<L> normalized(const Vector<L>& v) {
 
 /// The Jacobian's entries in the bent frame: rows (a, b, d), (0, growth,
 /// 0), (0, 0, stretch). Without a wrinkle only stretch is set: a and growth are 1, b and d 0.
+/// See modules/paper/README.md, "Normals and tangents".
 template <class L>
 struct Jacobian {
     typename L::Vec growth;  // rho' / rho

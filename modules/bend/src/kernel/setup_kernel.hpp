@@ -287,6 +287,7 @@ private:
     /// The scale of a column is S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa
     /// (cos theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), which makes q
     /// linear in p. The differences vanish exactly at the rest pose.
+    /// See modules/paper/README.md, "Bodies bent at rest".
     void set_squeeze(Vec kappa) {
         const Vec zero = L::splat(0.0f);
         // By the same operations as the pose's, so that they cancel.

@@ -25,6 +25,7 @@
 ///     }
 ///
 /// Method: Chen et al. 2015, eq 2-10, in the stable form of goffer::paper::ClosedForm, in float.
+/// See modules/paper/README.md, "Bend".
 
 namespace goffer::bend {
 

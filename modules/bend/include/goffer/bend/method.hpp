@@ -12,6 +12,7 @@ inline constexpr std::size_t wrinkle_degree = 7;
 
 /// The amplitude has a corner on the outer line, where cos((beta - theta) / 2) changes sign. While that
 /// cosine lies within this of 0, the slopes of both sides are blended.
+/// See modules/paper/README.md, "Normals and tangents".
 inline constexpr float crease_width = 1e-3f;
 
 }  // namespace goffer::bend

@@ -9,6 +9,7 @@
 /// Regions: stretches of a body's axis, each of which bends along an arc of its own. A region begins in the
 /// frame that the end of the one before carries (parallel transport: no twist), and no wrinkle reaches over
 /// its ends, so that positions meet.
+/// See modules/paper/README.md, "Regions".
 
 namespace goffer::bend {
 

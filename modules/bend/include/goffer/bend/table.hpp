@@ -8,6 +8,7 @@
 #include <vector>
 
 /// The wrinkle table: one row per bend angle, made at bind, read per frame.
+/// See modules/paper/README.md, "Wrinkle table".
 
 namespace goffer::bend {
 
@@ -21,6 +22,7 @@ namespace goffer::bend {
 /// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc and
 /// begins gently: with S and S_0 the column's scale in the pose and at rest,
 ///     q = max(0, 1 - S / S_0),   q' = q^2 / (q + q0),   A = S_0 sqrt(q') P(q' / kappa).
+/// See modules/paper/README.md, "Bodies bent at rest".
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
 /// Rows from angle 0 to `max_angle`, at equal steps of the angle's root: row i of n is for max_angle (i / (n
@@ -41,6 +43,7 @@ struct WrinkleTable {
 /// area). Rows at angles as those of WrinkleTable; value j of a row is for the direction 2 pi j / directions
 /// from that of the region's rest arc, toward e2. Squares of factors, in which area is nearly linear; below
 /// 0 where even no wrinkle is too much. A plain value; empty where all factors are 1.
+/// See modules/paper/README.md, "Amplitude modes".
 struct FactorTable {
     static constexpr std::size_t directions = 16;
     float max_angle = 0;  ///< angle of the last row, radians; > 0 where there are rows

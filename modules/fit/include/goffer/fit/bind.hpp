@@ -43,6 +43,7 @@ struct BindOptions {
     /// q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently; columns
     /// become shorter by up to about q0 of their length for it. Unset: 0, and gentle_onset for a body that is
     /// bent at rest, where without it the wrinkle would begin with a step.
+    /// See modules/paper/README.md, "Onset".
     std::optional<double> onset;
 
     static constexpr int max_folds = 64;
@@ -127,7 +128,7 @@ struct Binding {
 /// The largest usable |angle| (radians): just below where L / alpha - r = rho_max + A(alpha), that is where
 /// the outermost vertex, lifted by the wrinkle, would reach the arc's center and the body fold through
 /// itself. `rho_max`: largest distance of a vertex from the axis; `factor`: on the amplitude, beside that of
-/// Amplitude::area. Thread-safe; errors as above.
+/// Amplitude::area. See modules/paper/README.md, "Limits". Thread-safe; errors as above.
 [[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, int folds, double length,
                                    double radius, double rho_max, double factor = 1);
 

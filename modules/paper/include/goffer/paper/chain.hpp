@@ -12,6 +12,7 @@
 
 /// Regions in a row: each bends along an arc of its own and begins in the frame that the end of
 /// the one before carries, without twist. In double; not in the paper, which has one region.
+/// See modules/paper/README.md, "Regions".
 
 namespace goffer::paper {
 

@@ -10,6 +10,7 @@
 
 /// The deformation as a closed-form map, in double and without a grid: bend (eq 2-5), wrinkle (eq 6-10), and
 /// the analytic Jacobian that carries normals and tangents. The float32 kernels are tested against it.
+/// See modules/paper/README.md, "Bend".
 ///
 /// Body frame: origin at the center of the base end, e3 along the axis from base to tip, e1 the zero of
 /// beta, e2 = e3 x e1. Angles are radians. Every function is pure and may be called from any thread.

@@ -6,6 +6,7 @@
 ///
 /// Chen, Fang, Yang, Li, Chen. "Local Deformation Method for Soft Cylindrical Model". Journal of System
 /// Simulation 27(6), 2015, 1255-1261. Equation numbers are that paper's.
+/// modules/paper/README.md, "Wrinkle" puts it together.
 ///
 /// Angles are radians, lengths model units. Every function here is pure and may be called from any thread.
 
