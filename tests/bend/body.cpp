@@ -279,7 +279,7 @@ TEST_CASE("a body says what it was made from, unrounded") {
     CHECK(body.max_angle(1) == 2.0f);
     CHECK(body.rest_pose(1).angle == static_cast<float>(1 / 3.0));
     CHECK(body.bytes() > sizeof(Body) + 18 * 2 * sizeof(float));
-    const std::vector<RegionInput> given = body.region_inputs();
+    const std::span<const RegionInput> given = body.region_inputs();
     REQUIRE(given.size() == 2);
     CHECK(given[0].vertex_count == 1);
     CHECK(given[1].length == tip.length);

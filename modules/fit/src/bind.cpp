@@ -172,7 +172,8 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or another's; give what bind returned");
     RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places_of(rig));
-    std::vector<bend::RegionInput> regions = rig.body.region_inputs();
+    const std::span<const bend::RegionInput> own = rig.body.region_inputs();
+    std::vector<bend::RegionInput> regions(own.begin(), own.end());
     std::vector<RegionBinding> found = rig.regions;
     const Rows rows(level, rig.cylinder);
     for (std::size_t i = 0; i < regions.size(); ++i) {

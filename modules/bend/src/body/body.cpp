@@ -20,21 +20,8 @@ std::span<const Region> Body::regions() const noexcept {
     return data_ ? std::span<const Region>(data_->regions) : std::span<const Region>();
 }
 
-std::vector<RegionInput> Body::region_inputs() const {
-    std::vector<RegionInput> inputs(region_count());
-    for (std::size_t r = 0; r < inputs.size(); ++r) {
-        const auto& [length, max_angle, rest_angle, rest_direction, onset] = data_->given[r];
-        const std::size_t vertices = data_->regions[r].last - data_->regions[r].first;
-        inputs[r] = {length,
-                     max_angle,
-                     rest_angle,
-                     rest_direction,
-                     onset,
-                     data_->details[r].table,
-                     data_->details[r].factors,
-                     vertices};
-    }
-    return inputs;
+std::span<const RegionInput> Body::region_inputs() const noexcept {
+    return data_ ? std::span<const RegionInput>(data_->inputs) : std::span<const RegionInput>();
 }
 
 double Body::length() const noexcept {
@@ -64,8 +51,8 @@ glm::dmat3 Body::axes() const noexcept {
 std::size_t Body::bytes() const noexcept {
     if (!data_) return sizeof(Body);
     std::size_t bytes = sizeof(Body) + sizeof(BodyData) + data_->storage.bytes();
-    for (const RegionData& region : data_->details) {
-        bytes += sizeof(Region) + sizeof(RegionData) + sizeof(GivenRegion) +
+    for (const RegionInput& region : data_->inputs) {
+        bytes += sizeof(RegionInput) + sizeof(Region) + sizeof(RegionData) +
                  region.table.rows.size() * sizeof(region.table.rows[0]) +
                  region.factors.rows.size() * sizeof(region.factors.rows[0]);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "kernel/args.hpp"
 #include "kernel/rest_columns.hpp"
 
 #include <goffer/bend/body.hpp>
@@ -36,31 +37,28 @@ struct Bands {
     std::array<float, places> inward{};   ///< largest -g w, at least 0
 };
 
-/// What an instance's set-up reads of a region, beside its Region.
-struct RegionData {
-    float per_length = 1;  ///< 1 / length
-    /// Whether wrinkles follow the squeeze relative to the rest arc, or begin gently: if not, a cheaper
-    /// kernel serves.
-    bool compares_with_rest = false;
-    WrinkleTable table;
-    FactorTable factors;
-    Bands bands;
-};
+/// Whether wrinkles follow the squeeze relative to the rest arc, or begin gently; if not, cheaper kernels
+/// serve.
+[[nodiscard]] inline bool compares_with_rest(const RegionInput& region) noexcept {
+    return region.rest_angle != 0 || region.onset != 0;
+}
 
-/// A region's numbers as they were given, before they became float.
-struct GivenRegion {
-    double length = 0, max_angle = 0, rest_angle = 0, rest_direction = 0, onset = 0;
+/// What the frame path reads of a region, beside its Region.
+struct RegionData {
+    SetupRegion setup = {};                ///< its rows are those of the input's table
+    Squeeze squeeze = Squeeze::none;       ///< where its wrinkles come from
+    const FactorTable* factors = nullptr;  ///< the input's
+    Bands bands;
 };
 
 struct BodyData {
     Columns storage;      ///< of `columns`
     RestColumns columns;  ///< padded as Columns says; null where the body has no such column
     std::size_t vertex_count = 0;
-    std::vector<Region> regions;
-    std::vector<RegionData> details;  ///< one per region
-    std::vector<GivenRegion> given;   ///< one per region
+    std::vector<RegionInput> inputs;  ///< what the regions were made from
+    std::vector<Region> regions;      ///< one per input
+    std::vector<RegionData> details;  ///< one per input
     Frame base = {};                  ///< where the first region begins
-    float radius_f = 1;               ///< `radius`, rounded
     glm::dvec3 origin{0};
     glm::dmat3 axes{1};
     double length = 0;

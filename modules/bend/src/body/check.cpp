@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "body/body_data.hpp"
+
 #include <goffer/bend/body.hpp>
 
 #include <glm/geometric.hpp>
@@ -64,10 +66,6 @@ Reason check_table(const Table& table) noexcept {
     }
     const auto angle = static_cast<double>(table.max_angle);
     return reason_of(angle, Range::min_angle, static_cast<double>(std::numeric_limits<float>::max()));
-}
-
-bool compares_with_rest(const RegionInput& region) noexcept {
-    return region.rest_angle != 0 || region.onset != 0;
 }
 
 /// The largest factor on the amplitude; one without a table.

@@ -26,10 +26,6 @@ enum Column : std::size_t {
 };
 enum RestColumn : std::size_t { cos_beta, sin_beta, rest_cosine, rest_sine, all_rest_columns };
 
-bool compares_with_rest(const RegionInput& region) {
-    return region.rest_angle != 0 || region.onset != 0;
-}
-
 /// The place of the first RestColumn.
 std::size_t first_rest_column(bool has_tangents) {
     return has_tangents ? all_columns : tangents;
@@ -150,10 +146,37 @@ Region region_of(const Making& making) {
             {static_cast<float>(input.rest_angle), static_cast<float>(input.rest_direction)}};
 }
 
+Squeeze squeeze_of(const RegionInput& region) {
+    if (region.table.empty()) return Squeeze::none;
+    return compares_with_rest(region) ? Squeeze::relative : Squeeze::plain;
+}
+
+/// `direction` within half a turn either way.
+float reduced(double direction) {
+    return static_cast<float>(
+        std::remainder(static_cast<double>(static_cast<float>(direction)), 2 * std::numbers::pi));
+}
+
+SetupRegion setup_of(const RegionInput& region, double radius) {
+    SetupRegion setup = {};
+    setup.length = static_cast<float>(region.length);
+    setup.per_length = static_cast<float>(1 / region.length);
+    setup.radius = static_cast<float>(radius);
+    setup.max_angle = static_cast<float>(region.max_angle);
+    setup.relative = squeeze_of(region) == Squeeze::relative;
+    setup.onset = static_cast<float>(region.onset);
+    setup.rest_angle = static_cast<float>(region.rest_angle);
+    setup.rest_direction = reduced(region.rest_direction);
+    if (region.table.empty()) return setup;
+    setup.rows = reinterpret_cast<const float(*)[amplitude_terms]>(region.table.rows.front().data());
+    setup.row_count = region.table.rows.size();
+    setup.table_max_angle = region.table.max_angle;
+    return setup;
+}
+
 RegionData data_of(const Making& making, const RestColumns& columns) {
     const RegionInput& input = making.region;
-    return {static_cast<float>(1 / input.length), compares_with_rest(input), input.table, input.factors,
-            bands_of(columns, making)};
+    return {setup_of(input, making.radius), squeeze_of(input), &input.factors, bands_of(columns, making)};
 }
 
 void add_region(BodyData& data, const Making& making, std::span<const RestVertex> vertices) {
@@ -165,8 +188,6 @@ void add_region(BodyData& data, const Making& making, std::span<const RestVertex
     }
     data.regions.push_back(region_of(making));
     data.details.push_back(data_of(making, data.columns));
-    data.given.push_back(
-        {input.length, input.max_angle, input.rest_angle, input.rest_direction, input.onset});
     data.length += input.length;
 }
 
@@ -180,12 +201,12 @@ std::optional<Body> Body::make(const BodyInput& input) {
     data->columns = columns_of(data->storage, has_tangents);
     data->vertex_count = input.vertices.size();
     data->base = frame_of(input);
-    data->radius_f = static_cast<float>(input.radius);
     data->origin = input.origin;
     data->axes = input.axes;
     data->radius = input.radius;
+    data->inputs.assign(input.regions.begin(), input.regions.end());
     std::size_t first = 0;
-    for (const RegionInput& region : input.regions) {
+    for (const RegionInput& region : data->inputs) {
         add_region(*data, {region, input.radius, first, first + region.vertex_count}, input.vertices);
         first += region.vertex_count;
     }

@@ -108,7 +108,7 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
 
 void PosedGroup::set_poses(std::size_t region) noexcept {
     const Region& limits = body_.regions[region];
-    const FactorTable& factors = body_.details[region].factors;
+    const FactorTable& factors = *body_.details[region].factors;
     for (std::size_t i = 0; i < count_; ++i) {
         const Pose pose = region < pose_count_[i] ? poses_[i][region] : limits.rest;
         columns_.angle[i] = pose.angle;
@@ -123,31 +123,15 @@ void PosedGroup::set_poses(std::size_t region) noexcept {
 }
 
 void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
-    const Region& limits = body_.regions[region];
     const RegionData& details = body_.details[region];
     if (region == 0) {
         for (std::size_t c = 0; c < 12; ++c)
             std::fill_n(columns_.frame[c], setup_width,
                         c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
     }
-    SetupRegion setup = {};
-    setup.length = limits.length;
-    setup.per_length = details.per_length;
-    setup.radius = body_.radius_f;
-    setup.max_angle = limits.max_angle;
-    squeeze_ = Squeeze::none;
-    if (!details.table.empty()) {
-        squeeze_ = details.compares_with_rest ? Squeeze::relative : Squeeze::plain;
-        setup.rows = reinterpret_cast<const float(*)[amplitude_terms]>(details.table.rows.front().data());
-        setup.row_count = details.table.rows.size();
-        setup.table_max_angle = details.table.max_angle;
-    }
-    setup.relative = squeeze_ == Squeeze::relative;
-    setup.onset = limits.onset;
-    setup.rest_angle = limits.rest.angle;
-    setup.rest_direction = reduced(limits.rest.direction);
+    squeeze_ = details.squeeze;
     set_poses(region);
-    setup_(setup, columns_, count_, wrinkled_, k, step);
+    setup_(details.setup, columns_, count_, wrinkled_, k, step);
 }
 
 }  // namespace goffer::bend

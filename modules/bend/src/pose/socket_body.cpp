@@ -21,7 +21,8 @@ std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> s
         normals.push_back(sockets[i].normal);
         tangents.push_back(sockets[i].tangent);
     }
-    std::vector<RegionInput> regions = body.region_inputs();
+    const std::span<const RegionInput> own = body.region_inputs();
+    std::vector<RegionInput> regions(own.begin(), own.end());
     for (std::size_t r = 0; r < counts.size(); ++r) regions[r].vertex_count = counts[r];
     const std::vector<float> signs(sockets.size(), 1.0f);
     BodyInput input;

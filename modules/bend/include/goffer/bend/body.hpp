@@ -12,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 /// A body: a mesh bound to its base cylinder, which is a chain of one or more regions. Made once, offline
 /// (goffer::fit::bind), shared by all its instances.
@@ -143,8 +142,8 @@ public:
     [[nodiscard]] std::span<const Region> regions() const noexcept;
     /// What the regions were made from, unrounded. With origin(), axes() and radius() that is all of a
     /// BodyInput but its vertices: a body made from them deforms a vertex of the same rest coordinates to the
-    /// same bits. Allocates; may throw std::bad_alloc.
-    [[nodiscard]] std::vector<RegionInput> region_inputs() const;
+    /// same bits.
+    [[nodiscard]] std::span<const RegionInput> region_inputs() const noexcept;
     [[nodiscard]] std::size_t region_count() const noexcept { return regions().size(); }
     /// Of all regions together, model units.
     [[nodiscard]] double length() const noexcept;
