@@ -161,7 +161,11 @@ void OutputPlan::find_records(bool scratch_gaps) noexcept {
         };
         for (to = from + 1; same_stride(to) && offset(to) * sizeof(float) < first.stride;) ++to;
         Record& record = records_[record_count_++];
-        record = {.first = first.first, .stride = first.stride, .component = from, .component_end = to};
+        record = {};
+        record.first = first.first;
+        record.stride = first.stride;
+        record.component = from;
+        record.component_end = to;
         record.floats = offset(to - 1) + 1;
         // Of records of one struct whose members lie apart, each one's gaps are where the others write.
         const bool alone = !same_stride(to) && (from == 0 || components[from - 1].stride != first.stride);

@@ -21,23 +21,23 @@ constexpr std::size_t pass_count = 3;
 /// What passes make at most: position, normal, tangent; previous position; three packed words.
 constexpr std::size_t most_values = 16;
 
-/// One value of each vertex.
+/// One value of each vertex. (Without initial values, as Record: plans have room for more than they use.)
 struct Component {
-    float* first = nullptr;  ///< vertex 0's
-    std::size_t stride = 0;  ///< bytes
-    std::size_t value = 0;   ///< which of all that passes make
+    float* first;        ///< vertex 0's
+    std::size_t stride;  ///< bytes
+    std::size_t value;   ///< which of all that passes make
 };
 
 /// Components of one stride that are nearer to each other than it: members of one struct, or a plane alone.
 struct Record {
-    float* first = nullptr;     ///< vertex 0's first value
-    std::size_t stride = 0;     ///< bytes
-    std::size_t floats = 0;     ///< from the first value to behind the last
-    bool in_lines = false;      ///< written past the cache: it has no gaps, or gaps that may be written
-    bool in_strip = false;      ///< in_lines, and put together in a strip
-    std::size_t strip = 0;      ///< in_strip: where its strip begins among all of them, floats
-    std::size_t component = 0;  ///< its components are [component, component_end)
-    std::size_t component_end = 0;
+    float* first;           ///< vertex 0's first value
+    std::size_t stride;     ///< bytes
+    std::size_t floats;     ///< from the first value to behind the last
+    bool in_lines;          ///< written past the cache: it has no gaps, or gaps that may be written
+    bool in_strip;          ///< in_lines, and put together in a strip
+    std::size_t strip;      ///< in_strip: where its strip begins among all of them, floats
+    std::size_t component;  ///< its components are [component, component_end)
+    std::size_t component_end;
 
     [[nodiscard]] bool plane() const noexcept { return stride == sizeof(float); }
     [[nodiscard]] bool has_gaps() const noexcept {
