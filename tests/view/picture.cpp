@@ -2,7 +2,6 @@
 #include "shapes.hpp"
 
 #include <doctest/doctest.h>
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 using namespace goffer;
@@ -24,7 +23,6 @@ TEST_CASE("the same bytes, whatever the threads") {
     test::Shape ghost = test::sphere({0.2f, 0, 0}, 1, 300, 150, 0.05f), same_place = bumpy;
     ghost.color.a = 0.3f;
     same_place.color = {0, 0.5f, 0, 1};
-    const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
     const auto pictured = [&](int threads) {
         return tbb::task_arena(threads).execute([&] {
             return test::render({bumpy, ghost, same_place}, small).rgb;
