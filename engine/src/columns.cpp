@@ -7,8 +7,8 @@
 namespace goffer {
 namespace {
 
-// Room for a whole batch behind the last value; never a multiple of a page, so that the columns of one vertex
-// do not compete for the same lines of the first-level cache.
+// Leaves room for a whole batch behind the last value. Never a multiple of a page: a vertex's values in
+// different columns would compete for the same lines of the first-level cache.
 std::size_t column_stride(std::size_t count) {
     const std::size_t padded = (count + widest_batch + widest_batch - 1) / widest_batch * widest_batch;
     constexpr std::size_t page = 4096 / sizeof(float);

@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 6> names = {"auto", "scalar", "sse4.2", "
 
 #ifdef GOFFER_HAS_SSE42
 
-/// What this machine runs of what is built for x86-64.
+/// Which of the sets for x86-64 this machine can run.
 struct Machine {
     bool sse42, avx2, avx512;
 };
@@ -52,7 +52,7 @@ Machine look() noexcept {
 }
 
 bool machine_has(Isa isa) noexcept {
-    // Once: a virtual machine's host answers each of these questions, which takes longer than many a job.
+    // Asked once: in a virtual machine the host answers cpuid, which takes longer than many a job.
     static const Machine machine = look();
     switch (isa) {
         case Isa::sse42:
@@ -68,7 +68,7 @@ bool machine_has(Isa isa) noexcept {
 
 #else
 
-/// Every 64-bit Arm has NEON, and every machine what plain C++ needs.
+/// Every 64-bit Arm has NEON.
 bool machine_has(Isa isa) noexcept {
     return isa == Isa::automatic || isa == Isa::scalar || isa == Isa::neon;
 }

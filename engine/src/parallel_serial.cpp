@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <goffer/engine/parallel.hpp>
 
-/// In place of parallel.cpp in a build without oneTBB.
+/// Takes the place of parallel.cpp in a build without oneTBB.
 
 namespace goffer {
 

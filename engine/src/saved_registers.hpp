@@ -7,20 +7,20 @@
 #include <intrin.h>
 #endif
 
-/// What x86-64 tells of the system: a processor may have registers that an old system or a virtual machine
-/// does not keep for its threads. Xsimd asks for that in newer versions than 8.1 only.
+/// Which registers the operating system saves on x86-64. A processor may have registers that an old system or
+/// a virtual machine does not save for its threads. xsimd 8.1 does not ask.
 
 namespace goffer {
 
 /// Bits of saved_registers().
-constexpr std::uint64_t saves_256_bits = 0x06;  ///< lower and upper halves of AVX registers
+constexpr std::uint64_t saves_256_bits = 0x06;  ///< both halves of the AVX registers
 constexpr std::uint64_t saves_512_bits =
-    0xe6;  ///< these, masks, the upper halves of 512 bits, registers 16 to 31
+    0xe6;  ///< these, masks, upper halves of 512 bits, registers 16 to 31
 
-/// The registers that the system saves when it changes threads, as the bits of XCR0; none where it cannot be
-/// asked.
+/// The registers that the system saves when it switches threads, as the bits of XCR0. 0 where it cannot be
+/// asked. Thread-safe.
 [[nodiscard]] inline std::uint64_t saved_registers() noexcept {
-    constexpr std::uint32_t answers = 1u << 27;  // OSXSAVE, in ecx of leaf 1: else xgetbv is no instruction
+    constexpr std::uint32_t answers = 1u << 27;  // OSXSAVE in ecx of leaf 1: without it, xgetbv faults
 #if defined(__GNUC__) || defined(__clang__)
     std::uint32_t a = 1, b = 0, c = 0, d = 0;
     __asm__("cpuid" : "+a"(a), "=b"(b), "+c"(c), "=d"(d));

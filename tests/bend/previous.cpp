@@ -2,9 +2,12 @@
 #include "support/bodies.hpp"
 #include "support/output_buffer.hpp"
 
+#include <goffer/bend/crowd.hpp>
+
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <limits>
 
 /// Previous positions, for motion vectors.
 
@@ -49,6 +52,24 @@ TEST_CASE("previous positions have the bits that positions had at that pose and 
                 }
             }
         }
+    }
+}
+
+TEST_CASE("a crowd that asks for previous positions alone counts its instances, by their current poses") {
+    Random random(62);
+    const bend::Body body = loose_body(random, 40);
+    const float far = 2 * body.max_angle(), nan = std::numeric_limits<float>::quiet_NaN();
+    const bend::Pose poses[] = {{0.1f, 0}, {far, 0}, {nan, 0}, {0.1f, 0}, {-far, 1}};
+    const bend::Pose previous[] = {{far, 0}, {0, 0}, {0, 0}, {nan, 0}, {0, 0}};
+    bend::Batch batch{.body = &body, .count = 5};
+    batch.poses = strided(std::span(poses));
+    batch.previous_poses = strided(std::span(previous));
+    batch.vertex_step = 40;
+    for (const std::string_view picture : {"p q r", "x y z p q r"}) {
+        OutputBuffer out(picture, 5 * 40);
+        out.attach(batch);
+        CHECK(bend::run(bend::CrowdJob{.batches = {&batch, 1}}) == bend::CrowdResult{5, 2, 1});
+        batch.positions = batch.previous_positions = {};
     }
 }
 

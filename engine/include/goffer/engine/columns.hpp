@@ -10,29 +10,30 @@
 
 namespace goffer {
 
-/// Bytes that every column starts at a multiple of: a cache line, and the widest register.
+/// Alignment of every column in bytes: a cache line, which is also the widest register.
 inline constexpr std::size_t column_alignment = 64;
 
-/// Floats that any kernel reads at once at most: two of the widest registers.
+/// The most floats that a kernel reads at once: two of the widest registers.
 inline constexpr std::size_t widest_batch = 32;
 
 /// A block of `columns` columns with `count` floats each.
 ///
-/// Every column starts on a cache line and is padded with zeros so that a kernel may read a whole widest
-/// batch from any index below count(). Move-only; the memory is the object's own. Reading from several
-/// threads is safe.
+/// Every column starts on a cache line and ends in zeros, so that a kernel may read `widest_batch` floats
+/// from any index below count(). Owns its memory; move-only. An object that was moved from may only be
+/// destroyed or assigned to. Several threads may read at the same time.
 class Columns {
 public:
     Columns() = default;
 
-    /// Allocates zero-filled columns: about columns * (count + 32) * 4 bytes. May throw std::bad_alloc.
+    /// Allocates zero-filled columns: less than columns * (count + 96) * 4 bytes. May throw std::bad_alloc.
     Columns(std::size_t columns, std::size_t count);
 
     [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// Bytes allocated, with the padding.
     [[nodiscard]] std::size_t bytes() const noexcept { return columns_ * stride_ * sizeof(float); }
 
-    /// The values of column `index` < columns(), without the padding.
+    /// The count() values of column `index` < columns(), without the padding.
     [[nodiscard]] std::span<float> operator[](std::size_t index) noexcept {
         assert(index < columns_);
         return {memory_.get() + index * stride_, count_};

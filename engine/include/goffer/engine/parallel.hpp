@@ -5,19 +5,21 @@
 #include <type_traits>
 
 /// The one place where goffer meets a scheduler: a loop over ranges, run by oneTBB in the caller's arena. A
-/// build without oneTBB (GOFFER_TBB=OFF) runs it on the calling thread, in one range.
+/// build without oneTBB (GOFFER_TBB=OFF) runs it on the calling thread, as one range.
 
 namespace goffer {
 
-/// Calls `body(context, first, last)` for disjoint ranges that cover [0, count), each of `grain` or more
-/// elements where there are as many, from the threads of the arena that the caller is in.
+/// Calls `body(context, first, last)` for disjoint ranges that cover [0, count), from the threads of the
+/// arena that the caller is in, and returns when all calls have. A range of more than `grain` elements may be
+/// halved for other threads, so no range is shorter than half of `grain`, unless `count` is. A grain of 0
+/// counts as 1.
 ///
-/// Nested work is isolated: while it waits, the calling thread does not pick up the caller's own tasks.
-/// Nothing global is set. Returns when all is done. `body` must not throw. Thread-safe.
+/// Nested work is isolated: while the calling thread waits, it picks up no other tasks of the caller. Sets
+/// nothing global. `body` must not throw. goffer allocates nothing here, but the scheduler may. Thread-safe.
 void parallel_ranges(std::size_t count, std::size_t grain, void* context,
                      void (*body)(void* context, std::size_t first, std::size_t last));
 
-/// As above, for a callable taking (first, last).
+/// The same for a callable that takes (first, last).
 template <class Body>
 void parallel_ranges(std::size_t count, std::size_t grain, Body&& body) {
     using Callable = std::remove_reference_t<Body>;

@@ -11,8 +11,8 @@
 #include <span>
 #include <type_traits>
 
-/// A read-only column of values that lie in the caller's memory as the caller keeps them: an array, a member
-/// of an array of structs, or either of them cut into pages, as the pools of ECS libraries are.
+/// A read-only column of values, wherever the caller keeps them: in an array, in a member of an array of
+/// structs, or in either of these cut into pages, like the pools of ECS libraries.
 ///
 ///     strided(std::span(poses))                                    // an array
 ///     strided(std::span(worms), &Worm::pose)                       // a member of each struct
@@ -20,27 +20,28 @@
 
 namespace goffer {
 
-/// `count` values of type T, or groups of consecutive ones, `stride` bytes apart. A plain value that owns
-/// nothing; the memory must outlive it. A default-made view is empty: the column is not given.
+/// `count` elements of type T, `stride` bytes apart. Some columns have further values behind each element,
+/// like the poses of a body's regions behind that of the first. A plain value that owns nothing: the memory,
+/// and the array of page addresses, must outlive it. A default-made view is empty: the column is not given.
 template <class T>
 struct StridedView {
     static_assert(std::is_trivially_copyable_v<T>);
     static constexpr std::uint32_t one_stretch = 63;  ///< page_shift of a view without pages
 
-    const void* data = nullptr;  ///< element 0; of a paged view: an array of the pages' addresses
+    const void* data = nullptr;  ///< the array, or an array of the pages' addresses
     std::size_t count = 0;
     std::uint32_t stride = sizeof(T);
-    std::uint32_t offset = 0;  ///< bytes from the beginning of a page, or of `data`, to its element 0
+    std::uint32_t offset = 0;  ///< bytes from the beginning of the array, or of a page, to its first element
     std::uint32_t page_shift = one_stretch;  ///< a page holds 2^page_shift elements
 
     [[nodiscard]] bool empty() const noexcept { return data == nullptr; }
 
-    /// Where element `index` < count is.
+    /// Address of element `index` < count.
     [[nodiscard]] const T* at(std::size_t index) const noexcept {
         assert(index < count);
         const void* page = data;
         if (page_shift != one_stretch) {
-            // A pointer to what the page holds is not read as another pointer, but copied.
+            // Copied, since reading a T* through a const void* lvalue would break the aliasing rules.
             const auto* const pages = static_cast<const std::byte*>(data);
             std::memcpy(&page, pages + (index >> page_shift) * sizeof page, sizeof page);
             index &= (std::size_t{1} << page_shift) - 1;
@@ -53,7 +54,7 @@ struct StridedView {
 
 namespace detail {
 
-/// What a member holds: of an array, its elements.
+/// The type of a member, or of its elements where it is an array.
 template <class M>
 struct Element {
     using Type = std::remove_const_t<M>;
@@ -71,11 +72,11 @@ struct Element<const std::array<M, N>> {
     using Type = std::remove_const_t<M>;
 };
 
-/// `Class` is `Object`, or what `Object` is derived from.
+/// Whether `Class` is `Object` or a base of it.
 template <class Class, class Object>
 inline constexpr bool has_members_of = std::is_base_of_v<Class, std::remove_const_t<Object>>;
 
-/// Bytes from the beginning of `object`, which is not read, to its member.
+/// Bytes from the beginning of `object`, whose value is not read, to its member.
 template <class Object, class Class, class M>
 [[nodiscard]] std::uint32_t offset_of(const Object& object, M Class::*member) noexcept {
     const void* const begin = std::addressof(object);
@@ -99,8 +100,8 @@ template <class T, std::size_t N>
     return {.data = values.data(), .count = values.size()};
 }
 
-/// A member of each struct in a contiguous range; of a member that is an array (T[N] or std::array), its
-/// elements: element i of the view is then the first of struct i, and the others follow it.
+/// A member of each struct in a contiguous range. Where the member is an array (T[N] or std::array), element
+/// i of the view is the first value of struct i's array, and the others follow it.
 template <class Object, std::size_t N, class Class, class M>
 [[nodiscard]] auto strided(std::span<Object, N> objects, M Class::*member) noexcept {
     static_assert(detail::has_members_of<Class, Object>);
@@ -112,8 +113,8 @@ template <class Object, std::size_t N, class Class, class M>
                           .offset = detail::offset_of(objects.front(), member)};
 }
 
-/// `count` elements in pages of `page_size`, a power of two; `pages` holds the address of each page. Pages
-/// without elements below `count` are not touched.
+/// `count` elements in pages of `page_size` elements, a power of two. pages[p] is the address of page p.
+/// Pages behind element count - 1 are never read, nor are their addresses.
 template <class T>
 [[nodiscard]] StridedView<std::remove_const_t<T>> paged(T* const* pages, std::size_t page_size,
                                                         std::size_t count) noexcept {
@@ -121,7 +122,7 @@ template <class T>
     return {.data = pages, .count = count, .page_shift = detail::shift_of(page_size)};
 }
 
-/// A member of each struct in pages, as both above.
+/// A member of each struct in pages.
 template <class Object, class Class, class M>
 [[nodiscard]] auto paged(Object* const* pages, std::size_t page_size, std::size_t count,
                          M Class::*member) noexcept {

@@ -6,7 +6,7 @@
 
 namespace goffer::simd {
 
-/// AVX2 with FMA, and rows of four out of its registers of eight.
+/// AVX2 with FMA. Rows of four values come out of registers of eight.
 struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
     using Single = Avx2Lanes;
     using Row = X86Rows<Avx2Lanes>::Row;
@@ -38,7 +38,7 @@ struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
     }
 
 private:
-    /// `rows` has those of lanes 0 and 4, 1 and 5, ...
+    /// Each register of `rows` holds two rows: those of lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
     template <class Visit>
     static void visit_rows(const __m256 (&rows)[4], const Visit& visit) {
         for (std::size_t i = 0; i < 4; ++i) visit(i, _mm256_castps256_ps128(rows[i]));

@@ -8,8 +8,8 @@
 
 namespace goffer::simd {
 
-/// AVX-512 with what xsimd 8.1 lacks there: a fused multiply-add (it multiplies, then adds), and estimates of
-/// reciprocals (it calls an intrinsic that does not exist). A part of a batch is stored by a mask.
+/// AVX-512, with what xsimd 8.1 lacks: a fused multiply-add (xsimd multiplies, then adds) and estimates of
+/// reciprocals (xsimd calls an intrinsic that does not exist). Masks store parts of a batch.
 struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
     using Single = Avx512Lanes;
     using Row = X86Rows<Avx512Lanes>::Row;
@@ -29,7 +29,7 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         return y * nmadd(a, y, Vec(2.0f));
     }
     static void store_first(float* to, Vec value, std::size_t count) {
-        if (count == 0) return;  // a store of nothing would fetch its line all the same
+        if (count == 0) return;  // a store with an empty mask would fetch its line all the same
         const auto lanes = static_cast<__mmask16>(count >= width ? 0xffffu : (1u << count) - 1u);
         _mm512_mask_storeu_ps(to, lanes, value);
     }
@@ -61,7 +61,7 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
     }
 
 private:
-    /// `rows` has those of lanes 0, 4, 8 and 12, then 1, 5, ...
+    /// Each register of `rows` holds four rows: those of lanes 0, 4, 8 and 12, of 1, 5, 9 and 13, and so on.
     template <class Visit>
     static void visit_rows(const __m512 (&rows)[4], const Visit& visit) {
         for (std::size_t i = 0; i < 4; ++i) visit(i, _mm512_castps512_ps128(rows[i]));

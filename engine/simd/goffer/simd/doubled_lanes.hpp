@@ -5,7 +5,8 @@
 
 namespace goffer::simd {
 
-/// Two batches of `Lanes` in step: a constant that is loaded serves both, and each fills the other's waits.
+/// Two batches of `Lanes` as one: a constant is loaded once for both, and each runs while the other waits for
+/// its operands. Members as in ScalarLanes.
 template <class Lanes>
 struct DoubledLanes {
     struct Vec {

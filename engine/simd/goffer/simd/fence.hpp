@@ -7,8 +7,8 @@
 
 namespace goffer::simd {
 
-/// Orders streaming stores before whatever is stored next: before other threads are told of them. It waits
-/// for them all, so once per piece of work, not once per kernel.
+/// Orders streaming stores before later stores, such as those that tell other threads of the results. It
+/// waits for all of them, so call it once per piece of work, not once per kernel.
 inline void fence() noexcept {
 #if defined(__SSE__) || defined(_M_X64)
     _mm_sfence();

@@ -8,29 +8,30 @@
 #include <xsimd/xsimd.hpp>
 #endif
 
-// Xsimd tells what the flags of the file at hand give: everybody's, on x86-64 and on 64-bit Arm, give both of
-// these.
+// xsimd goes by the flags of the file that includes it. Default flags give SSE2 on x86-64 and NEON on 64-bit
+// Arm.
 #if defined(GOFFER_XSIMD) && (XSIMD_WITH_SSE2 || XSIMD_WITH_NEON64)
 #include <goffer/simd/float4_register.hpp>
 #else
 #include <goffer/simd/float4_plain.hpp>
 #endif
 
-/// Four floats: what set-up and output are written in, where the batches of kernels would be too wide. In a
-/// register where everybody's flags have one for them, else in plain floats; both give the same bits. Not for
-/// kernels' files: these functions have one name for all instruction sets.
+/// Four floats, for bounds, capsules and paths, where the batches of kernels would be too wide. They lie in a
+/// register if the default flags of the architecture have one, else in plain floats; both give the same bits.
+/// Not for kernel files: the functions have the same names whatever the instruction set, and would be linked
+/// for another's.
 ///
-/// Float4 is made from four floats; it has a[i] to read a lane, a + b, a - b, a * b, a / b, a *= b, -a,
-/// and a < b and a > b for a Mask4.
+/// A Float4 is made from four floats. a[i] reads a lane; a + b, a - b, a * b, a / b, a *= b and -a work lane
+/// by lane; a < b and a > b give a Mask4.
 
 namespace goffer::simd {
 
-/// (from[0], from[1], from[2], 0); reads no more.
+/// (from[0], from[1], from[2], 0). Reads three floats only.
 [[nodiscard]] inline Float4 load3(const float* from) noexcept {
     return {from[0], from[1], from[2], 0};
 }
 
-/// The first `count` of them, 1 to 4. In pieces of known size, which are stores and no calls.
+/// Stores the first `count` lanes, 1 to 4, in pieces of known size: these are stores, not calls of memcpy.
 inline void store_first(float* to, Float4 a, std::size_t count) noexcept {
     switch (count) {
         case 4:
@@ -50,7 +51,7 @@ inline void store_first(float* to, Float4 a, std::size_t count) noexcept {
     }
 }
 
-/// Horner's scheme for sum of coefficients[n] x^n, of one value or of four.
+/// The sum of coefficients[n] x^n by Horner's scheme, for one value or for four.
 template <std::size_t N>
 [[nodiscard]] inline float polynomial(const float (&coefficients)[N], float x) noexcept {
     float sum = coefficients[N - 1];
@@ -64,17 +65,17 @@ template <std::size_t N>
     return sum;
 }
 
-/// a x b of the first three; 0 in the last lane, of finite numbers.
+/// a x b of the first three lanes. The last lane of the result is 0 if those of a and b are finite.
 [[nodiscard]] inline Float4 cross(Float4 a, Float4 b) noexcept {
     return turn3(a * turn3(b) - turn3(a) * b);
 }
 
-/// The sum of the first three.
+/// The sum of the first three lanes.
 [[nodiscard]] inline float sum3(Float4 a) noexcept {
     return a[0] + a[1] + a[2];
 }
 
-/// Rows and columns of 4 x 4 floats change places.
+/// Transposes 4 x 4 floats.
 inline void transpose(Float4 (&rows)[4]) noexcept {
     const Float4 low02 = zip_low(rows[0], rows[2]), low13 = zip_low(rows[1], rows[3]);
     const Float4 high02 = zip_high(rows[0], rows[2]), high13 = zip_high(rows[1], rows[3]);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-/// Float4 in plain floats, for builds without xsimd and for processors that it has no register of four for.
-/// See float4.hpp, which includes this.
+/// Float4 in plain floats, for builds without xsimd and for processors on which xsimd has no register of
+/// four. float4.hpp includes and documents it.
 
 namespace goffer::simd {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <type_traits>
 
-/// Float4 in a register, as an xsimd batch of the narrowest instruction set that has them. See float4.hpp,
-/// which includes this.
+/// Float4 in a register: an xsimd batch of the narrowest instruction set that has one. float4.hpp includes
+/// and documents it.
 
 namespace goffer::simd {
 
@@ -89,7 +89,7 @@ inline void store4(float* to, Float4 a) noexcept {
 #if XSIMD_WITH_SSE2
     return Float4(xsimd::sqrt(a.lanes));
 #else
-    return Float4(Float4::Batch(vsqrtq_f32(a.lanes)));  // xsimd's is an estimate there
+    return Float4(Float4::Batch(vsqrtq_f32(a.lanes)));  // xsimd's sqrt is an estimate on Arm
 #endif
 }
 

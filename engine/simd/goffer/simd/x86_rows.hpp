@@ -7,13 +7,13 @@
 
 namespace goffer::simd {
 
-/// Rows of four values out of registers wider than four. A template on the lanes that use it, so that every
-/// instruction set has its own.
+/// Rows of four values, for lanes whose registers are wider. A template on these lanes, so that each
+/// instruction set has functions of its own.
 template <class Lanes>
 struct X86Rows {
     using Row = __m128;
 
-    /// The first value of each.
+    /// The row of the first values of a, b, c and d.
     static Row first_of(Row a, Row b, Row c, Row d) {
         return _mm_movelh_ps(_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
     }

@@ -9,9 +9,9 @@
 #include <type_traits>
 #include <utility>
 
-/// The operations that kernels are written in, on a batch of floats. Only a kernel's file for one instruction
-/// set includes this. All is a template on the architecture, so that nothing compiled with that set's flags
-/// has the name of something that another file compiles without them.
+/// The operations that kernels are written in, on a batch of floats; ScalarLanes documents them. Only the
+/// kernel file of an instruction set may include this. All of it is a template on the architecture, so that
+/// nothing compiled with the flags of one set shares its name with code compiled without them.
 
 namespace goffer::simd {
 
@@ -21,14 +21,14 @@ struct XsimdLanes {
     static constexpr std::size_t width = Vec::size;
     using Single = XsimdLanes;
     static Vec single(Vec value, std::size_t /*part*/) { return value; }
-    /// Of Newton's, after an estimate: one from 12 bits, two from Arm's 8.
+    /// Newton's steps after an estimate: one where it has 12 bits, two for the 8 bits of Arm.
     static constexpr int estimate_steps = std::is_base_of_v<xsimd::neon, Arch> ? 2 : 1;
 
     static Vec splat(float value) { return Vec(value); }
     static Vec load(const float* from) { return Vec::load_unaligned(from); }
     static void store(float* to, Vec value) { value.store_unaligned(to); }
 
-    // xsimd 8.1 has no streaming store.
+    // xsimd 8.1 has no streaming stores.
     static void stream(float* to, Vec value) {
 #if XSIMD_WITH_SSE2
         if constexpr (width == 4) _mm_stream_ps(to, value);
@@ -53,7 +53,7 @@ struct XsimdLanes {
         if (count >= width) return store(to, value);
         alignas(64) float lanes[width];
         store(lanes, value);
-        // In pieces of known size: a copy of any size is a call that costs more than all the batch.
+        // In pieces of known size: a copy of unknown size is a call that costs more than the whole batch.
         std::size_t done = 0;
         const auto piece = [&](auto size) {
             if ((count & size) == 0) return;
@@ -78,7 +78,7 @@ struct XsimdLanes {
         return xsimd::min(xsimd::max(a, low), high);
     }
 
-    /// The processor's estimate and Newton's steps.
+    /// Refines the processor's estimate, whose last bits are the maker's choice.
     static Vec rsqrt(Vec a) {
         Vec y = xsimd::rsqrt(a);
         for (int step = 0; step < estimate_steps; ++step) y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f));
@@ -112,14 +112,13 @@ struct XsimdLanes {
     }
     static Vec sqrt(Vec a) {
 #if defined(__aarch64__)
-        return Vec(vsqrtq_f32(a));  // xsimd's is an estimate there
+        return Vec(vsqrtq_f32(a));  // xsimd's sqrt is an estimate on Arm
 #else
         return xsimd::sqrt(a);
 #endif
     }
 
-    /// Four values that belong to one lane; and of four lanes, that lane by lane. Wider registers have lanes
-    /// files of their own.
+    // Rows for registers of four lanes. Avx2Lanes and Avx512Lanes have their own.
     using Row = Vec;
     template <class Visit>
     static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
@@ -154,7 +153,7 @@ struct XsimdLanes {
         std::memcpy(to, values, count * sizeof(float));
     }
 
-    /// Lane l of the result is lane Picks::at(l) of `a`, or of `b` where that is `width` and more.
+    /// Lane l of the result is lane i = Picks::at(l) of `a`, or lane i - width of `b` where i >= width.
     template <class Picks>
     static Vec shuffle(Vec a, Vec b) {
         return shuffle<Picks>(a, b, std::make_index_sequence<width>());

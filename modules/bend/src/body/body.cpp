@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "body/body_data.hpp"
 
+#include <cassert>
+
 namespace goffer::bend {
 
 Body::Body() noexcept = default;
@@ -33,10 +35,12 @@ double Body::radius() const noexcept {
 }
 
 float Body::max_angle(std::size_t region) const noexcept {
+    assert(region < region_count());
     return data_->regions[region].max_angle;
 }
 
 Pose Body::rest_pose(std::size_t region) const noexcept {
+    assert(region < region_count());
     return data_->regions[region].rest;
 }
 

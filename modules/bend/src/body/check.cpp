@@ -15,7 +15,7 @@ namespace {
 
 using Range = WorkingRange;
 
-/// A number and where it may lie.
+/// A number and the range that it must lie in.
 struct Limited {
     BodyField field;
     double value;
@@ -55,7 +55,7 @@ BodyFault check_axes(const glm::dmat3& axes) noexcept {
     return {BodyField::axes, Reason::out_of_range};
 }
 
-/// Of a WrinkleTable or a FactorTable.
+/// Checks the rows and the largest angle of a WrinkleTable or a FactorTable.
 template <class Table>
 Reason check_table(const Table& table) noexcept {
     if (table.empty()) return Reason::none;
@@ -68,22 +68,22 @@ Reason check_table(const Table& table) noexcept {
     return reason_of(angle, Range::min_angle, static_cast<double>(std::numeric_limits<float>::max()));
 }
 
-/// The largest factor on the amplitude; one without a table.
+/// The largest factor on the amplitude: 1 without a table.
 double most_factor(const FactorTable& factors) noexcept {
     float square = factors.empty() ? 1.0f : 0.0f;
     for (const auto& row : factors.rows) square = std::max(square, *std::ranges::max_element(row));
     return std::sqrt(static_cast<double>(square));
 }
 
-/// Bounds on what instances make of a region's wrinkle.
+/// Upper bounds for a region's wrinkle in any pose.
 struct Wrinkle {
-    double depth = 0;      ///< on the amplitude A, or A / S_0
-    double amplitude = 0;  ///< on the coefficients of the polynomial that kernels evaluate
+    double depth = 0;      ///< of the amplitude A, or of A / S_0
+    double amplitude = 0;  ///< of the coefficients that kernels evaluate
 };
 
-/// A relative squeeze's polynomial is one in q, so that coefficients are divided by powers of kappa, which is
-/// taken as 1e-4 at least; a row serves from the angle of the row before it on. There q / kappa stays below
-/// 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
+/// For a relative squeeze, kernels evaluate a polynomial in q, whose coefficients are the row's divided by
+/// powers of kappa (taken as at least 1e-4). A row has an effect from the angle of the row before it on. q /
+/// kappa stays below 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
 Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
     const bool relative = compares_with_rest(region);
     const double per_angle = radius / region.length;
@@ -109,7 +109,8 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
 }
 
 bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
-    constexpr double most_coefficient = 1e36;  // times 15 in a slope's, and still a float
+    constexpr double most_coefficient =
+        1e36;  // those of the slope are up to 15 times as large, and still float
     return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= most_coefficient;
 }
 

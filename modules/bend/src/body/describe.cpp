@@ -6,9 +6,9 @@
 namespace goffer::bend {
 namespace {
 
-/// How a field is called, and what it should be.
+/// The name of a field, and what is wanted of it.
 struct Words {
-    const char* list;    ///< what its index counts in; empty: nothing
+    const char* list;    ///< before the index; empty if there is none
     const char* member;  ///< behind the index
     const char* wanted;
 };

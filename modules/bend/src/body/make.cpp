@@ -9,8 +9,8 @@
 namespace goffer::bend {
 namespace {
 
-/// Places of columns in BodyData::storage. Those from `tangents` on only where the body has tangents; behind
-/// them, where a region compares_with_rest, those of RestColumn.
+/// Places of columns in BodyData::storage. Those from `tangents` on exist only if the body has tangents. The
+/// columns of RestColumn follow if a region compares_with_rest.
 enum Column : std::size_t {
     cos_half_beta,
     sin_half_beta,
@@ -67,14 +67,14 @@ void write_vectors(Columns& storage, std::size_t first, std::span<const RestVect
     }
 }
 
-/// A region that is being made: its input, and its vertices within the body's.
+/// A region being made: its input, and which of the body's vertices are its own.
 struct Making {
     const RegionInput& region;
     double radius;
     std::size_t first, last;
 };
 
-/// S of a column, eq 9 and 10.
+/// S of the column at `beta` in the rest pose, by eq 9 and 10.
 double rest_scale(const Making& making, double beta) {
     const double kappa = making.region.rest_angle * making.radius / making.region.length;
     return 1 - kappa * (1 + std::cos(beta - making.region.rest_direction));
@@ -94,7 +94,7 @@ void write_vertices(Columns& storage, const Making& making, std::span<const Rest
     }
 }
 
-/// The columns from `column` on.
+/// Writes the columns of RestColumn, the first of which is `column`.
 void write_rest_columns(Columns& storage, std::size_t column, const Making& making,
                         std::span<const RestVertex> vertices) {
     for (std::size_t i = making.first; i < making.last; ++i) {

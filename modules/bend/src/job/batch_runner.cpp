@@ -9,11 +9,11 @@
 namespace goffer::bend {
 namespace {
 
-/// A block's rest columns, nine or twelve of them, stay in the first-level cache.
+/// Few enough for the rest columns of a block, about a dozen, to stay in the first-level cache.
 constexpr std::size_t block_vertices = 512;
 
-/// From so many whole lines' vertices of a region on kernels write them directly; shorter stretches go
-/// through the stage with the joints beside them.
+/// Kernels write whole lines of a region directly if they hold at least this many vertices. Shorter stretches
+/// go through the stage, together with the joints beside them.
 constexpr std::size_t least_direct = 48;
 
 PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
@@ -27,7 +27,7 @@ PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
     return moved;
 }
 
-/// Positions in steps of the box: what the packed kernel rounds.
+/// Makes positions come out in steps of the box, 0..65535, which the packed kernel rounds.
 void quantize(Coefficients& k, const Bounds& bounds) noexcept {
     for (int row = 0; row < 3; ++row) {
         const float extent = bounds.high[row] - bounds.low[row];
@@ -57,7 +57,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
     }
     posed_now_ = streams || bounded_;
     if (posed_now_) set_of(Pass::current) = set_count_++;
-    // Packed vertices alone are made from the current coefficients themselves.
+    // If nothing else needs the current coefficients, they are quantized in place.
     set_of(Pass::packed) = !batch.packed.empty() && streams ? set_count_++ : set_of(Pass::current);
     assert(set_count_ != 0 && "a batch that asks for nothing: see validate()");
     group_size_ = std::clamp<std::size_t>(
@@ -88,7 +88,7 @@ void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
     for (std::size_t begin = first; begin < last;) {
         const std::size_t end = (begin / block_vertices + 1) * block_vertices;
         for (std::size_t i = 0; i < member_count_; ++i) {
-            // Blocks end where lines end, which is not at the same vertex for every instance.
+            // Blocks end where cache lines end: for each instance at another vertex.
             const std::size_t peeled = members_[i].peeled;
             const std::size_t from = begin == first ? first : std::min(begin + peeled, last);
             deform(i, from, end >= last ? last : std::min(end + peeled, last));
@@ -98,12 +98,23 @@ void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
     member_count_ = 0;
 }
 
+void BatchRunner::count(const PoseState& state) noexcept {
+    ++result_.deformed;
+    result_.clamped += state.clamped ? 1 : 0;
+    result_.at_rest += state.at_rest ? 1 : 0;
+}
+
 void BatchRunner::set_up(bool count_poses) noexcept {
     for (const PassPlan& pass : plan_.passes()) {
         if (pass.pass == Pass::previous) set_up_poses(Time::before, set_of(Pass::previous), false);
     }
     const std::size_t current = set_of(Pass::current);
-    if (posed_now_) set_up_poses(Time::now, current, count_poses);
+    if (posed_now_) {
+        set_up_poses(Time::now, current, count_poses);
+    } else if (count_poses) {
+        for (std::size_t i = 0; i < member_count_; ++i)
+            count(state_of(body_, {batch_.poses.at(members_[i].element), regions_}));
+    }
     if (!bounded_) return;
     for (std::size_t i = 0; i < member_count_; ++i) {
         const Bounds bounds = bounds_of(body_, coefficients(i, current), squeezes(i, current));
@@ -116,10 +127,7 @@ void BatchRunner::set_up_poses(Time time, std::size_t set, bool count_poses) noe
     posed_.clear();
     for (std::size_t i = 0; i < member_count_; ++i) {
         const PoseState state = posed_.add(batch_, members_[i].element, time);
-        if (!count_poses) continue;
-        ++result_.deformed;
-        result_.clamped += state.clamped ? 1 : 0;
-        result_.at_rest += state.at_rest ? 1 : 0;
+        if (count_poses) count(state);
     }
     for (std::size_t r = 0; r < regions_; ++r) {
         posed_.set_up(r, coefficients(0, set) + r, set_count_ * regions_);
@@ -150,8 +158,8 @@ std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) con
                                               : before + line_floats;
 }
 
-/// Where a stretch that goes through the stage ends, which begins at `first` in `region`: behind the last
-/// joint that shares its lines, or where lines of one region follow that are worth a kernel of their own.
+/// The end of a stretch that goes through the stage and begins at `first` in `region`. It ends behind a line
+/// that regions share, if enough whole lines of one region follow for a kernel call of their own.
 std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std::size_t first,
                                     std::size_t last) const noexcept {
     std::size_t end = first;
@@ -164,7 +172,7 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
     }
 }
 
-/// Calls deform(region, begin, end) for each part of the vertices [first, last) that lies in one region.
+/// Calls deform(region, begin, end) for each region that vertices in [first, last) belong to.
 template <class Deform>
 void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept {
     for (std::size_t region = 0; first < last; ++region) {
@@ -175,7 +183,7 @@ void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& 
     }
 }
 
-/// Where a block ends that begins at `first`: where lines end, and after at most `most` vertices.
+/// The end of a block that begins at `first`: where a line ends, after at most `most` vertices.
 std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::size_t last,
                                    std::size_t most) const noexcept {
     const std::size_t peeled = members_[member].peeled;
@@ -192,8 +200,7 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
     if (plan_.has(Way::planes)) deform_planes(member, first, last);
 }
 
-/// Kernels write the caller's planes. Past the cache only whole lines of one region, but at both ends: lines
-/// that regions share go through the stage.
+/// Kernels write the caller's planes. Past the cache, lines that regions share go through the stage.
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, Way::planes, first, last,
                  [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
@@ -205,7 +212,7 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
                  });
 }
 
-/// Kernels write the caller's records, as they do planes.
+/// Kernels write the caller's records, in the same way.
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, Way::records, first, last,
                  [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
@@ -221,9 +228,9 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
                  });
 }
 
-/// Calls deform(pass, region, begin, end) for each stretch of whole lines of one region, and for both ends,
-/// of each pass that goes the way `way`; lines that regions share go through the stage. (Into the cache: for
-/// each region.)
+/// Calls deform(pass, region, begin, end) for each pass that goes the way `way`, and for each stretch of
+/// vertices of one region. Into the cache, a stretch is all of the region. Past the cache it is whole lines,
+/// except at `first` and `last`, and lines that regions share go through the stage.
 template <class Deform>
 void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {
@@ -246,7 +253,7 @@ void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, s
     }
 }
 
-/// Where a pass' rows of `vertex` and on go: to the caller's memory, or to strips that begin at
+/// Where a pass writes its rows from `vertex` on: to the caller's memory, or to strips whose first vertex is
 /// `block_first`.
 RowOutput BatchRunner::row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,
                                   std::size_t block_first) noexcept {
@@ -265,7 +272,7 @@ RowOutput BatchRunner::row_output(std::size_t member, const PassPlan& pass, std:
     return {first[0], first[1], first[2], stride[0], stride[1], stride[2]};
 }
 
-/// Kernels write rows, of records that are the caller's own or that leave as whole lines.
+/// Kernels write rows: to the caller's records, or to strips that are then written as whole lines.
 void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept {
     while (first < last) {
         const std::size_t end = block_end(member, first, last, Strips::most_vertices);
@@ -285,7 +292,7 @@ void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t
     }
 }
 
-/// Kernels write planes of the stage, and values are copied from there: of all passes that go the way `way`.
+/// Kernels of all passes that go the way `way` write planes of the stage, which is then written out.
 void BatchRunner::deform_staged(std::size_t member, Way way, std::size_t first, std::size_t last) noexcept {
     while (first < last) {
         const std::size_t end = block_end(member, first, last, stage_.capacity());

@@ -15,19 +15,19 @@
 
 namespace goffer::bend {
 
-/// The way of a batch's poses to the store. What all instances share is found once, when the runner is made:
-/// kernels, columns, outputs. Instances are then taken in groups, small enough for their coefficients to stay
-/// in the first-level cache; each group is set up, and its vertices are deformed block by block, so that a
-/// block's rest columns stay there too while they serve the whole group. Lives on the stack: 64 KB at most.
+/// Deforms instances of a batch. What all of them share (kernels, columns, outputs) is looked up once, when
+/// the runner is made. Instances are taken in groups, whose coefficients fit into the first-level cache. Each
+/// group is set up, and its vertices are deformed block by block: the rest columns of a block stay in that
+/// cache, too, while they serve the whole group. Lives on the stack and takes at most 64 KB.
 class BatchRunner {
 public:
-    /// `non_temporal`: whole lines go past the cache, and the caller fences them.
+    /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
     BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept;
 
-    /// Deforms the vertices [first, last) of instance `instance`, or takes it up to be deformed with others
-    /// when these are all its vertices: finish() does what is left. `instance` must be active. Poses are
-    /// counted where first is 0.
+    /// Deforms the vertices [first, last) of an instance that is not skipped. A whole instance may wait for
+    /// others to be deformed with. result() counts an instance when its vertex 0 is deformed.
     void add(std::size_t instance, std::size_t first, std::size_t last) noexcept;
+    /// Deforms the instances that still wait.
     void finish() noexcept;
 
     [[nodiscard]] const CrowdResult& result() const noexcept { return result_; }
@@ -35,14 +35,15 @@ public:
 private:
     /// An instance of the group.
     struct Member {
-        std::size_t instance;  ///< of the batch
-        std::size_t element;   ///< of its columns
-        std::size_t vertex;    ///< its first one, in the buffer
-        std::size_t peeled;    ///< its vertices before the first one that begins a line
+        std::size_t instance;  ///< its index in the batch
+        std::size_t element;   ///< its index in the batch's columns
+        std::size_t vertex;    ///< its first vertex in the buffer
+        std::size_t peeled;    ///< its vertices before the first one that begins a cache line
     };
 
-    /// Coefficients of a whole group: of `sets` poses each, and of each of these all regions.
-    static constexpr std::size_t most_coefficients = 96;  // of one instance of a body with most_regions
+    /// A group has `set_count_` sets of coefficients per member, one for each pose that is wanted, and in
+    /// each set one per region. There is room for one member of a body with max_regions.
+    static constexpr std::size_t most_coefficients = 96;
     static_assert(most_coefficients >= pass_count * max_regions);
 
     [[nodiscard]] Coefficients* coefficients(std::size_t member, std::size_t set) noexcept {
@@ -55,6 +56,7 @@ private:
     [[nodiscard]] std::size_t& set_of(Pass pass) noexcept { return set_of_[static_cast<std::size_t>(pass)]; }
 
     void run_group(std::size_t first, std::size_t last) noexcept;
+    void count(const PoseState& state) noexcept;
     void set_up(bool count_poses) noexcept;
     void set_up_poses(Time time, std::size_t set, bool count_poses) noexcept;
     void set_up_packed(std::size_t member, const Bounds& bounds) noexcept;
@@ -81,10 +83,10 @@ private:
     const KernelSet& kernels_;
     OutputPlan plan_;
     std::size_t regions_;
-    bool bounded_;  // bounds are wanted, by the caller or for packed vertices
+    bool bounded_;  // bounds are wanted: by the caller, or for packed vertices
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
-    bool posed_now_ = false;  // poses are wanted, not only previous ones
+    bool posed_now_ = false;  // current poses are wanted, not only previous ones
     std::size_t group_size_ = 0;
     std::size_t member_count_ = 0;
     CrowdResult result_;

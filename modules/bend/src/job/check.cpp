@@ -10,7 +10,7 @@
 namespace goffer::bend {
 namespace {
 
-/// A stream as addresses: what all kinds of streams have in common.
+/// A stream of any kind, as addresses of its components.
 struct StreamMemory {
     Field field;
     float* const* component;
@@ -26,7 +26,7 @@ struct StreamMemory {
     }
 };
 
-/// The streams of a batch, the packed one by its three words.
+/// The streams of a batch; the packed one is taken as three words.
 class Streams {
 public:
     explicit Streams(const Batch& batch) noexcept
@@ -55,7 +55,7 @@ Fault fault_of(Field field, Reason reason) noexcept {
     return {.field = field, .reason = reason};
 }
 
-/// One stream by itself, but for its length.
+/// Checks a stream by itself, except for its length.
 Reason check(const StreamMemory& stream) noexcept {
     for (std::size_t c = 0; c < stream.components; ++c) {
         if (stream.component[c] == nullptr) return Reason::null;
@@ -75,8 +75,8 @@ Bytes bytes_of(const StreamMemory& stream, std::size_t component) noexcept {
     return {first, first + (stream.count - 1) * stream.stride + sizeof(float)};
 }
 
-/// Whether two components write to the same bytes: exactly, where their strides are equal; where they are
-/// not, whether their ranges meet.
+/// Whether two components write to the same bytes. Exact if their strides are equal; otherwise true if their
+/// ranges meet.
 bool overlap(const StreamMemory& a, std::size_t component_a, const StreamMemory& b,
              std::size_t component_b) noexcept {
     const Bytes of_a = bytes_of(a, component_a), of_b = bytes_of(b, component_b);
@@ -106,7 +106,7 @@ Fault check(const Streams& streams) noexcept {
     for (const StreamMemory& a : streams) {
         for (const StreamMemory& b : streams) {
             if (&b < &a || !a.wanted() || !b.wanted() || !overlap(a, b)) continue;
-            // A stream whose own components meet has too small a stride for them.
+            // Components of one stream meet if its stride is too small for them.
             if (&a == &b) return fault_of(a.field, Reason::stride);
             return {.field = b.field, .reason = Reason::overlap, .other = a.field};
         }
@@ -114,7 +114,7 @@ Fault check(const Streams& streams) noexcept {
     return {};
 }
 
-/// Where the instances begin: each must end within every stream.
+/// Checks that each instance ends within every stream.
 Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     std::size_t room = std::numeric_limits<std::size_t>::max();
     Field shortest = Field::none;
@@ -126,7 +126,7 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     const std::size_t last = room - vertices;
     if (batch.vertex_offsets.empty()) {
         if (batch.count == 1) return {};
-        // Divided, since the product may be too large.
+        // A division, since the product might overflow.
         if (batch.vertex_step > last / (batch.count - 1)) return fault_of(shortest, Reason::too_short);
         return batch.vertex_step < vertices ? fault_of(Field::vertex_step, Reason::overlap) : Fault{};
     }
@@ -146,7 +146,7 @@ bool misaligned(const StridedView<T>& view) noexcept {
     return (first + view.offset) % alignof(T) != 0 || view.stride % alignof(T) != 0;
 }
 
-/// How many elements of each column are read.
+/// Checks that columns hold as many elements as are read.
 struct Extent {
     std::size_t elements = 0;
     Fault fault;
@@ -191,7 +191,7 @@ Fault check_columns(const Batch& batch) noexcept {
     return extent.fault;
 }
 
-/// Squares of its numbers, and sums of such, stay within float's range.
+/// Within 1e18, squares of a matrix' numbers and sums of squares stay in float's range.
 Reason check(const glm::mat4x3& matrix) noexcept {
     for (int c = 0; c < 4; ++c) {
         for (int row = 0; row < 3; ++row) {
@@ -210,7 +210,7 @@ Fault check_poses(Field field, const Pose* poses, std::size_t regions) noexcept 
     return {};
 }
 
-/// What instances hold beside the places.
+/// Checks the numbers of an instance: its poses, transforms and weight.
 Fault check_instance(const Batch& batch, std::size_t element) noexcept {
     const std::size_t regions = batch.body->region_count();
     Fault fault = check_poses(Field::poses, batch.poses.at(element), regions);
@@ -222,7 +222,7 @@ Fault check_instance(const Batch& batch, std::size_t element) noexcept {
         if (!std::isfinite(weight)) return fault_of(Field::wrinkle_weight, Reason::not_finite);
         if (weight < 0 || weight > 1) return fault_of(Field::wrinkle_weight, Reason::out_of_range);
     }
-    if (!!batch.previous_positions.empty()) return {};
+    if (batch.previous_positions.empty()) return {};
     fault = check_poses(Field::previous_poses, batch.previous_poses.at(element), regions);
     if (fault.none() && !batch.previous_transforms.empty())
         fault = fault_of(Field::previous_transform, check(batch.previous_transforms[element]));
@@ -231,7 +231,7 @@ Fault check_instance(const Batch& batch, std::size_t element) noexcept {
 
 }  // namespace
 
-Fault check(const Batch& batch) noexcept {
+Fault check_memory(const Batch& batch) noexcept {
     if (batch.body == nullptr) return fault_of(Field::body, Reason::null);
     if (batch.body->empty()) return fault_of(Field::body, Reason::empty);
     const Streams streams(batch);
@@ -243,7 +243,11 @@ Fault check(const Batch& batch) noexcept {
         return fault_of(Field::tangents, Reason::not_supported);
     if (batch.count == 0) return {};
     if (Fault fault = check_columns(batch); !fault.none()) return fault;
-    if (Fault fault = check_places(batch, streams); !fault.none()) return fault;
+    return check_places(batch, streams);
+}
+
+Fault check(const Batch& batch) noexcept {
+    if (Fault fault = check_memory(batch); !fault.none()) return fault;
     for (std::size_t i = 0; i < batch.count; ++i) {
         Fault fault = check_instance(batch, element_of(batch, i));
         if (fault.none()) continue;

@@ -5,7 +5,11 @@
 
 namespace goffer::bend {
 
-/// The first fault of a batch, or none; `batch` is not set in it.
+/// Finds the first fault of a batch; Fault::batch is not set.
 [[nodiscard]] Fault check(const Batch& batch) noexcept;
+
+/// The same without a look at poses, transforms and weights: finds whatever could make a run read or write
+/// out of bounds.
+[[nodiscard]] Fault check_memory(const Batch& batch) noexcept;
 
 }  // namespace goffer::bend

@@ -14,8 +14,8 @@
 namespace goffer::bend {
 namespace {
 
-constexpr std::size_t most_pieces = 256;      // of a frame, for the scheduler to hand out
-constexpr std::size_t least_vertices = 8192;  // of a piece, so that handing it out is not the work
+constexpr std::size_t most_pieces = 256;
+constexpr std::size_t least_vertices = 8192;  // per piece: handing it out must cost less than the work on it
 
 /// A place in the crowd: a vertex of an instance of a batch.
 struct Place {
@@ -24,12 +24,12 @@ struct Place {
     std::size_t vertex = 0;
 };
 
-/// Which of a batch's instances are done in this frame.
+/// Tells which instances of a batch are deformed in this frame: those that are not skipped.
 class Activity {
 public:
     Activity(const Batch& batch, std::uint32_t frame) noexcept : batch_(batch), frame_(frame) {}
 
-    /// Whether all are, without a look at any.
+    /// Whether all are for sure, because the batch has no masks.
     [[nodiscard]] bool all() const noexcept {
         return batch_.visible.empty() && batch_.changed.empty() && batch_.update_intervals.empty();
     }
@@ -57,6 +57,12 @@ private:
     std::uint32_t frame_;
 };
 
+/// Whether `job` validates, but for its poses, weights and transforms.
+[[maybe_unused]] bool may_run(const CrowdJob& job) noexcept {
+    return runs_here(job.isa) &&
+           std::ranges::all_of(job.batches, [](const Batch& batch) { return check_memory(batch).none(); });
+}
+
 struct Size {
     std::size_t vertices = 0;
     std::size_t bytes = 0;
@@ -77,7 +83,7 @@ bool is_non_temporal(const CrowdJob& job, std::size_t bytes) noexcept {
            (job.stores == Stores::automatic && bytes >= non_temporal_threshold);
 }
 
-/// Deforms a batch from one of its places to another. An instance counts where its first vertex lies.
+/// Deforms a batch from one of its places to another.
 CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
                       bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
@@ -105,17 +111,17 @@ CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool non_temp
     return result;
 }
 
-/// Finds where pieces begin, which are asked for in order.
+/// Finds where pieces begin. They must be asked for in order.
 class Cutter {
 public:
-    /// `vertices`: of all active instances.
+    /// `vertices`: those of all instances that are not skipped.
     Cutter(const CrowdJob& job, std::size_t vertices, std::size_t pieces) noexcept
         : job_(job), vertices_(vertices), pieces_(pieces) {}
 
     [[nodiscard]] Place begin_of(std::size_t piece) noexcept {
         const Place end = {job_.batches.size(), 0, 0};
         if (piece == pieces_) return end;
-        // In two parts, since the product of both may be too large.
+        // In two parts, since vertices_ * piece might overflow.
         const std::size_t wanted = vertices_ / pieces_ * piece + vertices_ % pieces_ * piece / pieces_;
         for (; place_.batch < job_.batches.size(); place_ = {place_.batch + 1, 0, 0}) {
             if (found(wanted)) return place_;
@@ -124,7 +130,8 @@ public:
     }
 
 private:
-    /// Looks for the vertex `wanted` in this batch, from the place found last on.
+    /// Whether the vertex `wanted` lies in this batch. Looks from the place found last, and leaves the place
+    /// there.
     bool found(std::size_t wanted) noexcept {
         const Batch& batch = job_.batches[place_.batch];
         const Activity active(batch, job_.frame);
@@ -138,7 +145,7 @@ private:
         for (; place_.instance < batch.count; ++place_.instance) {
             if (!active[place_.instance]) continue;
             if (wanted < before_ + size) {
-                // On whole lines, so that no two pieces write the same one past the cache.
+                // A multiple of a line: no line is cut, if the instance begins one.
                 place_.vertex = (wanted - before_) / line_floats * line_floats;
                 return true;
             }
@@ -201,12 +208,12 @@ Fault validate(const CrowdJob& job) noexcept {
 }
 
 CrowdResult run(const CrowdJob& job) noexcept {
-    assert(runs_here(job.isa));
+    assert(may_run(job));
     return run_between(job, {}, {job.batches.size(), 0, 0}, is_non_temporal(job, size_of(job).bytes));
 }
 
 CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces) noexcept {
-    assert(piece < pieces && runs_here(job.isa));
+    assert(piece < pieces && may_run(job));
     const Size size = size_of(job);
     Cutter cutter(job, size.vertices, pieces);
     const Place from = cutter.begin_of(piece);
@@ -214,7 +221,7 @@ CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces
 }
 
 CrowdResult run_parallel(const CrowdJob& job) {
-    assert(runs_here(job.isa));
+    assert(may_run(job));
     const Size size = size_of(job);
     const bool non_temporal = is_non_temporal(job, size.bytes);
     const std::size_t pieces = std::clamp<std::size_t>(size.vertices / least_vertices, 1, most_pieces);

@@ -104,7 +104,7 @@ std::string_view words(Field field, Reason reason) noexcept {
     return "unknown reason";
 }
 
-/// Text of limited length.
+/// Appends to a FaultText and cuts off what does not fit.
 class Line {
 public:
     explicit Line(FaultText& to) noexcept : to_(to) {}

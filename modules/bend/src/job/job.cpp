@@ -25,10 +25,10 @@ Fault validate(const DeformJob& job) noexcept {
 }
 
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept {
-    assert(job.body != nullptr && !job.body->empty());
-    assert(first <= last && last <= job.body->vertex_count());
-    assert(poses_of(job).size() == job.body->region_count());
     const Batch batch = batch_of(job);
+    assert(check_memory(batch).none() && "job must validate, but for poses, weight and transforms");
+    assert(poses_of(job).size() == job.body->region_count());
+    assert(first <= last && last <= job.body->vertex_count());
     BatchRunner runner(batch, kernels(job.isa), false);
     runner.add(0, first, last);
     runner.finish();
@@ -37,10 +37,12 @@ DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last
 }
 
 DeformResult run(const DeformJob& job) noexcept {
+    assert(job.body != nullptr);
     return run_range(job, 0, job.body->vertex_count());
 }
 
 DeformResult run_parallel(const DeformJob& job, std::size_t grain) {
+    assert(job.body != nullptr && !job.body->empty());
     parallel_ranges(job.body->vertex_count(), grain,
                     [&](std::size_t first, std::size_t last) { run_range(job, first, last); });
     const PoseState state = state_of(*job.body->data(), poses_of(job));

@@ -7,10 +7,11 @@
 
 #include <cstddef>
 
-/// What crosses into the kernels' files: plain numbers and pointers, nothing with inline code that could be
-/// compiled with one instruction set's flags and linked for another's.
+/// What kernels are called with: plain numbers and pointers. Kernel files call no inline function of these
+/// types, since it might be compiled with the flags of one instruction set and linked for another.
 
-/// On a kernel: one loop without calls. Not for sanitizers, which take minutes to compile such a thing.
+/// Inlines everything into a kernel: one loop without calls. Not with sanitizers, which take minutes to
+/// compile it.
 #if defined(GOFFER_SANITIZED) || !defined(__GNUC__)
 #define GOFFER_FLATTENED
 #else
@@ -22,39 +23,40 @@ namespace goffer::bend {
 /// Floats in a cache line.
 constexpr std::size_t line_floats = 16;
 
-/// Vertices that a kernel works on at a time at most: it may write so many beyond the end of a stage.
+/// The most vertices that a kernel works on at a time. With Write::staged it may write that many beyond the
+/// end.
 constexpr std::size_t largest_unit = 32;
 
-/// Where wrinkles come from: each has kernels of its own.
+/// What makes wrinkles. Each has kernels of its own.
 enum class Squeeze : unsigned char {
     none,      ///< no wrinkles
     plain,     ///< q = kappa T
-    relative,  ///< against the rest arc, and with an onset: see WrinkleTable
+    relative,  ///< relative to the rest arc, and with an onset: see WrinkleRow
 };
 constexpr std::size_t squeeze_count = 3;
 
-/// What a kernel makes.
+/// Which vectors a kernel computes.
 enum class StreamSet : unsigned char {
     positions,
     positions_normals,
     positions_normals_tangents,
-    packed,  ///< PackedVertex's three words, as if they were floats
+    packed,  ///< the three words of PackedVertex, as the bits of floats
 };
 constexpr std::size_t stream_set_count = 4;
 
 /// How a kernel writes.
 enum class Write : unsigned char {
-    cached,        ///< the values asked for and no others
-    non_temporal,  ///< the same, whole lines past the cache, and not fenced
-    staged,        ///< whole units: up to largest_unit values beyond the end may be overwritten
+    cached,        ///< exactly the values asked for
+    non_temporal,  ///< the same, whole lines past the cache; the caller must fence them
+    staged,        ///< whole units: may overwrite up to largest_unit values beyond the end
 };
 
 constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
 constexpr std::size_t arc_terms = 4;
 
-/// One region's numbers in one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
-/// where the arc angle delta = alpha (z / L - 1/2) stays small, and placed in the streams' space by `matrix`
-/// and `offset`. In rows of four floats, which is how set-up writes them.
+/// The numbers of one region of one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
+/// where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset` then take it to the
+/// streams' space. The numbers come in rows of four floats, which set-up stores whole.
 /// See modules/paper/README.md, "Bend".
 struct alignas(16) Coefficients {
     float cos_half_direction, sin_half_direction;  ///< of theta / 2
@@ -64,18 +66,21 @@ struct alignas(16) Coefficients {
     float arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
     float first_curvature;    ///< alpha / 2^doublings / L
     float doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
-    float half_radius;        ///< depth weight: inner parts lie below it
+    float half_radius;        ///< r / 2, below which the depth weight falls
     float handedness;         ///< -1 where `matrix` mirrors, else 1
-    float matrix[12];         ///< columns of four, the last 0: middle frame's n, b, t in the streams' space
+    float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
     float offset[4];          ///< the arc's middle in the streams' space
-    float normal_matrix[12];  ///< as `matrix`: its cofactors, to scale and facing outward
-    /// A = |h| sum amplitude[n] T^n, dA/dbeta = sign(h) h' sum amplitude_slope[n] T^n; relative, with
-    /// x = q^2 / (q + onset): A / S_0 = sqrt(x) sum amplitude[n] x^n, its slope over sqrt(x) likewise.
+    float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
+    /// Plain: A = |h| sum of amplitude[n] T^n and dA/dbeta = sign(h) h' sum of amplitude_slope[n] T^n.
+    /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of
+    /// amplitude_slope[n] x^n is its derivative by sqrt(x).
     float amplitude[amplitude_terms];
     float amplitude_slope[amplitude_terms];
-    /// The rest is of relative squeezes alone. With u = (cos beta, sin beta): S_0 = 1 - kappa_0 - rest_curl .
-    /// u, and at this pose S = S_0 - (kappa - kappa_0) - curl_change . u; so q = 1 - S / S_0 is squeeze[0] +
-    /// squeeze[1, 2] . u / S_0.
+    /// What follows is for relative squeezes alone. With u = (cos beta, sin beta), the scales of a column at
+    /// rest and in the pose, and its squeeze, are
+    ///     S_0 = 1 - kappa_0 - rest_curl . u
+    ///     S   = S_0 - (kappa - kappa_0) - curl_change . u
+    ///     q   = 1 - S / S_0 = squeeze[0] + squeeze[1, 2] . u / S_0
     float cos_direction, sin_direction;  ///< of theta
     float rest_curl[2];
     float curl_change[2];
@@ -85,15 +90,15 @@ struct alignas(16) Coefficients {
 };
 static_assert(sizeof(Coefficients) == 72 * sizeof(float));
 
-/// Where one kernel call writes planes: value j is of the j-th vertex of the call.
+/// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
 struct PlaneOutput {
     float* position[3];
     float* normal[3];
     float* tangent[4];
 };
 
-/// Where one kernel call writes rows: vectors, or the packed words, whose components follow each other; that
-/// of the j-th vertex of the call is j * stride bytes behind the first.
+/// Where a kernel call writes rows: vectors, or packed words, whose components follow each other. That of the
+/// j-th vertex of the call lies j * stride bytes behind the first.
 struct RowOutput {
     float* position;
     float* normal;
@@ -101,56 +106,56 @@ struct RowOutput {
     std::size_t position_stride, normal_stride, tangent_stride;
 };
 
-/// Deforms `count` vertices of one region from vertex `first` on; reads widest_batch rest vertices from any
-/// of them. Planes begin their lines at the same vertices where Write::non_temporal.
+/// Deforms `count` vertices of one region from vertex `first` on. May read widest_batch rest vertices from
+/// any of them. With Write::non_temporal, all planes must begin their cache lines at the same vertices.
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
                              std::size_t first, std::size_t count, Write write);
 
-/// The same to rows. Writes exactly the values asked for.
+/// The same to rows. Writes exactly the values asked for, into the cache.
 using RowKernel = void (*)(const RestColumns& rest, const Coefficients& k, const RowOutput& out,
                            std::size_t first, std::size_t count);
 
-/// The same to records without gaps, of the vectors that the kernel makes and no others: lines of a single
-/// stream that begins at `record`. Write::non_temporal: from the first line on that begins with a vertex,
-/// `peeled` vertices behind.
+/// The same to records without gaps that hold the kernel's vectors and nothing else, the first one at
+/// `record`. With Write::non_temporal, vertex first + peeled must begin a cache line, from which on lines go
+/// past the cache.
 using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, float* record,
                                std::size_t first, std::size_t count, Write write, std::size_t peeled);
 
-/// Writes records of as many floats as there are planes, `lines` times 16 of them. `non_temporal`: past the
-/// cache, and not fenced; `to` then begins a line.
+/// Writes 16 * lines records, each of one float from every plane. `non_temporal`: past the cache, to be
+/// fenced by the caller; `to` must then begin a cache line.
 using Weave = void (*)(const float* const* planes, std::size_t lines, float* to, bool non_temporal);
 
-/// Most floats of a record that is woven.
+/// The most floats of a record that is woven.
 constexpr std::size_t most_woven = 13;
 
-/// Copies `count` floats. `non_temporal`: whole lines past the cache, and not fenced.
+/// Copies `count` floats. `non_temporal`: whole lines past the cache, to be fenced by the caller.
 using CopyLines = void (*)(const float* from, float* to, std::size_t count, bool non_temporal);
 
-/// Instances that are set up together.
+/// The most instances that are set up together.
 constexpr std::size_t setup_width = 16;
 
 /// A region as set-up reads it.
 struct SetupRegion {
     float length, per_length, radius, max_angle;
-    const float (*rows)[amplitude_terms];  ///< of the wrinkle table; null where there is none
+    const float (*rows)[amplitude_terms];  ///< rows of the wrinkle table; null if there is none
     std::size_t row_count;
     float table_max_angle;
     bool relative;
-    float onset, rest_angle, rest_direction;  ///< relative: the direction within -pi..pi
+    float onset, rest_angle, rest_direction;  ///< used if relative; the direction is within -pi..pi
 };
 
-/// What up to setup_width instances are set up from, one value per instance; those that are not used must be
-/// finite.
+/// What up to setup_width instances are set up from, one value per instance. Unused values must be finite.
 struct SetupColumns {
     alignas(64) float angle[setup_width];          ///< radians, finite
     alignas(64) float direction[setup_width];      ///< radians, -pi..pi
     alignas(64) float factor[setup_width];         ///< on the amplitude
-    alignas(64) float transform[12][setup_width];  ///< column after column: see TransformColumn
-    alignas(64) float frame[12][setup_width];  ///< e1, e2, e3, origin of the region; set to the next one's
+    alignas(64) float transform[12][setup_width];  ///< the matrix, column after column
+    /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region.
+    alignas(64) float frame[12][setup_width];
 };
 
-/// Makes the coefficients of one region of `count` instances: everything in the map that depends on the pose
-/// and not on the vertex. Those of instance i go to k + i * step. The amplitude's only where `wrinkled[i]`.
+/// Computes the coefficients of one region for `count` instances: all that depends on the pose and not on the
+/// vertex. Those of instance i go to k[i * step]. Sets amplitudes only where wrinkled[i].
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 
@@ -159,7 +164,7 @@ struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
     RowKernel rows[squeeze_count][stream_set_count];
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
-    Weave weave[most_woven + 1];  ///< by the floats of a record; null where there is none
+    Weave weave[most_woven + 1];  ///< indexed by the floats of a record; null where there is none
     CopyLines copy_lines;
     Setup setup;
 

@@ -8,19 +8,20 @@
 
 #include <cstddef>
 
-/// The kernels: batch after batch of vertices, and how their values are written. `L` is ScalarLanes,
-/// XsimdLanes<Arch>, or two of them in step.
+/// The kernels: they deform batch after batch of vertices and write the values. `L` is ScalarLanes,
+/// XsimdLanes<Arch>, Avx2Lanes, Avx512Lanes, or DoubledLanes of one of these.
 
 namespace goffer::bend {
 
-/// Vertices that a kernel deforms at a time: a cache line of each plane, or a batch that is wider.
+/// Vertices that a kernel deforms at a time: a cache line of each plane, or a batch if that is wider.
 template <class L>
 constexpr std::size_t unit = L::width > line_floats ? L::width : line_floats;
 
 template <class L>
 constexpr std::size_t batches = unit<L> / L::width;
 
-/// Stores the first `count` values of a batch. Of two registers that are a line each, the first may be whole.
+/// Stores the first `count` values of a batch. If it is two registers of a line each, the first may be a
+/// whole line.
 template <class L>
 void store_part(float* to, typename L::Vec value, std::size_t count, Write write) {
     using Single = typename L::Single;
@@ -33,14 +34,14 @@ void store_part(float* to, typename L::Vec value, std::size_t count, Write write
     L::store_first(to, value, count);
 }
 
-/// Lines that are not written whole must be in the cache: asks for the first and the last one early.
+/// Asks early for the first and the last line where they are not written whole: these must be read first.
 template <class L>
 void prefetch_ends(const float* first, std::size_t floats) {
     if (floats_to_line<L>(first) != 0) L::Single::prefetch(first);
     if (floats_to_line<L>(first + floats) != 0) L::Single::prefetch(first + floats - 1);
 }
 
-/// Stores one batch of a plane, or the first `count` values of it.
+/// Stores a batch of a plane: all of it if `whole`, else the first `count` values.
 template <class L>
 void store_batch(float* to, typename L::Vec value, bool whole, std::size_t count, Write write) {
     if (!whole) [[unlikely]] {
@@ -52,8 +53,8 @@ void store_batch(float* to, typename L::Vec value, bool whole, std::size_t count
     }
 }
 
-/// Stores the batches of one unit. A line is written whole before the next one is begun, since the processor
-/// has few buffers for lines that are written past the cache.
+/// Stores the batches of a unit. Completes each line before it begins the next one, since the processor has
+/// few buffers for lines that go past the cache.
 template <class L>
 void store_planes(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*part, float* const* out,
                   std::size_t j, std::size_t count, Write write) {
@@ -78,14 +79,14 @@ void store_signs(const Results<L> (&results)[batches<L>], float* out, std::size_
     }
 }
 
-/// Rows at equal distances, one after the other. In fours, whose places are one register and small multiples
-/// of another.
+/// Addresses of rows at equal distances, asked for in order. Computed in groups of four, each address as one
+/// register plus a small multiple of another.
 template <class L>
 class RowPlaces {
 public:
     RowPlaces(float* first, std::size_t stride) : at_(reinterpret_cast<std::byte*>(first)), stride_(stride) {}
 
-    /// Of row `row`, asked for in order from 0.
+    /// The address of row `row`; call it for 0, 1, 2 and so on.
     float* operator()(std::size_t row) {
         if (row != 0 && row % 4 == 0) at_ += 4 * stride_;
         return reinterpret_cast<float*>(at_ + row % 4 * stride_);
@@ -96,8 +97,8 @@ private:
     std::size_t stride_;
 };
 
-/// Calls store(place, row) for each row that a unit's vectors make, or, if not `whole`, for the first `count`
-/// of them. `rows` makes those of one register: rows(results, part, visit).
+/// Calls store(address, row) for each row of a unit, or for the first `count` if not `whole`. rows(results,
+/// part, visit) visits the rows of one register.
 template <class L, bool whole, class Rows, class Store>
 void store_rows(const Results<L> (&results)[batches<L>], float* first, std::size_t stride, std::size_t count,
                 const Rows& rows, const Store& store) {
@@ -114,7 +115,7 @@ void store_rows(const Results<L> (&results)[batches<L>], float* first, std::size
     }
 }
 
-/// A vector of each vertex.
+/// Stores a vector of each vertex as rows.
 template <class L, bool whole>
 void store_vectors(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*vector, float* first,
                    std::size_t stride, std::size_t count) {
@@ -128,7 +129,7 @@ void store_vectors(const Results<L> (&results)[batches<L>], Vector<L> Results<L>
         [](float* at, typename Single::Row row) { Single::template store_row_first<3>(at, row); });
 }
 
-/// Tangents with their signs.
+/// Stores tangents with their signs as rows.
 template <class L, bool whole>
 void store_tangents(const Results<L> (&results)[batches<L>], float* first, std::size_t stride,
                     std::size_t count) {
@@ -143,8 +144,8 @@ void store_tangents(const Results<L> (&results)[batches<L>], float* first, std::
         [](float* at, typename Single::Row row) { Single::store_row(at, row); });
 }
 
-/// Deforms units of vertices and hands each to `store(results, vertex, count)`. `next`: vertices of the first
-/// unit.
+/// Deforms units of vertices and hands each to store(results, j, count), where j counts from `first`. The
+/// first unit has `next` vertices.
 template <class L, Squeeze squeeze, StreamSet streams, class Store>
 void deform_units(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t vertices,
                   std::size_t next, const Store& store) {
@@ -176,8 +177,8 @@ void deform_units(const RestColumns& rest, const Coefficients& k, std::size_t fi
     }
 }
 
-// Flattened: one loop without calls, whose constants stay in registers as far as there are any. The copies of
-// what the arguments point to tell the compiler that no store changes them.
+// Flattened into one loop, so that constants stay in registers as far as these suffice. The copies of the
+// arguments tell the compiler that no store changes them.
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
                                      const PlaneOutput& output, std::size_t first, std::size_t vertices,
@@ -208,7 +209,7 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
         });
 }
 
-/// A unit's rows, from vertex `j` of the call on.
+/// Stores the rows of a unit whose first vertex is the j-th of the call.
 template <class L, StreamSet streams, bool whole>
 void store_row_streams(const Results<L> (&results)[batches<L>], const RowOutput& out, std::size_t j,
                        std::size_t count) {
@@ -242,7 +243,7 @@ GOFFER_FLATTENED void bend_to_rows(const RestColumns& columns, const Coefficient
         });
 }
 
-/// A unit as records of N floats: position, and normal where N is 6.
+/// Stores a unit as records of N floats: the position, and the normal if N is 6.
 template <class L, int N>
 void write_records(const Results<L> (&results)[batches<L>], float* to, bool non_temporal) {
     using Single = typename L::Single;

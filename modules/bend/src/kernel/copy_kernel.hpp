@@ -4,7 +4,7 @@
 #include "kernel/args.hpp"
 #include "kernel/lines.hpp"
 
-/// Whole lines out. `L` is ScalarLanes or XsimdLanes<Arch>: single registers.
+/// Copies floats to whole cache lines. `L` is lanes of single registers.
 
 namespace goffer::bend {
 

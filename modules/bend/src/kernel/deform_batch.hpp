@@ -4,13 +4,12 @@
 #include "kernel/args.hpp"
 #include "kernel/sin_cos.hpp"
 
-/// The deformation of a batch of vertices, written once for all instruction sets. `L` is ScalarLanes,
-/// XsimdLanes<Arch>, or two of them in step.
+/// The deformation of a batch of vertices, written once for all instruction sets. `L` is any lanes.
 ///
-/// Half angles are stored, and used here, times the root of two: h = sqrt(2) cos((beta - theta) / 2) and
-/// h' = sqrt(2) sin((beta - theta) / 2) come from the columns by a rotation, and give T = h^2 = 1 + c with
-/// c = cos(beta - theta), s = sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a root, unless
-/// the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
+/// Columns hold sines and cosines of half angles, times the root of two. A rotation makes h = sqrt(2)
+/// cos((beta - theta) / 2) and h' = sqrt(2) sin((beta - theta) / 2) from them. With c = cos(beta - theta)
+/// they give T = h^2 = 1 + c, sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a square root,
+/// unless the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
 /// See modules/paper/README.md, "Bend".
 
 namespace goffer::bend {
@@ -22,7 +21,7 @@ typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
     return sum;
 }
 
-/// The same for an even N, even and odd powers side by side: one operation more, half the wait.
+/// The same for an even N, with even and odd powers side by side: one operation more, but half the latency.
 template <class L, std::size_t N>
 typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec x) {
     const typename L::Vec xx = x * x;
@@ -35,7 +34,7 @@ typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec 
     return L::madd(odd, x, even);
 }
 
-/// 1 / crease_width, of a cosine that is stored times the root of two.
+/// 1 / crease_width, for a cosine times the root of two.
 constexpr float per_crease_width = 0.70710678f / crease_width;
 
 /// What positions, normals and tangents of one batch share.
@@ -44,14 +43,14 @@ struct Bent {
     using Vec = typename L::Vec;
     Vec c, s;          // cos and sin of beta - theta
     Vec amplitude;     // A; A / S_0 where the squeeze is relative
-    Vec slope;         // of the same over beta
+    Vec slope;         // its derivative by beta
     Vec rho_c, rho_s;  // rho' c, rho' s
     Vec arc_x, arc_z;  // L (1 - cos delta) / alpha, L sin delta / alpha
     Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
 };
 
-/// The columns' angles less the instance's. Of half angles times the root of two: the half difference, times
-/// that root.
+/// Sine and cosine of the columns' angles minus the instance's. A factor on those of the columns, such as the
+/// root of two, carries over.
 template <class L>
 SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction) {
     const typename L::Vec ct = L::splat(cos_direction);
@@ -59,7 +58,7 @@ SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction
     return {L::nmadd(columns.cosine, st, columns.sine * ct), L::madd(columns.sine, st, columns.cosine * ct)};
 }
 
-/// The directions of columns, and the wrinkle of those that are squeezed by q = kappa T, if by any.
+/// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa T.
 template <class L, Squeeze squeeze, bool slope>
 void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
@@ -72,13 +71,13 @@ void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& 
     if constexpr (squeeze == Squeeze::none) return;
     b.amplitude = L::abs(h) * long_polynomial<L>(k.amplitude, t);
     if constexpr (slope) {
-        // A has a corner where h changes sign, on the outer line; across it the two slopes are blended.
+        // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
         const Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
         b.slope = sign * h_prime * long_polynomial<L>(k.amplitude_slope, t);
     }
 }
 
-/// The same of columns whose squeeze is compared with that at rest.
+/// The same for columns whose squeeze is relative to that at rest.
 template <class L, bool slope>
 void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
@@ -108,7 +107,7 @@ void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L
     }
 }
 
-/// What depends on a vertex's column. `slope`: normals or tangents are wanted.
+/// Computes what depends on the column of a vertex. `slope`: normals or tangents are wanted.
 template <class L, Squeeze squeeze, bool slope>
 Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i) {
     using Vec = typename L::Vec;
@@ -125,7 +124,7 @@ Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i
     return b;
 }
 
-/// What depends on its height, too.
+/// Adds what also depends on its height.
 template <class L>
 void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
@@ -143,10 +142,9 @@ void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::si
     b.stretch = L::nmadd(L::splat(k.curvature), b.rho_c, L::splat(k.one_minus_kappa));
 }
 
-/// What positions need of batches that were turned ahead. A relative squeeze's operations are a longer chain
-/// than processors look ahead over, and too many numbers for their registers; in a loop of their own they
-/// take 1.2 times a plain squeeze's time, in one loop with the rest 1.3 times. (Plain squeezes, and normals,
-/// lose by it.)
+/// What turn_batch leaves for positions, for many batches in a row. With a relative squeeze, its operations
+/// are a longer chain than processors look ahead over, and need too many registers. They are faster in a loop
+/// of their own. (Plain squeezes and normals get slower by it.)
 template <class L>
 struct ColumnBuffer {
     static constexpr std::size_t vertices = 256;
@@ -154,7 +152,8 @@ struct ColumnBuffer {
     alignas(64) float rho_s[vertices + L::width];
 };
 
-/// Turns the vertices [first, last), and less than a batch beyond; at most ColumnBuffer::vertices.
+/// Fills the buffer for the vertices [first, last), at most ColumnBuffer::vertices, and for less than a batch
+/// beyond.
 template <class L, Squeeze squeeze>
 void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
                         ColumnBuffer<L>& ahead) {
@@ -165,13 +164,13 @@ void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::siz
     }
 }
 
-/// A vector per lane, in model space.
+/// A vector per lane.
 template <class L>
 struct Vector {
     typename L::Vec component[3];
 };
 
-/// Turns (x, y, z) from the middle frame to model space and adds `offset` unless null.
+/// Takes (x, y, z) from the middle frame to the streams' space, and adds `offset` unless it is null.
 template <class L>
 Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
                 typename L::Vec z) {
@@ -185,7 +184,7 @@ Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typ
     return result;
 }
 
-/// A vector given in the bent frame (n, b, t) at the vertex, in the streams' space and of no particular
+/// Takes a vector from the bent frame (n, b, t) at the vertex to the streams' space. Does not keep its
 /// length.
 template <class L>
 Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent<L>& b, typename L::Vec n,
@@ -200,8 +199,8 @@ Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent
     return place<L>(matrix, nullptr, x, y, z);
 }
 
-/// To unit length. Last of all, so that a transform's scale and all roundings go out with it. A vector that
-/// the map squeezed to nothing stays zero: the bound keeps its root finite.
+/// Brings a vector to unit length. Comes last of all, so that it removes the scale of transforms and
+/// roundings. A vector that the map squeezed to zero stays zero: the number added keeps the root finite.
 template <class L>
 Vector<L> normalized(const Vector<L>& v) {
     using Vec = typename L::Vec;
@@ -210,8 +209,13 @@ Vector<L> normalized(const Vector<L>& v) {
     return {{x * inverse, y * inverse, z * inverse}};
 }
 
-/// The Jacobian's entries in the bent frame: rows (a, b, d), (0, growth,
-/// 0), (0, 0, stretch). Without a wrinkle only stretch is set: a and growth are 1, b and d 0.
+/// The Jacobian in the bent frame, without Bent::stretch:
+///
+///     | a  b       d       |
+///     | 0  growth  0       |
+///     | 0  0       stretch |
+///
+/// Not used without wrinkles, where a and growth are 1, b and d 0.
 /// See modules/paper/README.md, "Normals and tangents".
 template <class L>
 struct Jacobian {
@@ -224,8 +228,8 @@ Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
     const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
-    // Below half the radius the depth weight grows like rho, so the wrinkle stretches rho as it stretches the
-    // circle.
+    // Below half the radius the depth weight is proportional to rho, so the wrinkle stretches rho as much as
+    // the circle.
     return {growth, L::where_less(L::load(rest.rho + i), L::splat(k.half_radius), growth, L::splat(1.0f)),
             bent.slope * wrinkle, bent.amplitude * L::load(rest.slope + i)};
 }
@@ -262,15 +266,16 @@ Vector<L> bend_tangents(const RestColumns& rest, const Coefficients& k, const Be
     }
 }
 
-/// PackedVertex's three words. `position` is in steps of the bounds, 0..65535; `normal` of any length.
+/// The three words of PackedVertex. `position` is in steps of the bounds, 0..65535; `normal` may have any
+/// length.
 template <class L>
 Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
     using Vec = typename L::Vec;
     const Vec zero = L::splat(0.0f);
     const auto step = [&](Vec value) { return L::clamp(value, zero, L::splat(65535.0f)); };
     const auto& [x, y, z] = normal.component;
-    // Octahedral: onto |x| + |y| + |z| = 1; the lower half is folded outward over the upper, to where
-    // |x| + |z| and |y| + |z| say.
+    // Projects the normal onto the octahedron |x| + |y| + |z| = 1. Below z = 0 it is folded outward: both |x|
+    // and |y| grow by |z|.
     const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::splat(1e-30f);
     const Vec scale = L::reciprocal(sum) * L::splat(32767.0f);
     const Vec below = L::max(L::nmadd(z, scale, zero), zero);
@@ -281,7 +286,7 @@ Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
              L::pair_words(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
 }
 
-/// What is wanted of one batch; only the wanted parts are set and used.
+/// The results of one batch. Only what is wanted is set and used.
 template <class L>
 struct Results {
     Vector<L> position, normal, tangent;
@@ -296,7 +301,7 @@ constexpr bool has_tangents(StreamSet streams) {
     return streams == StreamSet::positions_normals_tangents;
 }
 
-/// `b` is what turn_batch made of it.
+/// Deforms the batch that begins at vertex `i`. `b` is what turn_batch made of it.
 template <class L, Squeeze squeeze, StreamSet streams>
 Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> b, std::size_t i) {
     Results<L> results;

@@ -26,7 +26,7 @@ constexpr void add_kernels(KernelSet& set) {
     add_kernels<L, squeeze, StreamSet::packed>(set);
 }
 
-/// All kernels over the lanes `L`: those over vertices in batches of L, the others in single registers.
+/// All kernels of an instruction set. Those that deform vertices use `L`, the others its single registers.
 template <class L>
 constexpr KernelSet kernel_set() {
     using Single = typename L::Single;

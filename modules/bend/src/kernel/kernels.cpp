@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/kernels.hpp"
 
+#include <cassert>
+
 namespace goffer::bend {
 
 extern const KernelSet kernels_scalar;
@@ -10,6 +12,7 @@ extern const KernelSet kernels_avx512;
 extern const KernelSet kernels_neon;
 
 const KernelSet& kernels(Isa isa) noexcept {
+    assert(runs_here(isa));
     switch (resolve(isa)) {
 #ifdef GOFFER_HAS_SSE42
         case Isa::sse42:

@@ -7,7 +7,7 @@
 
 namespace goffer::bend {
 
-/// The kernels for `isa`, which runs here (goffer::runs_here). Thread-safe.
+/// The kernels for `isa`, which must run here (goffer::runs_here). Static storage. Thread-safe.
 [[nodiscard]] const KernelSet& kernels(Isa isa) noexcept;
 
 }  // namespace goffer::bend

@@ -8,8 +8,8 @@
 
 namespace goffer::bend {
 
-/// How many floats from `at` on lie before the next cache line, below line_floats. A template on whatever
-/// asks, so that every instruction set has its own.
+/// The number of floats from `at` to the next address that begins a cache line, 0 to line_floats - 1. A
+/// template on its caller's type, so that each instruction set has its own.
 template <class Asker>
 std::size_t floats_to_line(const float* at) noexcept {
     return (0 - reinterpret_cast<std::uintptr_t>(at) / sizeof(float)) % line_floats;

@@ -4,28 +4,28 @@
 #include "kernel/args.hpp"
 #include "kernel/sin_cos.hpp"
 
-/// Set-up, over as many instances at a time as a register has lanes. Each lane's result depends on that lane
-/// alone, so that an instance's bits are the same alone and in any company. `L` is ScalarLanes or
-/// XsimdLanes<Arch>: single registers.
+/// Set-up, for as many instances at a time as a register has lanes. The result of a lane depends on that lane
+/// alone, so an instance gets the same bits whatever its neighbors. `L` is lanes of single registers.
 
 namespace goffer::bend {
 
-/// Polynomials in x = delta^2, first coefficient exact, for delta up to a quarter and up to half of pi. Where
-/// delta is small, four terms are as good as float; over the whole range they are good enough.
+/// Polynomials in x = delta^2 with an exact first coefficient. quarter_terms serve delta up to pi / 4, where
+/// four terms are as accurate as float; half_terms serve delta up to pi / 2. The numbers beside them are the
+/// largest errors.
 struct ArcTerms {
     float sinc[arc_terms];     // sin(delta) / delta
     float versine[arc_terms];  // (1 - cos(delta)) / delta^2
 };
-constexpr ArcTerms quarter_terms = {  // within 3.7e-9 and 3.7e-10
+constexpr ArcTerms quarter_terms = {  // 3.7e-9 and 3.7e-10
     {1.0f, -0.16666654985053148f, 0.008332181044647887f, -0.00019517691414787331f},
     {0.5f, -0.04166665496147368f, 0.0013887734570724405f, -2.4477587586018e-05f}};
-constexpr ArcTerms half_terms = {  // within 9.0e-7 and 9.1e-8
+constexpr ArcTerms half_terms = {  // 9.0e-7 and 9.1e-8
     {1.0f, -0.1666594568164659f, 0.00831547072416514f, -0.00018576809626294315f},
     {0.5f, -0.04166593982738049f, 0.0013870900027083285f, -2.3530552718089952e-05f}};
 
 constexpr float half_turn = 3.14159265f;
 
-/// Lanes of instances: three components.
+/// A vector per instance.
 template <class L>
 struct Vector3 {
     typename L::Vec x, y, z;
@@ -38,14 +38,14 @@ typename L::Vec horner(const float (&terms)[arc_terms], typename L::Vec x) {
     return sum;
 }
 
-/// Of twice the angle.
+/// Sine and cosine of twice the angle.
 template <class L>
 SinCos<L> doubled(SinCos<L> of) {
     const typename L::Vec twice = of.sine + of.sine;
     return {twice * of.cosine, L::nmadd(twice, of.sine, L::splat(1.0f))};
 }
 
-/// Of an angle up to a quarter of pi either way.
+/// Sine and cosine of an angle within -pi / 4..pi / 4.
 template <class L>
 SinCos<L> sin_cos(typename L::Vec angle) {
     const typename L::Vec x = angle * angle;
@@ -53,10 +53,10 @@ SinCos<L> sin_cos(typename L::Vec angle) {
             L::nmadd(x, horner<L>(quarter_terms.versine, x), L::splat(1.0f))};
 }
 
-/// How many of a register's lanes are instances.
+/// How many lanes of a register hold instances.
 enum class Lanes { one, some, all };
 
-/// One register's instances.
+/// Sets up the instances in one register.
 template <class L, Lanes lanes>
 class SetupLanes {
 public:
@@ -66,8 +66,8 @@ public:
                Coefficients* k, std::size_t step)
         : region_(region), columns_(columns), first_(first), count_(count), k_(k), step_(step) {}
 
-    /// Sets all but the amplitudes. Of these it leaves, for each instance, where its row lies in the table
-    /// and what set_amplitude scales it by.
+    /// Sets everything but the amplitudes. For these it leaves, for each instance, the place of its row in
+    /// the table and the scale that set_plain_amplitude or set_relative_amplitude takes.
     void run(float* table_place, float* scale) {
         const Vec angle = L::load(columns_.angle + first_);
         alpha_ = L::min(L::abs(angle), L::splat(region_.max_angle));
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    /// One row of every instance's coefficients: `row` says where it is.
+    /// Stores a row of each instance's coefficients; row(k) is its address in `k`.
     template <class Row>
     void put(const Row& row, Vec a, Vec b, Vec c, Vec d) {
         if constexpr (lanes == Lanes::one) {
@@ -97,8 +97,8 @@ private:
         }
     }
 
-    /// Rows are at equal steps of the angle's root. Below least_kappa a relative row would be scaled by more
-    /// than float holds.
+    /// Rows stand at equal steps of the angle's root. Below least_kappa, the scale of a relative row would
+    /// leave float's range.
     void find_row(Vec kappa, float* table_place, float* scale) const {
         Vec angle = alpha_;
         if (region_.relative) {
@@ -118,7 +118,8 @@ private:
         return {(half.sine + half.sine) * half.cosine, (half.cosine - half.sine) * (half.cosine + half.sine)};
     }
 
-    /// A negative angle turns the direction by a half turn, half of which swaps sine and cosine.
+    /// A negative angle turns the direction by pi, and half the direction by pi / 2, which swaps sine and
+    /// cosine.
     void set_direction(Vec angle) {
         const SinCos<L> half = half_of(L::load(columns_.direction + first_));
         const Vec zero = L::splat(0.0f);
@@ -127,8 +128,8 @@ private:
         whole_ = whole_of(half_);
     }
 
-    /// Beyond a half turn delta leaves the polynomials' range: they then serve a fraction of the angle,
-    /// doubled back.
+    /// Beyond a half turn, delta leaves the range of the polynomials. They then serve alpha / 2^doublings,
+    /// and the double-angle formulas lead back.
     void set_arc() {
         const Vec limit = L::splat(half_turn * 1.000001f), zero = L::splat(0.0f), one = L::splat(1.0f);
         part_ = alpha_;
@@ -181,10 +182,10 @@ private:
         return {L::nmadd(u.z, v.y, u.y * v.z), L::nmadd(u.x, v.z, u.z * v.x), L::nmadd(u.y, v.x, u.x * v.y)};
     }
 
-    /// The arc's halves: its turn, and its chord.
+    /// Half of the arc: its turn and its chord.
     struct HalfArc {
         Vec sine, cosine;  // of alpha / 2
-        Vec out, up;       // from the base to the middle, toward the bend and along the base's axis
+        Vec out, up;       // chord from the base to the middle: toward the bend, and along the base's axis
     };
 
     [[nodiscard]] HalfArc half_arc() const {
@@ -193,7 +194,7 @@ private:
         const Vec sinc = horner<L>(quarter_terms.sinc, x * x);
         SinCos<L> half = doubled<L>(quarter);
         const Vec arc = one_minus_kappa_ * L::splat(0.5f * region_.length);
-        // arc (1 - cos(alpha / 2)) / (alpha / 2) and arc sin(alpha / 2) / (alpha / 2), without cancelling
+        // arc (1 - cos(alpha / 2)) / (alpha / 2) and arc sin(alpha / 2) / (alpha / 2), without cancellation
         HalfArc result{half.sine, half.cosine, arc * quarter.sine * sinc, arc * sinc * quarter.cosine};
         Vec left = doublings_;
         const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
@@ -211,8 +212,8 @@ private:
         return result;
     }
 
-    /// The middle frame: the arc's point and axes at half height, where the arc has turned by alpha / 2. And
-    /// the frame at the end, by the same turn and chord once more.
+    /// Sets the middle frame, which is point and axes of the arc at half height, where it has turned by alpha
+    /// / 2. The same turn and chord once more lead to the frame at the end.
     void set_frames() {
         const HalfArc half = half_arc();
         const Vec zero = L::splat(0.0f);
@@ -258,9 +259,9 @@ private:
 
     static Vector3<L> scaled(Vec by, const Vector3<L>& v) { return {by * v.x, by * v.y, by * v.z}; }
 
-    // Normals go with the cofactors, which are the inverse transpose times the determinant; a determinant
-    // below 0 would turn them inward. Scaled, since kernels bound squared lengths from below, and first of
-    // all where the cofactors' squares would leave float's range.
+    // Normals are transformed by the cofactors: the inverse transpose times the determinant, which turns them
+    // inward if it is negative. The result is scaled, since kernels add a small number to squared lengths.
+    // The matrix is scaled first if squares of its cofactors would leave float's range.
     void set_normal_matrix(Vector3<L> n, Vector3<L> b, Vector3<L> t) {
         const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
         const Vec size = L::max(L::max(largest(n), largest(b)), largest(t));
@@ -284,13 +285,13 @@ private:
             doublings_, L::splat(region_.radius * 0.5f), handedness);
     }
 
-    /// The scale of a column is S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa
-    /// (cos theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), which makes q
-    /// linear in p. The differences vanish exactly at the rest pose.
+    /// A column has the scale S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa (cos
+    /// theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), so q is linear in
+    /// p. The differences vanish exactly at the rest pose.
     /// See modules/paper/README.md, "Bodies bent at rest".
     void set_squeeze(Vec kappa) {
         const Vec zero = L::splat(0.0f);
-        // By the same operations as the pose's, so that they cancel.
+        // The same operations as for the pose, so that they cancel exactly.
         const Vec rest_kappa =
             L::splat(region_.rest_angle) * L::splat(region_.per_length) * L::splat(region_.radius);
         const SinCos<L> rest = whole_of(half_of(L::splat(region_.rest_direction)));
@@ -312,10 +313,10 @@ private:
     Coefficients* k_;
     std::size_t step_;
     Vec alpha_, part_, doublings_, curvature_, one_minus_kappa_;
-    SinCos<L> half_, whole_;  // of half the direction, and of it
+    SinCos<L> half_, whole_;  // of half the direction, and of the direction
 };
 
-/// Two rows of the wrinkle table, and where between them an instance is.
+/// Two neighboring rows of the wrinkle table, and the weight of the second.
 struct RowPlace {
     const float *from, *to;
     float weight;
@@ -329,7 +330,7 @@ RowPlace row_place(const SetupRegion& region, float place) {
     return {region.rows[low], region.rows[low + 1], place - static_cast<float>(low)};
 }
 
-/// The amplitude's coefficients in T, times the root of kappa, which is in `factor`.
+/// Sets the amplitude's coefficients in T. `factor` includes the root of kappa.
 template <class L>
 void set_plain_amplitude(const RowPlace& row, float factor, Coefficients& k) {
     static constexpr float slopes[amplitude_terms] = {-0.5f, -1.5f, -2.5f, -3.5f, -4.5f, -5.5f, -6.5f, -7.5f};
@@ -340,7 +341,7 @@ void set_plain_amplitude(const RowPlace& row, float factor, Coefficients& k) {
     }
 }
 
-/// From powers of q / kappa to powers of q.
+/// Sets the amplitude's coefficients in q: the row's, which are in q / kappa, times powers of 1 / kappa.
 template <class L>
 void set_relative_amplitude(const RowPlace& row, float kappa, float factor, Coefficients& k) {
     const float per_kappa = 1 / kappa;

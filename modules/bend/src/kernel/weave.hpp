@@ -5,31 +5,32 @@
 
 #include <utility>
 
-/// From planes to records, in registers: batches of N planes become the same number of batches of records.
+/// Turns planes into records, in registers: N batches, one of each plane, become N batches of records.
 ///
-/// For odd N, value i of plane c belongs at place N i + c of the records, whose lane in its batch is
-/// (N i + c) mod width. N and the width have no common factor, so one permutation takes a whole plane to its
-/// lanes, and each batch of records takes from each plane by blending alone. For even N the same is done with
-/// pairs: (plane 2 c, plane 2 c + 1).
+/// For odd N, value i of plane c belongs at place N i + c of the records, which is lane (N i + c) mod width
+/// of its batch. N and the width have no common factor, so one permutation takes all values of a plane to
+/// their lanes, and blending alone then makes each batch of records. For even N the same is done with pairs
+/// of planes, 2 c and 2 c + 1.
 
 namespace goffer::bend {
 
-/// Values of N planes, `group` planes together (1 or 2), in batches of W lanes.
+/// Where values of N planes go, for batches of W lanes. `group` is the number of planes that are taken
+/// together, 1 or 2.
 template <int W, int N, int group>
 struct Places {
-    static constexpr int planes = N / group;  // as many groups
+    static constexpr int planes = N / group;  // groups of planes
     static constexpr int lanes = W / group;   // groups in a batch
     static_assert(group == 1 || lanes == 1 || planes % 2 == 1 || group * 2 == N);
 
-    static constexpr int inverse() {  // of `planes`, modulo `lanes`
+    static constexpr int inverse() {  // the inverse of `planes` modulo `lanes`
         for (int i = 1; i < lanes; ++i) {
             if (planes * i % lanes == 1) return i;
         }
         return 1;
     }
 
-    /// Takes plane group `c`, from vertex `from` on, to its lanes. Of two batches: index W and more is the
-    /// second one.
+    /// Picks that take plane group `c`, from vertex `from` on, to its lanes. Picks of W and more are of the
+    /// second of two planes.
     template <int c, int from>
     struct Spread {
         static constexpr int at(int lane) {
@@ -38,7 +39,7 @@ struct Places {
         }
     };
 
-    /// Lanes of batch `j` of the records that come from plane group `c`; the others stay.
+    /// Picks that put plane group `c` into batch `j` of the records, and leave its other lanes as they are.
     template <int c, int j>
     struct Blend {
         static constexpr int at(int lane) {
@@ -55,7 +56,7 @@ typename L::Vec records(const typename L::Vec (&spread)[N / group], std::integer
     return result;
 }
 
-/// The records of W / group vertices from `from` on: N / group batches.
+/// Stores the records of W / group vertices from `from` on, which are N / group batches.
 template <class L, int N, int group, int from, int... c>
 void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_temporal,
                       std::integer_sequence<int, c...>) {
@@ -70,7 +71,7 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_te
     }
 }
 
-/// One register's planes as so many records of N floats.
+/// Stores a register of each plane as records of N floats.
 template <class L, int N>
 void store_records(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
     constexpr int W = static_cast<int>(L::width);

@@ -27,9 +27,9 @@ Stream3 words_of(const PackedStream& packed) noexcept {
     return interleaved<3>(reinterpret_cast<float*>(packed.first), packed.count, packed.stride);
 }
 
-/// Planes that are written past the cache side by side begin their cache lines at the same vertices, and do
-/// not compete for the same places of the first-level cache, as planes do that lie a multiple of a kilobyte
-/// apart (2 to 4 times as long as one plane after the other).
+/// Whether a kernel can write planes past the cache side by side. They must begin their cache lines at the
+/// same vertices, and must not lie near a multiple of a kilobyte apart: such planes compete for the same
+/// places of the first-level cache, and are written faster one after the other.
 bool side_by_side(std::span<float* const> planes) noexcept {
     constexpr std::uintptr_t line = line_floats * sizeof(float), way = 1024, near = 2 * line;
     for (std::size_t i = 1; i < planes.size(); ++i) {
@@ -43,10 +43,10 @@ bool side_by_side(std::span<float* const> planes) noexcept {
     return true;
 }
 
-/// A kernel's planes, and all of them in a row.
+/// Collects the planes that a kernel writes.
 class Planes {
 public:
-    /// Whether `stream` is planes; they are then the kernel's.
+    /// Whether `stream` is planar. If so, sets `out` to its planes.
     template <std::size_t N>
     bool take(const Stream<N>& stream, float* (&out)[N]) noexcept {
         if (stream.empty() || !stream.planar()) return false;
@@ -118,6 +118,7 @@ OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_tem
     }
     if (staged) stage_all();
     for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.way)] = true;
+    for (Record& record : std::span(records_, record_count_)) record.way = way_of(record);
     const auto lines = std::ranges::find_if(records(), &Record::in_lines);
     if (lines != records().end()) lines_ = &*lines;
 }
@@ -130,8 +131,9 @@ void OutputPlan::stage_all() noexcept {
     }
 }
 
-/// Records without gaps are made of planes, in registers: by a pass' own kernels, if they are made by it
-/// alone and in its order; else from the stage. Narrow stores would take twice as long.
+/// Records without gaps are woven from planes in registers, which is faster than narrow stores: by the pass'
+/// own kernels if the record holds the values of the pass, in its order, and nothing else; otherwise from the
+/// stage.
 Way OutputPlan::way_of_rows(const PassPlan& pass) const noexcept {
     Way way = Way::rows;
     for (const RowStream& stream : pass.rows) {
@@ -145,7 +147,16 @@ Way OutputPlan::way_of_rows(const PassPlan& pass) const noexcept {
     return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? Way::records : way;
 }
 
-/// Sorts the components by stride and address; neighbors within a stride make a record.
+/// Passes that share a record go the same way.
+Way OutputPlan::way_of(const Record& record) const noexcept {
+    Way way = Way::staged;
+    for (const PassPlan& pass : passes()) {
+        if (pass.value <= components_[record.component].value) way = pass.way;
+    }
+    return way;
+}
+
+/// Sorts the components by stride and address. Neighbors within a stride make a record.
 void OutputPlan::find_records(bool scratch_gaps) noexcept {
     const std::span components(components_, component_count_);
     std::ranges::sort(components, [](const Component& a, const Component& b) {
@@ -167,13 +178,13 @@ void OutputPlan::find_records(bool scratch_gaps) noexcept {
         record.component = from;
         record.component_end = to;
         record.floats = offset(to - 1) + 1;
-        // Of records of one struct whose members lie apart, each one's gaps are where the others write.
+        // Components of one struct may end up in several records; each writes in the gaps of the others.
         const bool alone = !same_stride(to) && (from == 0 || components[from - 1].stride != first.stride);
         record.in_lines = non_temporal_ && (!record.has_gaps() || (scratch_gaps && alone));
     }
 }
 
-/// Records for which there is no room are written without one.
+/// Assigns strips to records with gaps. Those that no room is left for are written into the cache.
 void OutputPlan::find_strips() noexcept {
     std::size_t taken = 0;
     for (Record& record : std::span(records_, record_count_)) {
@@ -187,7 +198,7 @@ void OutputPlan::find_strips() noexcept {
     }
 }
 
-/// Sets pass.planes, if all that the pass makes goes to planes that its kernels can write themselves.
+/// Sets pass.planes, if all values of the pass go to planes that kernels can write directly.
 bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (pass.pass == Pass::packed) return false;
     Planes planes;
@@ -197,7 +208,7 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     return !non_temporal_ || side_by_side(planes.all());
 }
 
-/// Sets `rows`, if the stream's components follow each other in records.
+/// Sets `rows`, if the components of the stream follow each other in records.
 template <std::size_t N>
 bool OutputPlan::set_rows(RowStream& rows, const Stream<N>& stream) const noexcept {
     if (stream.empty() || stream.planar()) return false;

@@ -9,33 +9,45 @@
 #include <cstdint>
 #include <span>
 
-/// What a batch writes and where, found once for all its instances: which passes over the vertices make it,
-/// how their values lie in the caller's memory, and on which way they get there.
+/// What a batch writes and where, found once for all its instances: which passes of kernels compute it, where
+/// the values go in the caller's memory, and which way they get there.
 
 namespace goffer::bend {
 
-/// A run of kernels over an instance's vertices, by what it is posed with.
+/// A run of kernels over an instance's vertices, named by the coefficients that it uses.
 enum class Pass : std::uint8_t { current, previous, packed };
 constexpr std::size_t pass_count = 3;
 
-/// What passes make at most: position, normal, tangent; previous position; three packed words.
+/// The most values per vertex: position, normal, tangent; previous position; three packed words.
 constexpr std::size_t most_values = 16;
 
-/// One value of each vertex. (Without initial values, as Record: plans have room for more than they use.)
+/// How the values of a pass get to the caller's memory.
+enum class Way : std::uint8_t {
+    planes,   ///< kernels write the caller's planes
+    records,  ///< kernels write the caller's records, which have no gaps and hold this pass alone
+    rows,     ///< kernels write rows of the caller's records or of a strip
+    staged,   ///< kernels write planes of a stage, which is then copied to the caller's memory
+};
+constexpr std::size_t way_count = 4;
+
+/// Where one value of each vertex goes. (Has no initial values, nor has Record: plans hold more than they
+/// use.)
 struct Component {
     float* first;        ///< vertex 0's
     std::size_t stride;  ///< bytes
-    std::size_t value;   ///< which of all that passes make
+    std::size_t value;   ///< its index among the values of all passes
 };
 
-/// Components of one stride that are nearer to each other than it: members of one struct, or a plane alone.
+/// Components with the same stride that lie within one stride of each other: members of a struct, or a single
+/// plane.
 struct Record {
     float* first;           ///< vertex 0's first value
     std::size_t stride;     ///< bytes
-    std::size_t floats;     ///< from the first value to behind the last
-    bool in_lines;          ///< written past the cache: it has no gaps, or gaps that may be written
-    bool in_strip;          ///< in_lines, and put together in a strip
-    std::size_t strip;      ///< in_strip: where its strip begins among all of them, floats
+    std::size_t floats;     ///< from the first value to the end of the last
+    bool in_lines;          ///< goes past the cache: it has no gaps, or gaps that may be overwritten
+    bool in_strip;          ///< in_lines, and assembled in a strip
+    std::size_t strip;      ///< where its strip begins in Strips, floats
+    Way way;                ///< the way of the passes that write it
     std::size_t component;  ///< its components are [component, component_end)
     std::size_t component_end;
 
@@ -44,37 +56,29 @@ struct Record {
         return (component_end - component) * sizeof(float) != stride;
     }
     [[nodiscard]] std::size_t stride_floats() const noexcept { return stride / sizeof(float); }
-    /// Vertices from `vertex` to the first one that begins a line; line_floats where none does.
+    /// The number of vertices from `vertex` to the first one that begins a cache line; line_floats if none
+    /// does.
     [[nodiscard]] std::size_t to_line(std::size_t vertex) const noexcept;
 };
 
-/// How a pass' values get to the caller's memory.
-enum class Way : std::uint8_t {
-    planes,   ///< its kernels write the caller's planes
-    records,  ///< its kernels write the caller's records, which hold nothing else and have no gaps
-    rows,     ///< its kernels write rows: the caller's, or those of a strip
-    staged,   ///< its kernels write planes of a stage, from which the caller's memory is written
-};
-constexpr std::size_t way_count = 4;
-
-/// A vector stream of a pass, as rows.
+/// A stream of a pass, as rows.
 struct RowStream {
-    float* first = nullptr;  ///< vertex 0's; null: the pass has no such stream
-    std::size_t record = 0;  ///< that it is a part of
+    float* first = nullptr;  ///< row of vertex 0; null if the pass has no such stream
+    std::size_t record = 0;  ///< index of the record that it is a part of
 };
 
 struct PassPlan {
     Pass pass = Pass::current;
     StreamSet streams = StreamSet::positions;
-    std::size_t value = 0;    ///< of all that passes make, its first
-    PlaneOutput planes = {};  ///< Way::planes: those of vertex 0
-    RowStream rows[3] = {};   ///< Way::rows: positions or packed words, normals, tangents
+    std::size_t value = 0;    ///< index of its first value among those of all passes
+    PlaneOutput planes = {};  ///< for Way::planes, from vertex 0 on
+    RowStream rows[3] = {};   ///< for Way::rows and records: positions or packed words, normals, tangents
     Way way = Way::staged;
 };
 
 class OutputPlan {
 public:
-    /// Of all of the batch's streams; `non_temporal`: for writes past the cache.
+    /// `non_temporal`: for writes past the cache.
     OutputPlan(const Batch& batch, bool non_temporal) noexcept;
     OutputPlan(const OutputPlan&) = delete;
     OutputPlan& operator=(const OutputPlan&) = delete;
@@ -84,13 +88,14 @@ public:
     [[nodiscard]] std::span<const Component> components(const Record& record) const noexcept {
         return {components_ + record.component, record.component_end - record.component};
     }
-    /// How many values a vertex all passes make.
+    /// The number of values per vertex that all passes compute.
     [[nodiscard]] std::size_t value_count() const noexcept { return value_count_; }
     [[nodiscard]] bool non_temporal() const noexcept { return non_temporal_; }
-    /// Whether some pass goes that way. If one is staged, all are.
+    /// Whether a pass goes that way. If one is staged, all are.
     [[nodiscard]] bool has(Way way) const noexcept { return has_[static_cast<std::size_t>(way)]; }
-    /// Vertices from vertex `vertex` of the buffer to the first one that begins a line, in the first plane or
-    /// record that is written as whole lines; 0 where none is, or no vertex does.
+    /// The number of vertices from vertex `vertex` of the buffer to the first one that begins a cache line,
+    /// in the first plane or record that is written as whole lines. 0 if there is no such plane, record or
+    /// vertex.
     [[nodiscard]] std::size_t peeled(std::size_t vertex) const noexcept;
 
 private:
@@ -104,6 +109,7 @@ private:
     [[nodiscard]] bool set_rows(RowStream& rows, const Stream<N>& stream) const noexcept;
     [[nodiscard]] bool set_rows(PassPlan& pass, const Batch& batch) const noexcept;
     [[nodiscard]] Way way_of_rows(const PassPlan& pass) const noexcept;
+    [[nodiscard]] Way way_of(const Record& record) const noexcept;
 
     PassPlan passes_[pass_count];
     std::size_t pass_count_ = 0;
@@ -117,7 +123,7 @@ private:
     const Record* lines_ = nullptr;  // the first record that is written as whole lines
 };
 
-/// Bytes that a vertex takes in the streams that `batch` asks for.
+/// The number of bytes that `batch` writes per vertex, without gaps.
 [[nodiscard]] std::size_t vertex_bytes(const Batch& batch) noexcept;
 
 }  // namespace goffer::bend

@@ -25,8 +25,7 @@ PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noex
 void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
                           std::size_t count) const noexcept {
     for (const Record& record : plan.records()) {
-        // Of the two ways that come by here, only one is all the plan's: that of planes has no other records.
-        if (way == Way::planes && !record.plane()) continue;
+        if (record.way != way) continue;
         const std::span<const Component> components = plan.components(record);
         if (record.plane()) {
             kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,

@@ -9,36 +9,36 @@
 
 namespace goffer::bend {
 
-/// A block of one instance's vertices as planes in the first-level cache, on the way from kernels to outputs
-/// that these can't write themselves: planes that can't be written side by side, lines that two regions
-/// share, components in an order of their own.
+/// A block of one instance's vertices as planes in the first-level cache. Kernels write it where they cannot
+/// write the outputs themselves: planes that cannot be written side by side, lines that two regions share,
+/// records of several passes, components in another order.
 class StagingBuffer {
 public:
-    /// Of what the plan's passes make.
+    /// Has a plane for each value of the plan.
     explicit StagingBuffer(const OutputPlan& plan) noexcept;
 
-    /// Vertices that it holds: whole lines.
+    /// The number of vertices that it holds: a multiple of a cache line.
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
     /// The planes of a pass from the block's vertex `vertex` on, for a kernel to fill.
     [[nodiscard]] PlaneOutput output(const PassPlan& pass, std::size_t vertex) noexcept;
 
-    /// Writes what passes that go the way `way` made of the first `count` vertices of the block, as vertices
-    /// `vertex` and on of the caller's buffer.
+    /// Writes the first `count` vertices of the block to the caller's buffer, from its vertex `vertex` on:
+    /// the values of passes that go the way `way`.
     void write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
                std::size_t count) const noexcept;
 
 private:
-    /// The vertices [first, last) of the block, value by value.
+    /// Writes the vertices [first, last) of the block, value by value.
     void write_values(const Record& record, std::span<const Component> components, std::size_t vertex,
                       std::size_t first, std::size_t last) const noexcept;
-    /// All of them, as records without gaps.
+    /// Writes all of them, as records without gaps.
     void weave(const Record& record, std::span<const Component> components, const KernelSet& kernels,
                std::size_t vertex, std::size_t count, bool non_temporal) const noexcept;
 
     static constexpr std::size_t most_floats = 3072;
     static constexpr std::size_t most_vertices = 256;
-    // Kernels write whole units; and planes do not begin at the same places of the cache.
+    // For the whole units that kernels write, and so that planes begin at different places of the cache.
     static constexpr std::size_t spare = largest_unit + line_floats;
     static_assert(most_floats / most_values > spare + 2 * line_floats);
 

@@ -19,7 +19,7 @@ void Strips::begin(const OutputPlan& plan, std::size_t vertex) noexcept {
         if (!record.in_strip) continue;
         const float* const to = record.first + vertex * record.stride_floats();
         const std::size_t before = (line_floats - floats_to_line<Strips>(to)) % line_floats;
-        // Gaps are zeros. They stay where they are while blocks begin at the same place of a line.
+        // Gaps hold zeros, which stay valid while blocks begin at the same place of a line.
         if (record.has_gaps() && before != block.before[r])
             std::fill_n(block.values + record.strip, floats_of(record.stride_floats()), 0.0f);
         block.before[r] = before;

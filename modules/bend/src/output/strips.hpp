@@ -8,47 +8,48 @@
 
 namespace goffer::bend {
 
-/// Records that are put together in the first-level cache, by as many passes as it takes, and then written as
-/// whole lines: a strip for each record of a plan that is written in lines.
+/// Buffers in the first-level cache where passes assemble records, one strip for each Record with in_strip.
+/// The records are then written as whole cache lines.
 class Strips {
 public:
-    static constexpr std::size_t most_vertices = 64;   // few: their lines leave while the next are made
-    static constexpr std::size_t most_floats = 2080;   // of all strips
-    static constexpr std::size_t longest_record = 32;  // floats; of longer ones most lines would be gaps
+    static constexpr std::size_t most_vertices = 64;   // few, so that lines leave while the next are computed
+    static constexpr std::size_t most_floats = 2080;   // in all strips together
+    static constexpr std::size_t longest_record = 32;  // floats; longer ones would be gaps for the most part
 
-    /// Floats that a strip takes.
+    /// The number of floats that a strip takes.
     [[nodiscard]] static constexpr std::size_t floats_of(std::size_t record_floats) noexcept {
         return line_floats + most_vertices * record_floats;
     }
 
     Strips() noexcept;
 
-    /// For `count` <= most_vertices records from vertex `vertex` of the caller's buffer on. As much of the
-    /// first line as lies before them is left free, so that lines here are lines there.
+    /// Begins a block of at most most_vertices records, from vertex `vertex` of the caller's buffer on.
+    /// Leaves as much of the first line free as lies before them there, so that lines here are lines there.
     void begin(const OutputPlan& plan, std::size_t vertex) noexcept;
 
-    /// Where the value of record `record` that is `offset` floats behind its strip's first one is.
+    /// The address of the float `offset` floats behind the first value of record `record` in this block.
     [[nodiscard]] float* at(const OutputPlan& plan, std::size_t record, std::size_t offset) noexcept {
         Block& block = blocks_[current_];
         return block.values + plan.records()[record].strip + block.before[record] + offset;
     }
 
-    /// Writes `count` records of each out, to where begin() was told. `ends`: with the last of them the
-    /// instance ends, behind which no gap may be written.
+    /// Ends the block and writes its first `count` records of each strip. `ends`: the last of them is the
+    /// last of the instance, and the gap behind it must not be written.
     ///
-    /// Not at once, but when the next block is complete: narrow stores must have left the processor's queue
-    /// before they can be read as wide values, and in that queue they wait for the lines before them.
+    /// They are not written at once, but when the next block is complete. Narrow stores must leave the
+    /// processor's store queue before they can be read as wide values, and in that queue they wait for the
+    /// lines before them.
     void write(const OutputPlan& plan, const KernelSet& kernels, std::size_t count, bool ends) noexcept;
 
-    /// Writes what is left.
+    /// Writes the block that is left.
     void flush(const OutputPlan& plan, const KernelSet& kernels) noexcept;
 
 private:
     static constexpr std::size_t nowhere = line_floats;
 
     struct Block {
-        std::size_t vertex = 0;  // of the caller's buffer
-        std::size_t count = 0;   // 0: nothing to be written
+        std::size_t vertex = 0;  // in the caller's buffer
+        std::size_t count = 0;   // 0: nothing to write
         bool ends = false;
         std::size_t before[most_values];  // floats of the first line before the first record
         alignas(64) float values[most_floats];

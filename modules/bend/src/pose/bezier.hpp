@@ -11,7 +11,7 @@
 
 namespace goffer::bend {
 
-/// The largest of the four.
+/// The largest lane.
 [[nodiscard]] inline float largest(Float4 a) noexcept {
     return std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
 }
@@ -20,7 +20,7 @@ namespace goffer::bend {
 struct Three4 {
     Float4 c[3];
 
-    /// Four times the same.
+    /// Sets all four to `v`.
     void set(const glm::vec3& v) noexcept {
         for (int i = 0; i < 3; ++i) c[i] = splat(v[i]);
     }
@@ -28,21 +28,22 @@ struct Three4 {
     [[nodiscard]] Float4 square() const noexcept { return c[0] * c[0] + c[1] * c[1] + c[2] * c[2]; }
 };
 
-/// A stretch of a cubic curve, and of the straight line behind its end, in float, for four places at a time:
-/// seen from where a region begins, in lengths of the region, by a parameter that runs from 0 to 1 along it.
+/// The stretch of a cubic curve that a region runs along, and the straight line behind the end of the curve,
+/// in float, for four places at a time. Coordinates are relative to where the region begins, in units of its
+/// length. The parameter runs from 0 to 1 along the region.
 struct BezierStretch {
     Three4 from, linear, square, cubic;
-    Three4 end, onward;          // where the line begins, and its direction; where it is near
+    Three4 end, onward;          // where the line begins, and its direction; set only if `ends`
     float begin_pace, end_pace;  // d parameter / d length
-    Float4 least, most;          // parameters on the curve that are near
+    Float4 least, most;          // the range of parameters on the curve that is searched
     bool ends;                   // the line is near
 
-    /// The parameters of places so far along, in lengths.
+    /// The parameters of the places at these distances along the curve, in lengths of the region.
     [[nodiscard]] Float4 parameters(Float4 along) const noexcept {
         const float bend = begin_pace + end_pace - 2;
         return along * (splat(begin_pace) + along * (splat(1 - begin_pace - bend) + along * splat(bend)));
     }
-    /// From the region's places number `i` to `point`.
+    /// The vectors from four places of the region, those of places.arc_x[i], to `point`.
     [[nodiscard]] static Three4 away(const Three4& point, const CenterPlaces& places, int i) noexcept {
         Three4 away;
         for (int c = 0; c < 3; ++c) {
@@ -51,10 +52,10 @@ struct BezierStretch {
         }
         return away;
     }
-    /// Moves `parameters` to the feet of the perpendiculars on the curve's tangents there. Squared distances
-    /// from these feet; `seen`: from the places to `from`.
+    /// Moves `parameters` to the feet of the perpendiculars on the curve's tangents there, and returns the
+    /// squared distances from these feet. `seen` is away() of `from`.
     [[nodiscard]] Float4 step(const Three4& seen, Float4& parameters) const noexcept;
-    /// Squared distances from the line; `seen`: from the places to `end`.
+    /// The squared distances from the line. `seen` is away() of `end`.
     [[nodiscard]] Float4 from_line(const Three4& seen) const noexcept;
 };
 
@@ -62,7 +63,7 @@ inline Float4 BezierStretch::step(const Three4& seen, Float4& parameters) const 
     const Float4 u = min(max(parameters, least), most);
     Three4 away, slope;
     Float4 dot = splat(0);
-    for (int c = 0; c < 3; ++c) {  // Horner's scheme, of the value and of the slope
+    for (int c = 0; c < 3; ++c) {  // Horner's scheme, for the value and the slope
         const Float4 k2 = square.c[c] + u * cubic.c[c], k1 = linear.c[c] + u * k2;
         slope.c[c] = k1 + u * (k2 + u * cubic.c[c]);
         away.c[c] = seen.c[c] + u * k1;
@@ -83,22 +84,22 @@ inline Float4 BezierStretch::from_line(const Three4& seen) const noexcept {
     return away.square();
 }
 
-/// A cubic Bezier curve, gone along by length. Beyond its end it goes straight on. Control points are finite;
-/// any of them may be equal.
+/// A walk along a cubic Bezier curve, by length. Beyond its end the path goes straight on. Control points are
+/// finite; any of them may be equal.
 class Bezier {
 public:
     explicit Bezier(const glm::vec3 (&control)[4]) noexcept;
 
     /// The first point.
     [[nodiscard]] glm::dvec3 start() const noexcept { return start_; }
-    /// The direction `ahead` >= 0 of where it has been gone to, as a vector of any length: of none where the
-    /// curve is one point, or at the tip of a cusp.
+    /// The direction at the distance `ahead` >= 0 in front of the current place, as a vector of any length.
+    /// It is zero if the curve is a single point, and at the tip of a cusp.
     [[nodiscard]] glm::dvec3 heading(double ahead) noexcept {
         const double t = at(gone_ + ahead).t;
         return t > 0 ? slope(t) : first_;
     }
-    /// Goes on by the length of a region. The largest squared distance of its places from the stretch of the
-    /// path between, or up to about as far again before and behind it.
+    /// Moves on by the length of a region. Returns the largest squared distance of its places from the path,
+    /// which is searched along the region and for about its length before and behind it.
     [[nodiscard]] double go(const CenterPlaces& places) noexcept;
 
 private:
@@ -121,12 +122,12 @@ private:
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
     glm::dvec3 onward_;          // slope beyond the end
-    double before_[pieces + 1];  // length up to where each piece begins, and of the whole
-    double pace_[pieces + 1];    // there
-    int piece_ = 0;              // that at() found last
-    double gone_ = 0;
-    Place here_;       // gone to
-    float drift_ = 0;  // of the last place's foot, in its region's parameter, from where it was expected
+    double before_[pieces + 1];  // length of the curve up to the beginning of each piece, and of all of it
+    double pace_[pieces + 1];    // the pace there
+    int piece_ = 0;              // found last by at()
+    double gone_ = 0;            // length up to the current place
+    Place here_;                 // the current place
+    float drift_ = 0;            // of the last foot from where it was expected, in its region's parameter
 };
 
 inline Bezier::Bezier(const glm::vec3 (&control)[4]) noexcept {
@@ -141,7 +142,7 @@ inline Bezier::Bezier(const glm::vec3 (&control)[4]) noexcept {
     here_ = at(0);
 }
 
-/// By Simpson's rule, piece by piece.
+/// Measures the length by Simpson's rule, piece by piece.
 inline void Bezier::measure() noexcept {
     double speed[2 * pieces + 1];
     for (int i = 0; i <= 2 * pieces; ++i) {
@@ -158,8 +159,8 @@ inline void Bezier::measure() noexcept {
     pace_[pieces] = 1 / std::max(at[0], least_square);
 }
 
-/// Between the ends of a piece the parameter is a cubic of the length, by its value and its pace at both;
-/// paces are cut to where the cubic is sure to increase.
+/// Within a piece, the parameter is a cubic polynomial of the length, given by values and paces at both ends.
+/// Paces are limited so that the cubic increases for sure.
 inline Bezier::Place Bezier::at(double length) noexcept {
     if (length >= before_[pieces]) {
         const double pace = 1 / std::max(glm::length(onward_), least_square);
@@ -198,7 +199,8 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterPlaces& pla
 
 inline double Bezier::go(const CenterPlaces& places) noexcept {
     constexpr int most_steps = 4;
-    constexpr float near = 0.004f;  // of a step: what is left is its square
+    constexpr float near =
+        0.004f;  // steps this small end the search: the error that remains is about their square
     constexpr int fours = CenterPlaces::fours;
     gone_ += places.length;
     const Place to = at(gone_);

@@ -23,7 +23,8 @@ static_assert(Bands::count % 4 == 3 && Bands::places >= Bands::count + 5,
               "Fours of edges, and all bands in them");
 constexpr std::size_t edges = Bands::count + 1;
 
-/// The widest vertex and the deepest wrinkles of four bands, or of what meets at four edges.
+/// The widest vertex and the deepest wrinkles in each of four bands, or in the bands that meet at each of
+/// four edges.
 struct Girth {
     Float4 rho, outward, inward;  // rho below 0: no vertex there
 };
@@ -39,12 +40,12 @@ Girth at_edges(const Bands& bands, std::size_t j) noexcept {
             max(behind.inward, load4(&bands.inward[j]))};
 }
 
-/// Four cross-sections at one amplitude, in each sector.
+/// Four cross-sections at one amplitude, sector by sector.
 struct Sections {
-    Float4 radius[sectors];   // of the farthest vertex
-    Float4 through[sectors];  // how deep wrinkles are
-    Mask4 none;               // no vertex there
-    bool deep;                // wrinkles are deeper than the radius somewhere
+    Float4 radius[sectors];   // the farthest vertex outward
+    Float4 through[sectors];  // the deepest wrinkle inward
+    Mask4 none;               // there is no vertex
+    bool deep;                // some wrinkle is deeper than the radius
 };
 
 Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
@@ -58,7 +59,7 @@ Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
     return sections;
 }
 
-/// How far cross-sections reach along an axis, and against it.
+/// How far cross-sections extend along an axis, and against it.
 struct Support {
     Float4 up, down;
 };
@@ -68,9 +69,10 @@ Float4 where(Mask4 holds, Float4 value) noexcept {
     return select(holds, value, splat(0));
 }
 
-/// `radius`: in each sector, no smaller than in the one before. (a, b): the axis within the section's plane,
-/// a toward the bend, b >= 0 across; `whole` its length there. Of an arc the farthest point is where the
-/// axis points to, or an end; of two that meet, the inner one's.
+/// The support of sections with these radii, which never decrease from sector to sector. (a, b) is the axis
+/// in the plane of the section: a toward the bend, b >= 0 across; `whole` is its length. Each sector is an
+/// arc, whose farthest point lies where the axis points, or at an end. Where two arcs meet, that of the inner
+/// one is farther out.
 inline Support support_of(const Float4 (&radius)[sectors], Float4 a, Float4 b, Float4 whole) noexcept {
     const Float4 half = splat(0.5f) * whole, slant = splat(0.8660254f) * b, middle = radius[2] * b;
     const auto toward = [&](Float4 c, Float4 half_c) {
@@ -91,11 +93,12 @@ inline Support support_of(const Sections& sections, Float4 a, Float4 b, Float4 w
     return {max(outside.up, inside_out.down), max(outside.down, inside_out.up)};
 }
 
-/// Where a body lies along one axis of the streams' space; (m0, m1, m2) is that axis along n, b, t.
+/// The extent of a region along one axis of the streams' space. (m0, m1, m2) are the components of that axis
+/// along n, b and t.
 ///
-/// A band is its widest cross-section, moved along its piece of the arc. Each point of the section goes along
-/// a circle then, and is farthest where that begins, where it ends, or where it runs square to the axis:
-/// nothing but the sections there counts.
+/// A band sweeps its widest cross-section along its piece of the arc. Each point of the section moves on a
+/// circle. It is farthest at the beginning, at the end, or where it moves at a right angle to the axis, so
+/// that only the sections at these places count.
 class Extent {
 public:
     Extent(const Coefficients& k, int row) noexcept
@@ -104,7 +107,7 @@ public:
         whole_ = std::sqrt(m0_ * m0_ + m2_ * m2_ + across_[0] * across_[0]);
     }
 
-    /// The edges from j on.
+    /// Takes the four edges from j on.
     void take_edges(const CenterLine& line, std::size_t j, const Sections& sections) noexcept {
         const Float4 at = splat(m0_) * line.x + splat(m2_) * line.z;
         const Float4 a = splat(m0_) * line.cosine - splat(m2_) * line.sine;
@@ -114,8 +117,8 @@ public:
         take(sections, at, a, sqrt(a * a + across_ * across_));
     }
 
-    /// The bands that run square to the axis somewhere, once all edges are taken. `radius` and `sagitta` of
-    /// the center line in a band, for an axis in the bend's plane.
+    /// Takes the bands that run at a right angle to the axis somewhere, after all edges. `radius` and
+    /// `sagitta` are those of the center line in a band.
     void take_bands(const Bands& bands, Float4 amplitude, float radius, float sagitta) noexcept {
         for (std::size_t j = 0; j < Bands::count; ++j) {
             if (!(tau_[j] * tau_[j + 1] < 0) || bands.rho[j + 1] < 0) continue;
@@ -131,14 +134,14 @@ public:
         }
     }
 
-    /// Bands from j on that each go all round a circle of `radius`.
+    /// Takes four bands, each of which goes all around a circle of `radius`.
     void take_circles(const Sections& sections, float radius) noexcept {
         for (const float side : {-1.0f, 1.0f}) {
             take(sections, splat((m0_ - side * in_plane_) * radius), splat(side * in_plane_), splat(whole_));
         }
     }
 
-    /// Length of the axis: of the transform's scale.
+    /// Length of the axis: the scale of the transform along it.
     [[nodiscard]] float whole() const noexcept { return whole_; }
     [[nodiscard]] float low() const noexcept { return std::min({low_[0], low_[1], low_[2], low_[3]}); }
     [[nodiscard]] float high() const noexcept { return std::max({high_[0], high_[1], high_[2], high_[3]}); }
@@ -153,12 +156,13 @@ private:
     float m0_, m2_;
     Float4 across_;
     float in_plane_, whole_;
-    float at_[edges], a_[edges], tau_[edges];  // of the center line; tau: the axis along it
+    float at_[edges], a_[edges],
+        tau_[edges];  // of the center line: place, and the axis' parts across and along
     Float4 low_ = splat(std::numeric_limits<float>::max());
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
 
-/// The bounds of one region's vertices, of which there must be one.
+/// The bounds of a region that has vertices.
 Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
     const Float4 amplitude = amplitudes(k, squeeze);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
@@ -229,6 +233,7 @@ Bounds bounds(const Body& body, std::span<const Pose> poses, const glm::mat4x3& 
 }
 
 Bounds bounds(const DeformJob& job) noexcept {
+    assert(job.body != nullptr && poses_of(job).size() == job.body->region_count());
     return bounds_of(*job.body, poses_of(job), job.transform, job.wrinkle_weight, job.isa);
 }
 

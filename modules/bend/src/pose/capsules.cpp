@@ -15,12 +15,12 @@ using namespace simd;
 
 namespace {
 
-/// How far vertices between two heights (of z / L - 1/2) lie from the center line at most.
+/// The largest distance from the center line of vertices between two heights (of z / L - 1/2).
 float widest(const Bands& bands, float amplitude, float from, float to) noexcept {
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
     float radius = 0;
     for (std::size_t j = 0; j < Bands::count; ++j) {
-        // A band's width beyond both ends: bands are told apart in float.
+        // Counts a band's width before and behind each band, since rounding may put a vertex in its neighbor.
         const float low = bands.lowest + (static_cast<float>(j) - 1) * height;
         const bool apart = low > to || low + 3 * height < from;
         if (apart || bands.rho[j + 1] < 0) continue;
@@ -30,8 +30,8 @@ float widest(const Bands& bands, float amplitude, float from, float to) noexcept
     return radius;
 }
 
-/// The largest factor that the linear part of `transform` stretches a vector by, or a little more: the root
-/// of the largest sum of a row of the matrix times its transpose.
+/// An upper bound for the factor that the linear part M of `transform` stretches vectors by: the root of the
+/// largest sum of absolute values in a row of M^T M.
 float largest_scale(const glm::mat4x3& transform) noexcept {
     float largest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -60,8 +60,8 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
     const float count = static_cast<float>(result.size());
     const float step = (bands.highest - bands.lowest) / count;
     const float turn = k.curvature * region.length * step;
-    // Of an arc about a point, which turns by no more than half.
     const float arc = k.one_minus_kappa * region.length * step;
+    // R (1 - cos(turn / 2)) is at most R turn^2 / 8; beyond about half a turn the arc's length is the bound.
     const float sagitta = turn < 3 ? arc * turn / 8 : arc;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
@@ -78,6 +78,7 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
 
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept {
     assert(job.body != nullptr && !job.body->empty() && pieces >= 1);
+    assert(poses_of(job).size() == job.body->region_count());
     assert(result.size() >= capsule_count(*job.body, pieces));
     const BodyData& body = *job.body->data();
     const float scale = largest_scale(job.transform);

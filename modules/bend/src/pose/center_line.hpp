@@ -8,20 +8,21 @@
 #include <algorithm>
 #include <cmath>
 
-/// What bounds and capsules need to know of a region's coefficients: where its center line runs, and how deep
-/// its wrinkles are.
+/// What bounds and capsules derive from a region's coefficients: where its center line runs, and how deep its
+/// wrinkles are.
 
 namespace goffer::bend {
 
 using simd::Float4;
 using simd::splat;
 
-/// The center line at bands' edges, in the middle frame.
+/// Four places of the center line, in the middle frame.
 struct CenterLine {
     Float4 x, z;          // along n and t
     Float4 cosine, sine;  // of the arc angle
 };
 
+/// The center line at the heights v = z / L - 1/2.
 inline CenterLine center_line(const Coefficients& k, Float4 v) noexcept {
     const Float4 vv = v * v;
     Float4 arc_x = polynomial(k.arc_x, vv) * vv;
@@ -36,12 +37,12 @@ inline CenterLine center_line(const Coefficients& k, Float4 v) noexcept {
             splat(1) - splat(k.curvature) * arc_x, splat(k.curvature) * arc_z};
 }
 
-/// A cross-section's columns are taken in sectors, from the outer line to the inner one: T = 1 + cos(beta -
-/// theta) from 0 to 1/2 to 1 to 3/2 to 2.
+/// The columns of a cross-section are divided into sectors from the outer line to the inner one, by T = 1 +
+/// cos(beta - theta): 0 to 1/2 to 1 to 3/2 to 2.
 constexpr int sectors = 4;
 
-/// The largest amplitude of all columns where the squeeze is relative. q = (d + e . u) / (1 - kappa_0 - f .
-/// u) over unit vectors u: its maximum is the larger root of |e + q f| = q (1 - kappa_0) - d.
+/// The largest amplitude of all columns where the squeeze is relative. The maximum of q = (d + e . u) / (1 -
+/// kappa_0 - f . u) over unit vectors u is the larger root of |e + q f| = q (1 - kappa_0) - d.
 inline float relative_amplitude(const Coefficients& k) noexcept {
     const float e1 = k.curl_change[0], e2 = k.curl_change[1];
     const float f1 = k.rest_curl[0], f2 = k.rest_curl[1];
@@ -60,8 +61,8 @@ inline float relative_amplitude(const Coefficients& k) noexcept {
     return 1.001f * largest;
 }
 
-/// The largest amplitude in each sector. It grows with T; the maximum is taken all the same, since a caller's
-/// table may hold anything.
+/// The largest amplitude in each sector and those before it. It grows with T in tables that fit makes, but a
+/// caller's table may hold anything.
 inline Float4 amplitudes(const Coefficients& k, Squeeze squeeze) noexcept {
     if (squeeze == Squeeze::none) return splat(0);
     if (squeeze == Squeeze::relative) return splat(relative_amplitude(k));

@@ -8,20 +8,21 @@
 #include <algorithm>
 #include <limits>
 
-/// Where the center line of a bent region runs, for comparing it with a path.
+/// Where the center line of a bent region runs, to compare it with a path.
 
 namespace goffer::bend {
 
 using simd::Float4;
 using simd::splat;
 
-/// Below any squared length that coordinates in float can have, but 0: keeps quotients by one from being NaN.
+/// Less than any squared length, other than 0, of vectors in float. As a lower limit of divisors it prevents
+/// NaN.
 inline constexpr double least_square = std::numeric_limits<double>::min();
 
-/// An arc's angle, and sine and 1 - cosine of its sixteenth, eighth, quarter, half and whole.
+/// The angle of an arc, with the sine and 1 - cosine of its sixteenth, eighth, quarter, half and whole.
 struct Arc {
     static constexpr int doublings = 4;
-    double angle;  // up to pi; above 0, so that it can be divided by
+    double angle;  // up to pi; more than 0, so that it can be divided by
     double sine[doublings + 1], versine[doublings + 1];
 
     explicit Arc(double of) noexcept : angle(std::max(of, 1e-30)) {
@@ -40,12 +41,12 @@ struct Arc {
 struct CenterPlaces {
     static constexpr int fours = 4, count = 4 * fours;
 
-    glm::dvec3 begin;                   // of the region
+    glm::dvec3 begin;                   // where the region begins
     double length;                      // of the center line
-    glm::vec3 across, onward;           // the arc's plane: to its center, and along the axis at its beginning
-    Float4 arc_x[fours], arc_z[fours];  // in lengths, a place's coordinates in it
+    glm::vec3 across, onward;           // at the beginning: toward the arc's center, and along the axis
+    Float4 arc_x[fours], arc_z[fours];  // the places along `across` and `onward`, in units of `length`
 
-    /// By the sums of angles: the four first places, then twice as many each time.
+    /// Adds angles by the addition theorems: the first four places, then twice as many in each step.
     CenterPlaces(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
                  const Arc& arc) noexcept
         : begin(from), length(whole), across(n), onward(t) {

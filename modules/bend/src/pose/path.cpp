@@ -24,39 +24,40 @@ bool is_finite(const glm::vec3& p) noexcept {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// An orthonormal frame whose third axis is `direction`, turned as little as possible from `axes`.
+/// Turns `axes` as little as possible, so that the third one becomes `direction`.
 glm::dmat3 turned_to(const glm::dmat3& axes, const dvec3& direction) noexcept {
     const dvec3 across = glm::cross(axes[2], direction);
     const double cosine = glm::dot(axes[2], direction);
     if (cosine < -1 + 1e-12) return {axes[0], -axes[1], -axes[2]};
-    const auto turn = [&](const dvec3& v) {  // Rodrigues' formula for the shortest turn
+    const auto turn = [&](const dvec3& v) {  // Rodrigues' formula
         return cosine * v + glm::cross(across, v) + glm::dot(across, v) / (1 + cosine) * across;
     };
     return {turn(axes[0]), turn(axes[1]), direction};
 }
 
-/// The turn of a region's end: by `angle` toward (`cosine`, `sine`) about the axis.
+/// How the end of a region turns: by `angle`, toward (`cosine`, `sine`) in its frame.
 struct Turn {
     double angle, cosine, sine;
     bool clamped;
 };
 
-/// From the axis of `axes` toward `heading`, at most by `most`. Straight on where there is no heading.
+/// The turn from the axis of `axes` to `heading`, by at most `most`. None if `heading` is zero.
 Turn turn_toward(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
-    const dvec3 local = heading * axes;  // its components along them
+    const dvec3 local = heading * axes;  // components along the axes
     const double across = std::sqrt(local.x * local.x + local.y * local.y);
     const double wanted = std::atan2(across, local.z), angle = std::min(wanted, most);
     if (across == 0) return {angle, 1, 0, wanted > most};
     return {angle, local.x / across, local.y / across, wanted > most};
 }
 
-/// A frame on the way along the body's center line.
+/// A frame that moves along the body's center line.
 struct Way {
     dvec3 point;
     glm::dmat3 axes;
 };
 
-/// Goes on to the end of a region whose center line has `length` and is bent by `turn`.
+/// Moves to the end of a region whose center line has `length` and bends by `turn`. Returns the places
+/// between.
 CenterPlaces go(Way& way, const Turn& turn, double length) noexcept {
     const dvec3 n = turn.cosine * way.axes[0] + turn.sine * way.axes[1];
     const dvec3 b = turn.cosine * way.axes[1] - turn.sine * way.axes[0];
@@ -71,28 +72,30 @@ CenterPlaces go(Way& way, const Turn& turn, double length) noexcept {
     return places;
 }
 
-/// About the angle from the axis of `axes` to `heading`, at most `most`: within a hundredth of it up to a
-/// right angle.
+/// An approximation of the angle from the axis of `axes` to `heading`, at most `most`: within a hundredth of
+/// it up to a right angle.
 double about_angle(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
     const dvec3 local = heading * axes;
     const double square = local.x * local.x + local.y * local.y;
-    // Of the half angle's tangent across / onward, by a quotient that is near the arc's.
+    // The tangent of half the angle is across / onward; a quotient of polynomials stands in for the arc
+    // tangent.
     const double across = std::sqrt(square), onward = std::sqrt(square + local.z * local.z) + local.z;
     const double above = 2 * across * (15 * onward * onward + 4 * square);
     const double below = onward * (15 * onward * onward + 9 * square);
     return std::min(above / std::max(below, least_square), most);
 }
 
-/// How far ahead on `path` a region of `length` ends: as far as its center line is long, which is shorter
-/// than the region by what the region bends, which depends on where it ends. `guess`: of it.
+/// How far ahead on `path` a region of `length` ends: by the length of its center line. That is shorter than
+/// the region by angle * radius, and the angle depends on where the region ends. Improves `guess` by one
+/// step.
 template <class Path>
 double end_of_region(Path& path, const glm::dmat3& axes, double guess, double length, double radius,
                      double most) noexcept {
     const double angle = about_angle(axes, path.heading(guess), most);
-    return guess * length / (guess + angle * radius);  // Newton's step, were the curvature the same all along
+    return guess * length / (guess + angle * radius);  // Newton's step for constant curvature
 }
 
-/// All straight, from `start` on, unturned.
+/// A body that goes straight on from `start`, unturned.
 PathFit straight(const Body& body, const dvec3& start, std::span<Pose> poses) noexcept {
     std::ranges::fill(poses, Pose{});
     PathFit fit;
@@ -118,7 +121,7 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
     if (heading == dvec3(0)) return straight(body, path.start(), poses);
     Way way{path.start(), turned_to(body.axes(), glm::normalize(heading))};
     PathFit fit{.transform = transform_to(way, body)};
-    double farthest = 0, share = 1;  // of the last region's length, its center line's
+    double farthest = 0, share = 1;  // share: center line / length of the last region
     const std::span<const Region> regions = body.regions();
     const double radius = body.radius();
     for (std::size_t r = 0; r < poses.size(); ++r) {

@@ -14,8 +14,8 @@
 
 namespace goffer::bend {
 
-/// A polyline, gone along by length. Beyond its end it goes straight on. At least one point, all finite;
-/// neighbors may be equal.
+/// A walk along a polyline, by length. Beyond its end the path goes straight on. Has at least one point.
+/// Points are finite; neighbors may be equal.
 class Polyline {
 public:
     explicit Polyline(std::span<const glm::vec3> points) noexcept : points_(without_repeated_end(points)) {
@@ -24,16 +24,16 @@ public:
 
     /// The first point.
     [[nodiscard]] glm::dvec3 start() const noexcept { return glm::dvec3(points_[0]); }
-    /// The direction `ahead` >= 0 of where it has been gone to, as a vector of any length: of none where all
-    /// points are equal.
+    /// The direction at the distance `ahead` >= 0 in front of the current place, as a vector of any length.
+    /// It is zero if all points are equal.
     [[nodiscard]] glm::dvec3 heading(double ahead) const noexcept {
         Piece at = here_;
         while (!is_last(at) && (at.end < gone_ + ahead || at.square == 0)) at = next(at);
         return at.step;
     }
-    /// Goes on by the length of a region. The largest squared distance of its places from the part of the
-    /// path that is near: each place's foot is looked for half the region beyond the one before it.
-    /// So each piece is looked at for a few places only.
+    /// Moves on by the length of a region. Returns the largest squared distance of its places from the path.
+    /// The foot of each place is searched near that of the place before it and up to half a region beyond, so
+    /// each piece is looked at for a few places only.
     [[nodiscard]] double go(const CenterPlaces& places) noexcept;
 
 private:
@@ -44,7 +44,7 @@ private:
         double square;      // of its length
         double begin, end;  // along the polyline
     };
-    /// The point of the polyline that is nearest to a place.
+    /// The point of the path that is nearest to a place.
     struct Foot {
         double along;
         double square;  // of the distance
@@ -71,9 +71,9 @@ private:
     [[nodiscard]] Foot foot(const glm::dvec3& place, double ahead) const noexcept;
 
     std::span<const glm::vec3> points_;
-    double gone_ = 0;
-    Piece here_;  // gone to
-    Piece near_;  // before the last place's foot
+    double gone_ = 0;  // length up to the current place
+    Piece here_;       // the current place is on it
+    Piece near_;       // where the next foot is searched from
 };
 
 inline Polyline::Foot Polyline::foot_on(const Piece& at, const glm::dvec3& place) const noexcept {
@@ -84,7 +84,7 @@ inline Polyline::Foot Polyline::foot_on(const Piece& at, const glm::dvec3& place
     return {at.begin + t * (at.end - at.begin), glm::dot(away, away)};
 }
 
-/// From near_ on, until there is none nearer for a stretch of `ahead`.
+/// Searches from near_ on, until a stretch of `ahead` has brought nothing nearer.
 inline Polyline::Foot Polyline::foot(const glm::dvec3& place, double ahead) const noexcept {
     Piece at = near_;
     Foot nearest = foot_on(at, place);

@@ -9,7 +9,7 @@
 namespace goffer::bend {
 namespace {
 
-/// A finite direction within half a turn either way.
+/// Takes a finite direction to -pi..pi.
 float reduced(float direction) noexcept {
     constexpr float half_turn = std::numbers::pi_v<float>;
     if (std::fabs(direction) <= half_turn) [[likely]]
@@ -28,17 +28,17 @@ float reduced(float direction) noexcept {
 }
 
 bool finite(std::span<const Pose> poses) noexcept {
-    float sum = 0;  // x * 0 is 0, or NaN of what is not finite
+    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
     for (const Pose& pose : poses) sum += pose.angle * 0.0f + pose.direction * 0.0f;
     return sum == 0;
 }
 
-/// 0..1, of any bits.
+/// Takes a weight of any bits to 0..1.
 float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
 }
 
-/// Column after column, as set-up reads them.
+/// Copies a matrix into lane `i`, column after column.
 void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
                     std::size_t i) noexcept {
     using MatrixLayout = TransformColumn::MatrixLayout;
@@ -63,7 +63,7 @@ PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
 }
 
 PosedGroup::PosedGroup(const BodyData& body, Setup setup) noexcept : body_(body), setup_(setup) {
-    // Set-up computes with lanes that hold no instance, too.
+    // Set-up computes with unused lanes, too.
     for (float* column : {columns_.angle, columns_.direction, columns_.factor})
         std::fill_n(column, setup_width, 0.0f);
     set_identities();
@@ -86,7 +86,7 @@ PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& tr
     if (!transforms.empty()) {
         read_transform(transforms, element, columns_.transform, i);
         transformed_ = true;
-    } else if (transformed_) {  // by instances of another column
+    } else if (transformed_) {  // lanes hold matrices of another column
         set_identities();
     }
     return state;

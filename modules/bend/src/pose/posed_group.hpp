@@ -13,30 +13,30 @@
 #include <cstdint>
 #include <span>
 
-/// From poses to coefficients: the part of set-up that looks at one instance at a time. The arithmetic is in
-/// kernel/setup_kernel.hpp.
+/// From poses to coefficients: the part of set-up that treats one instance at a time. The arithmetic, which
+/// treats many, is in kernel/setup_kernel.hpp.
 
 namespace goffer::bend {
 
-/// What became of an instance's poses.
+/// What a run makes of an instance's poses.
 struct PoseState {
-    bool clamped = false;  ///< an angle was beyond its region's limit
-    bool at_rest = false;  ///< a number was not finite
+    bool clamped = false;  ///< an angle is beyond its region's max_angle
+    bool at_rest = false;  ///< a number is not finite; then nothing counts as clamped
 };
 
-/// Which of an instance's poses and transforms.
+/// Whether the current or the previous poses and transforms of an instance are meant.
 enum class Time : std::uint8_t { now, before };
 
-/// Where instance `instance` of a batch has its elements.
+/// Which element of its columns an instance of a batch reads.
 [[nodiscard]] inline std::size_t element_of(const Batch& batch, std::size_t instance) noexcept {
     return batch.indices.empty() ? instance : batch.indices[instance];
 }
 
-/// What becomes of `poses`, which are as many as the body has regions, or fewer.
+/// The state of `poses`, of which there are at most as many as regions.
 [[nodiscard]] PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept;
 
-/// Up to setup_width instances of one body. Poses may hold any bits, and may be fewer than there are regions:
-/// regions without one are at rest, and an instance with one that isn't finite is at rest as a whole.
+/// Up to setup_width instances of one body. Poses may hold any bits. There may be fewer than regions: the
+/// others are at rest. An instance with a pose that is not finite is at rest as a whole.
 class PosedGroup {
 public:
     PosedGroup(const BodyData& body, Setup setup) noexcept;
@@ -44,18 +44,18 @@ public:
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     void clear() noexcept { count_ = 0; }
 
-    /// Adds an instance; all that are added until clear() have a transform, or none has. The poses must stay
-    /// where they are until the last region is set up. `weight` may hold any bits.
+    /// Adds an instance. Until clear(), either all have a transform or none has. The poses must stay where
+    /// they are until the last region is set up. `weight` may hold any bits.
     PoseState add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
 
-    /// Adds the instance of a batch whose columns' elements are at `element`, as it is now or was before.
+    /// Adds the instance of a batch that reads element `element` of its columns.
     PoseState add(const Batch& batch, std::size_t element, Time time) noexcept;
 
-    /// Sets up region `region` of all instances, regions in order from 0: the coefficients of instance i go
-    /// to k + i * step.
+    /// Sets up region `region` of all instances; call it for the regions in order, from 0. The coefficients
+    /// of instance i go to k[i * step].
     void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
 
-    /// Which kernels serve instance i, in the region that was set up last.
+    /// Which kernels serve instance i in the region that was set up last.
     [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {
         return wrinkled_[i] ? squeeze_ : Squeeze::none;
     }
@@ -74,11 +74,11 @@ private:
     std::size_t pose_count_[setup_width];  // 0: at rest
     float weight_[setup_width];
     bool wrinkled_[setup_width];
-    bool transformed_ = false;  // some instance's transform is not the identity
+    bool transformed_ = false;  // lanes hold matrices other than the identity
     SetupColumns columns_;
 };
 
-/// Calls visit(region, k, squeeze) for each region of one instance, from base to tip.
+/// Sets up one instance and calls visit(region, k, squeeze) for each of its regions, from base to tip.
 template <class Visit>
 PoseState each_region(const BodyData& body, Setup setup, std::span<const Pose> poses,
                       const glm::mat4x3& transform, float weight, const Visit& visit) noexcept {
@@ -92,7 +92,7 @@ PoseState each_region(const BodyData& body, Setup setup, std::span<const Pose> p
     return state;
 }
 
-/// The poses of a job: its span, or its one pose.
+/// The poses of a job: its span, or the single pose.
 [[nodiscard]] inline std::span<const Pose> poses_of(const DeformJob& job) noexcept {
     return job.poses.empty() ? std::span<const Pose>(&job.pose, 1) : job.poses;
 }

@@ -7,11 +7,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 
 namespace goffer::bend {
 namespace {
 
-constexpr std::size_t chunk = 32;  // sockets that are deformed at a time, on the stack
+constexpr std::size_t chunk = 32;  // sockets deformed at a time, into planes on the stack
 
 }  // namespace
 
@@ -24,6 +25,7 @@ void Sockets::frames(std::span<const Pose> poses, std::span<SocketFrame> frames,
 }
 
 void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const noexcept {
+    assert(!body_.empty() && poses_of(job).size() == body_.region_count() && frames.size() >= count());
     const BodyData& body = *body_.data();
     const KernelSet& set = kernels(job.isa);
     alignas(64) float planes[10][chunk + largest_unit];

@@ -8,36 +8,42 @@
 
 #include <span>
 
-/// Bounds of a deformed instance from its pose alone, before any vertex is touched: for culling, and the
+/// Bounds of a deformed instance from its pose alone, before any vertex is touched: for culling, and as the
 /// frame of the packed stream.
+///
+/// Poses may hold any bits. An angle beyond a region's max_angle is clamped, and an instance with a pose that
+/// is not finite is taken as at rest, as in a run. The functions do not allocate and are thread-safe.
 
 namespace goffer::bend {
 
 struct Batch;
 
-/// The box that holds every vertex of `body`, which has one region, at `pose` under `transform` (model space
-/// to the box's space), with a margin for rounding of 1e-5 of the body's size. `pose` and `transform` finite;
-/// a pose beyond the body's max_angle() is clamped. Conservative: for round bodies at most 1.3 times as long
-/// as the tight box on each axis; 1.7 times where folds are deeper than the radius. Some hundred nanoseconds;
-/// does not allocate. Thread-safe.
+/// A box that holds every vertex of `body` at `pose`, with full wrinkles, under `transform` (from model space
+/// to the box's space). `body` is not empty; `pose` is that of its first region, and other regions are at
+/// rest. A transform that is not finite gives a box that is not.
 ///
-/// The body is cut into bands along z; each band's disc, with the largest radius and wrinkle in it, is swept
-/// along its piece of the arc.
+/// The box is conservative: for round bodies at most 1.3 times as long as the tight box on each axis, 1.7
+/// times where folds are deeper than the radius. It is that of eleven bands along z, each of which sweeps its
+/// widest cross-section along its piece of the arc, plus a margin for rounding: 1e-5 of a region's length,
+/// under the transform, and 1e-6 of the distance from the origin.
 [[nodiscard]] Bounds bounds(const Body& body, const Pose& pose,
                             const glm::mat4x3& transform = glm::mat4x3(1)) noexcept;
 
-/// The same for a body of several regions: `poses` has one for each.
+/// The same for a body of several regions: `poses` has one for each, from base to tip. Regions behind the
+/// last pose are at rest.
 [[nodiscard]] Bounds bounds(const Body& body, std::span<const Pose> poses,
                             const glm::mat4x3& transform = glm::mat4x3(1)) noexcept;
 
-/// Of a job's current pose and transform. `job.body` not null. The bounds that its packed stream is in.
+/// The bounds at a job's current poses, transform and wrinkle_weight: those that its packed stream is encoded
+/// in. job.body is neither null nor empty; outputs are not read.
 [[nodiscard]] Bounds bounds(const DeformJob& job) noexcept;
 
-/// Of every instance of `batch`, whatever its masks say: result[i] of instance i. For culling before the
-/// masks are known. `result` is the caller's and holds batch.count.
+/// The bounds of every instance of `batch`, whatever its masks say, for culling before the masks are known.
+/// result[i] is that of instance i; `result` is the caller's and holds batch.count or more. batch.body is
+/// neither null nor empty, and batch.poses is given; outputs are not read. `isa` runs here.
 void bounds(const Batch& batch, std::span<Bounds> result, Isa isa = Isa::automatic) noexcept;
 
-/// Of every job: result[i] of jobs[i]. `result` is the caller's and holds as many.
+/// The bounds of every job: result[i] is that of jobs[i]. `result` is the caller's and holds as many or more.
 void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept;
 
 }  // namespace goffer::bend

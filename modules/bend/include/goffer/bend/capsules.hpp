@@ -9,33 +9,32 @@
 #include <cstddef>
 #include <span>
 
-/// Capsules around a deformed instance from its pose alone: for cheap collision.
+/// Capsules around a deformed instance, from its pose alone: for cheap collision.
 
 namespace goffer::bend {
 
-/// The points within `radius` of the line from `from` to `to`.
+/// The points within `radius` of the segment between `from` and `to`. In the space of the job's outputs.
 struct Capsule {
     glm::vec3 from{0};
     glm::vec3 to{0};
     float radius = 0;
 };
 
-/// How many capsules a chain has: `pieces` >= 1 for each region of `body`.
+/// The number of capsules in a chain with `pieces` >= 1 for each region of `body`. Thread-safe.
 [[nodiscard]] inline std::size_t capsule_count(const Body& body, std::size_t pieces) noexcept {
     return body.region_count() * pieces;
 }
 
-/// The chain of capsules of `job`'s current pose and transform, base to tip, `pieces` >= 1 for each region,
-/// into `result`, which is the caller's and holds capsule_count(). Together they hold every vertex. job.body
-/// not null; poses finite and as many as validate() asks for; a pose beyond its region's max_angle() is
-/// clamped.
+/// Writes the chain of capsules at `job`'s current poses, transform and wrinkle_weight, from base to tip,
+/// `pieces` >= 1 for each region. Together they hold every vertex. `result` is the caller's and holds
+/// capsule_count() or more. job.body is neither null nor empty; outputs are not read. Poses may hold any
+/// bits: an angle beyond its region's max_angle is clamped, and poses that are not finite are taken as at
+/// rest.
 ///
-/// A capsule's line is the chord of its piece of the center line; its radius is that of the piece's widest
-/// vertex, with its deepest wrinkle, and the chord's distance from the arc, times the transform's largest
-/// scale: no vertex's distance from the chain is less than its radius by more than wrinkles, detail and that
-/// sagitta make up. More pieces fit closer: the sagitta falls with their square. A region without vertices
-/// has capsules of radius 0. A tenth of a microsecond for each region and its pieces. Does not allocate.
-/// Thread-safe.
+/// A capsule's segment is the chord of its piece of the center line. Its radius is the sum of three lengths,
+/// times the largest scale of the transform: the largest distance of a vertex from the axis in that piece,
+/// the deepest wrinkle there, and the chord's distance from the arc (the sagitta). The sagitta falls with the
+/// square of `pieces`. A region without vertices has capsules of radius 0. Does not allocate. Thread-safe.
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept;
 
 }  // namespace goffer::bend

@@ -21,30 +21,33 @@
 ///     batch.vertex_step = body.vertex_count();  // instance i begins at vertex i * vertex_step
 ///     const bend::CrowdResult result = bend::run_parallel({.batches = {&batch, 1}});
 ///
-/// Nothing is gathered and nothing is kept between frames. The order of instances in a batch has no bearing
-/// on speed or bits: an instance's bits are those of run() for it alone.
+/// Nothing is gathered first, and nothing is kept between frames. An instance gets the same bits as from
+/// run() for it alone, whatever its place in a batch, the split into pieces or the number of threads.
 
 namespace goffer::bend {
 
-/// A column of affine transforms, one per instance, in one of the layouts that engines use.
+/// A column of affine transforms, one per instance, in one of the layouts that engines use. A plain value
+/// that owns nothing.
 struct TransformColumn {
-    /// How the twelve numbers lie. All are of the matrix that takes column vectors to the outputs' space.
+    /// How the matrix that takes column vectors to the outputs' space lies in memory.
     enum class MatrixLayout : std::uint8_t {
         columns3,  ///< four columns of 3 floats: glm::mat4x3
         columns4,  ///< four columns of 4 floats, the fourth not read: glm::mat4
-        rows4,     ///< three rows of 4 floats: the usual buffer of instances on a GPU
+        rows4,     ///< three rows of 4 floats: the usual instance buffer of a GPU
     };
 
-    StridedView<float> first;  ///< each matrix's first float; the others follow it
+    StridedView<float> first;  ///< the first float of each matrix, which the others follow
     MatrixLayout layout = MatrixLayout::columns3;
 
-    TransformColumn() = default;  ///< not given: the identity for all
+    /// Not given: the identity for all instances.
+    TransformColumn() = default;
     TransformColumn(StridedView<float> view, MatrixLayout how) : first(view), layout(how) {}
     TransformColumn(const StridedView<glm::mat4x3>& view) : first(floats(view)) {}
     TransformColumn(const StridedView<glm::mat4>& view)
         : first(floats(view)), layout(MatrixLayout::columns4) {}
 
     [[nodiscard]] bool empty() const noexcept { return first.empty(); }
+    /// Matrix `index` < first.count, from whatever layout.
     [[nodiscard]] glm::mat4x3 operator[](std::size_t index) const noexcept;
 
 private:
@@ -54,83 +57,100 @@ private:
     }
 };
 
-/// Instances of one body. A plain value; everything it points to is the caller's and must outlive the run.
+/// Instances of one body. A plain value; everything that it points to is the caller's and must outlive the
+/// run.
 ///
-/// Instance i reads element i of each column, or element indices[i]. Columns that are not given stand for
-/// what is said beside them. As for a job, outputs are never read, and no two of them may share a byte.
+/// Instance i reads element i of each column, or element indices[i]. A column that is not given has the
+/// default named beside it. As for a job, at least one stream must be given, outputs are never read, and no
+/// two of them may share a byte: neither two streams, nor two instances, nor an output and an input.
 struct Batch {
-    const Body* body = nullptr;
-    std::size_t count = 0;  ///< instances
-    /// Empty, or one per instance: where its elements are, in pools that hold other bodies' instances too.
+    const Body* body = nullptr;  ///< neither null nor empty
+    std::size_t count = 0;       ///< instances
+    /// Empty, or one per instance: the element that it reads, in pools that other bodies' instances share.
     std::span<const std::uint32_t> indices = {};
 
-    StridedView<Pose> poses = {};     ///< the first region's; those of the others follow it. Must be given
-    TransformColumn transforms = {};  ///< as DeformJob::transform
-    StridedView<float> wrinkle_weights = {};  ///< as DeformJob::wrinkle_weight; not given: 1
+    /// Each element is the pose of the first region; those of the other regions follow it in memory. Must be
+    /// given.
+    StridedView<Pose> poses = {};
+    TransformColumn transforms = {};          ///< as DeformJob::transform; default: the identity
+    StridedView<float> wrinkle_weights = {};  ///< as DeformJob::wrinkle_weight; default: 1
     StridedView<Pose> previous_poses = {};    ///< as `poses`; must be given with previous_positions
     TransformColumn previous_transforms = {};
-    StridedView<std::uint8_t> visible =
-        {};  ///< 0: not seen in this frame, nothing is done for it (see bounds())
-    StridedView<std::uint8_t> changed =
-        {};  ///< 0: its pose and outputs are as they were, nothing is done for it
-    /// n > 1: done only in frames in which (CrowdJob::frame + i) mod n is 0, so that the work on instances
-    /// that are far away is spread over frames. 0 stands for 1.
+
+    /// 0: the instance is not seen in this frame and is skipped (see bounds()). Default: 1.
+    StridedView<std::uint8_t> visible = {};
+    /// 0: pose and outputs of the instance are still those of the last run, and it is skipped. Default: 1.
+    StridedView<std::uint8_t> changed = {};
+    /// n > 1: the instance is skipped unless (CrowdJob::frame + i) mod n is 0, which spreads the work on
+    /// instances far away over frames. 0 counts as 1. Default: 1.
     StridedView<std::uint8_t> update_intervals = {};
 
-    /// Where vertices go: streams over a buffer of all instances' vertices, as in DeformJob. A stream's
-    /// `count` is that of the whole buffer.
+    /// Where vertices go: streams as in DeformJob, over a buffer that holds the vertices of all instances.
+    /// The `count` of a stream is that of the whole buffer.
     Stream3 positions = {};
     Stream3 normals = {};
     Stream4 tangents = {};
     PackedStream packed = {};
     Stream3 previous_positions = {};
-    std::span<Bounds> bounds = {};  ///< empty, or one per instance i, where a run leaves its bounds
-    /// The first vertex of instance i is vertex_offsets[i] (or [indices[i]]), or i * vertex_step where no
-    /// offsets are given.
+    /// Empty, or one per instance i, which a run sets unless it skips the instance.
+    std::span<Bounds> bounds = {};
+    /// The first vertex of each instance in the buffer. Default: i * vertex_step.
     StridedView<std::uint32_t> vertex_offsets = {};
+    /// From one instance's first vertex to the next one's; at least the body's vertex_count(). Not read where
+    /// vertex_offsets are given.
     std::size_t vertex_step = 0;
-    bool scratch_gaps = false;  ///< as DeformJob::scratch_gaps
+
+    /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
+    /// may hold data of the caller's. Set this where they do not. Stores past the cache can then write
+    /// records as whole cache lines. Bytes before an instance's first output and behind its last one stay
+    /// untouched all the same.
+    bool scratch_gaps = false;
 };
 
-/// What a batch's optional columns hold of each instance, beside its pose and its transform.
+/// Bytes per instance that a batch's optional columns take at most, without poses and transforms.
 inline constexpr std::size_t instance_bytes =
     2 * sizeof(std::uint32_t) + sizeof(float) + 3 * sizeof(std::uint8_t);
 static_assert(instance_bytes <= 32);
 
-/// `job` as a batch of one, which reads from `job` itself: it must outlive the batch, and not move. Its isa
-/// is CrowdJob's to say.
+/// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is.
+/// job.isa is lost: CrowdJob::isa takes its place. Does not allocate. Thread-safe.
 [[nodiscard]] Batch batch_of(const DeformJob& job) noexcept;
 
 /// How results leave the processor.
 enum class Stores : std::uint8_t {
-    automatic,     ///< past the cache where the whole crowd's output is larger than the cache, else into it
-    cached,        ///< into the cache: the next reader is this processor, soon
-    non_temporal,  ///< past the cache, whole lines at a time: the next reader is the GPU, or nobody for a
-                   ///< while. What can't be written as whole lines (records with gaps that are not scratch)
-                   ///< is cached all the same.
+    /// Past the cache where the crowd writes non_temporal_threshold bytes or more, else into it.
+    automatic,
+    /// Into the cache: this processor reads the results soon.
+    cached,
+    /// Past the cache, whole lines at a time: the GPU reads the results, or nobody does for a while. Has an
+    /// effect on x86-64 with vector kernels. What cannot be written as whole lines is cached all the same:
+    /// records whose gaps are kept, and long records with gaps.
+    non_temporal,
 };
 
-/// Output bytes from which on Stores::automatic is non-temporal.
+/// Bytes of output from which on Stores::automatic means non_temporal. A fixed number: the size of the caches
+/// is not looked up.
 inline constexpr std::size_t non_temporal_threshold = std::size_t{16} << 20;
 
-/// A crowd. A plain value; everything it points to is the caller's.
+/// A crowd. A plain value; everything that it points to is the caller's and must outlive the run.
 struct CrowdJob {
     std::span<const Batch> batches = {};
-    std::uint32_t frame = 0;  ///< number of the frame: read where there are update_intervals
+    std::uint32_t frame = 0;  ///< number of the frame, which update_intervals are counted by
     Stores stores = Stores::automatic;
     Isa isa = Isa::automatic;  ///< kernels to use
 };
 
-/// The first fault of `job`, or none; of every instance, whatever its masks say, so that what validates once
-/// is safe in later frames with other masks, frame numbers, weights, transforms and poses. Columns that say
-/// where to read or write (indices, vertex_offsets) are looked through. Does not allocate. Thread-safe.
+/// Finds the first fault of `job`. Looks at every instance, whatever its masks say, and at every index and
+/// vertex offset: a job that validated once stays in bounds in later frames, whatever their masks, frame
+/// numbers, weights, transforms and poses. Does not find out whether instances overlap that vertex_offsets
+/// place. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const CrowdJob& job) noexcept;
 
 /// What a run did.
 struct CrowdResult {
-    std::size_t deformed = 0;  ///< instances that were visible and changed, and had their turn
-    std::size_t clamped = 0;   ///< of these, instances with an angle beyond their body's, which was clamped
-    std::size_t at_rest = 0;   ///< of these, instances with a pose that is not finite, taken as at rest
+    std::size_t deformed = 0;  ///< instances that were not skipped
+    std::size_t clamped = 0;   ///< those among them whose `poses` had an angle beyond a region's max_angle
+    std::size_t at_rest = 0;   ///< those among them whose `poses` were not finite: taken as at rest
 
     /// Adds the result of another piece.
     CrowdResult& operator+=(const CrowdResult& other) noexcept {
@@ -142,20 +162,25 @@ struct CrowdResult {
     [[nodiscard]] bool operator==(const CrowdResult& other) const noexcept = default;
 };
 
-/// Deforms all visible, changed instances on the calling thread. `job` must validate, but for its poses and
-/// weights, which may hold any bits. Does not allocate, lock or log; takes up to 68 KB of stack. Thread-safe
-/// where outputs do not overlap.
+/// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
+/// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
+/// taken as at rest, and transforms that are not give outputs that are not. Does not allocate, lock or log;
+/// takes up to 68 KB of stack. Thread-safe where outputs do not overlap.
+///
+/// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
+/// split, the number of threads, an instance's neighbors or `stores`.
 CrowdResult run(const CrowdJob& job) noexcept;
 
-/// The same with oneTBB in the caller's arena (GOFFER_TBB=OFF: on the calling thread), split by vertices: a
-/// few large bodies and many small ones spread alike. The same bits. goffer allocates nothing; the
-/// scheduler's own pools fill in the first frames.
+/// The same with oneTBB in the caller's arena (GOFFER_TBB=OFF: on the calling thread). The work is split by
+/// vertices, so that a few large bodies spread as well as many small ones. The same bits. goffer allocates
+/// nothing; the scheduler's own pools fill in the first frames.
 CrowdResult run_parallel(const CrowdJob& job);
 
-/// Deforms piece `piece` of `pieces`, piece < pieces, on the calling thread: what any scheduler can call,
-/// each piece once, in any order, from any thread. Pieces are about equal in vertices; an instance may lie in
-/// several. Finding a piece takes a look at every batch, and at every mask: some tens of pieces are enough.
-/// The same bits; the results of all pieces add up to those of run().
+/// Deforms piece `piece` < `pieces` on the calling thread, for schedulers other than oneTBB: call it once for
+/// each piece, in any order, from any threads, also at the same time. Pieces have about the same number of
+/// vertices; an instance may be cut between several. The same bits, and the results of all pieces add up to
+/// that of run(). Each call looks through all batches and their masks to find its piece, so use tens of
+/// pieces, not thousands.
 CrowdResult run_piece(const CrowdJob& job, std::size_t piece, std::size_t pieces) noexcept;
 
 }  // namespace goffer::bend

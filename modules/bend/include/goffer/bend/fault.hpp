@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-/// What validate() finds: which field of a job or of a crowd is wrong, where, and why.
+/// What validate() finds: which field of a job or a crowd is wrong, where, and why.
 
 namespace goffer::bend {
 
@@ -13,7 +13,7 @@ namespace goffer::bend {
 enum class Field : std::uint8_t {
     none,
     body,
-    poses,  ///< `pose`, of a job without `poses`
+    poses,  ///< `pose` in a job without `poses`
     transform,
     wrinkle_weight,
     positions,
@@ -34,38 +34,37 @@ enum class Field : std::uint8_t {
     isa,
 };
 
-/// What is wrong with it.
+/// What is wrong with it. Shared with BodyFault.
 enum class Reason : std::uint8_t {
     none,
-    null,        ///< a body that is not given; a component of a stream that is null beside others that aren't
-    empty,       ///< a body that was moved from or never made; a crowd or a job that writes nothing
-    not_finite,  ///< a NaN or an infinity
-    too_large,   ///< a transform with a number beyond 1e18
-    out_of_range,  ///< a weight outside 0..1, an index beyond a column, an angle beyond what a float can turn
-                   ///< by
-    count,         ///< not as many as there are regions, or instances
-    too_short,     ///< a stream that ends before the last vertex
-    stride,        ///< no multiple of 4, or less than what one vertex takes
-    alignment,     ///< not aligned to its type
-    overlap,       ///< two streams write to the same bytes
-    not_supported,  ///< tangents of a body without; an instruction set that this machine or this build lacks
+    null,           ///< a body or poses not given; a component of a stream null, though others are not
+    empty,          ///< a body moved from or never made; nothing to write; no vertices; no regions
+    not_finite,     ///< a NaN or an infinity
+    too_large,      ///< a transform with a number beyond 1e18
+    out_of_range,   ///< outside 0..1 (a weight), WorkingRange (a body's number) or its column (an index)
+    count,          ///< not as many as there are regions, instances or vertices
+    too_short,      ///< a stream that ends before the last vertex
+    stride,         ///< no multiple of 4, or less than one vertex takes
+    alignment,      ///< not aligned to its type
+    overlap,        ///< two streams or instances may write to the same bytes
+    not_supported,  ///< tangents of a body without any; an instruction set that cannot run here
 };
 
-/// A fault. A plain value; a default-made one is none.
+/// The first fault of a job or a crowd. A plain value; a default-made one is none.
 struct Fault {
     static constexpr std::size_t nowhere = ~std::size_t{0};
 
     Field field = Field::none;
     Reason reason = Reason::none;
-    std::size_t batch = nowhere;     ///< index in CrowdJob::batches; nowhere: of a single job
-    std::size_t instance = nowhere;  ///< in its batch; nowhere: the same for all instances
-    std::size_t region = nowhere;    ///< of a pose
-    Field other = Field::none;       ///< of an overlap: the other stream
+    std::size_t batch = nowhere;     ///< index in CrowdJob::batches; `nowhere` for a single job
+    std::size_t instance = nowhere;  ///< index in its batch; `nowhere` if no one instance is at fault
+    std::size_t region = nowhere;    ///< region of the pose at fault
+    Field other = Field::none;       ///< the other stream of an overlap
 
     [[nodiscard]] bool none() const noexcept { return reason == Reason::none; }
 };
 
-/// One line of text that owns its characters, so that making it does not allocate.
+/// One line of text, ended by a 0, that owns its characters: making it does not allocate.
 struct FaultText {
     char text[256] = {};
 
@@ -73,8 +72,8 @@ struct FaultText {
     [[nodiscard]] operator std::string_view() const noexcept { return text; }
 };
 
-/// `fault` in words: what, where, and what it should be, as in "batches[1].poses[7][2]: not finite; ...".
-/// "no fault" for none. Does not allocate. Thread-safe.
+/// Says in one line what is wrong and where, as in "batches[1].poses[7][2]: not finite: a NaN or an
+/// infinity". Says "no fault" of none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const Fault& fault) noexcept;
 
 }  // namespace goffer::bend

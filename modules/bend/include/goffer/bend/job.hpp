@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <span>
 
-/// The job: one instance of a body, deformed into the caller's memory. (Many at once: crowd.hpp.)
+/// The job: one instance of a body, deformed into the caller's memory. For many at once see crowd.hpp.
 ///
 ///     bend::DeformJob job{.body = &body, .pose = {.angle = 1.2f}};
 ///     job.positions = interleaved<3>(&vertices[0].x, body.vertex_count(), sizeof(Vertex));
@@ -24,7 +24,7 @@
 ///         bend::run(job);
 ///     }
 ///
-/// Method: Chen et al. 2015, eq 2-10, in the stable form of goffer::paper::ClosedForm, in float.
+/// The method is that of Chen et al. 2015, eq 2-10, evaluated in float in the form of paper::ClosedForm.
 /// See modules/paper/README.md, "Bend".
 
 namespace goffer::bend {
@@ -35,66 +35,72 @@ struct Bounds {
     glm::vec3 high{0};
 };
 
-/// Inputs and outputs of one deformation. A plain value; everything it points to is the caller's.
+/// Inputs and outputs of one deformation. A plain value; everything that it points to is the caller's and
+/// must outlive the run.
 ///
-/// Outputs are written and never read, so they may lie in write-combined memory. No two of them may share a
-/// byte, and none may share one with an input; members of the same records at different offsets don't.
+/// At least one stream must be given; those left empty are not wanted. Outputs are written and never read, so
+/// they may lie in write-combined memory. No two outputs may share a byte, nor may an output and an input.
 struct DeformJob {
-    const Body* body = nullptr;  ///< must outlive the run
-    Pose pose = {};              ///< of a body of one region
-    /// One per region of the body, from base to tip, each as `pose`, which is then not read. Empty: `pose`.
+    const Body* body = nullptr;  ///< neither null nor empty
+    Pose pose = {};              ///< for a body of one region
+    /// One per region of the body, from base to tip; `pose` is then not read. Empty: `pose`.
     std::span<const Pose> poses = {};
-    /// From 1, wrinkles as deep as keeps the area, to 0, the bare bend, which takes less time: for instances
-    /// too far away to show more, faded out on the way.
+    /// Factor on the depth of all wrinkles, 0..1. 1 keeps the area; 0 is the bare bend, which takes less
+    /// time. Lets distant instances fade their wrinkles out.
     float wrinkle_weight = 1;
     /// From model space to the space of all outputs: an instance's model matrix, if vertices are wanted in
-    /// world space. Any numbers up to 1e18; scale, shear and mirroring included. Costs nothing per vertex.
+    /// world space. Numbers up to 1e18; may scale, shear and mirror. Costs nothing per vertex.
     glm::mat4x3 transform{1};
 
-    Stream3 positions = {};    ///< empty: not wanted
-    Stream3 normals = {};      ///< unit length; empty: not wanted
-    Stream4 tangents = {};     ///< unit length, w the rest tangent's (negated where `transform` mirrors);
-                               ///< needs a body with tangents
-    PackedStream packed = {};  ///< position and normal in 12 bytes, in bounds(job)
-    Bounds* bounds = nullptr;  ///< null, or where a run leaves bounds(job)
+    Stream3 positions = {};
+    Stream3 normals = {};  ///< unit length, facing outward even where `transform` mirrors
+    /// Unit length. w is the rest tangent's sign, negated where `transform` mirrors. The body must have
+    /// tangents.
+    Stream4 tangents = {};
+    PackedStream packed = {};  ///< position and normal in 12 bytes; positions are relative to bounds(job)
+    Bounds* bounds = nullptr;  ///< null, or where a run writes bounds(job)
 
-    /// Positions at another pose, the last frame's for motion vectors; with the same wrinkle_weight.
+    /// Positions at another pose, with the same wrinkle_weight: those of the last frame, for motion vectors.
     Stream3 previous_positions = {};
     Pose previous_pose = {};                    ///< as `pose`
     std::span<const Pose> previous_poses = {};  ///< as `poses`
     glm::mat4x3 previous_transform{1};          ///< as `transform`
 
-    /// What lies between the outputs of a record, up to the next record, is never written: it may hold data
-    /// of the caller's. Set this where it doesn't matter: records are then written as whole cache lines,
-    /// which takes a fraction of the time. Bytes before the first output of the first vertex and after the
-    /// last output of the last one stay as they are all the same.
+    /// As Batch::scratch_gaps, for batch_of(job). A job that is run alone is stored into the cache and keeps
+    /// its gaps.
     bool scratch_gaps = false;
-    Isa isa = Isa::automatic;  ///< kernels to use
+    Isa isa = Isa::automatic;  ///< kernels to use; must run here
 };
 
-/// The first fault of `job`, or none. A job without fault cannot make run() read or write out of bounds. Does
-/// not allocate. Thread-safe.
+/// Finds the first fault of `job`. A job without fault makes run() neither read nor write out of bounds, if
+/// streams hold as many vertices as they say. Where two streams differ in stride, an overlap of their ranges
+/// is a fault even if no byte is shared. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const DeformJob& job) noexcept;
 
-/// What a run did.
+/// What a run made of the current poses.
 struct DeformResult {
     bool clamped = false;  ///< an angle was beyond body->max_angle(region) and was clamped to it
-    bool at_rest = false;  ///< a pose had a number that is not finite: all regions were taken as at rest
+    bool at_rest = false;  ///< a pose was not finite: all regions were taken as at rest
 };
 
-/// Deforms all vertices on the calling thread. `job` must validate, but for its poses, which may hold any
-/// bits. Does not allocate, lock or log. Thread-safe where outputs do not overlap. The bits of the result
-/// depend on job.isa and on nothing else.
+/// Deforms all vertices on the calling thread. `job` must validate, except for its poses, weight and
+/// transforms, which may hold any bits: a weight counts as the nearest in 0..1 (a NaN as 0), and transforms
+/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 68 KB of stack.
+/// Thread-safe where outputs do not overlap.
+///
+/// On one machine and with one build, the bits of the result depend on `job` and its isa alone. Processors of
+/// different makers may differ in the last bits, unless the isa is scalar: see modules/README.md,
+/// "Determinism".
 DeformResult run(const DeformJob& job) noexcept;
 
-/// Deforms the vertices [first, last), first <= last <= body->vertex_count(), on the calling thread: what any
-/// scheduler can call. Otherwise as run(); the union of ranges gives the same bits as run(), and `bounds` are
-/// left by the range that begins at 0.
+/// Deforms the vertices [first, last), first <= last <= body->vertex_count(), on the calling thread, for
+/// schedulers other than oneTBB. Ranges that cover all vertices leave the same bits as run(), in any order
+/// and also at the same time. `bounds` is written by the range that begins at 0. Otherwise as run().
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept;
 
-/// Deforms all vertices with oneTBB in the caller's arena (in a build with GOFFER_TBB=OFF: on the calling
-/// thread), in ranges of half of `grain` vertices or more. The same bits as run(). Worth it for a large body;
-/// a crowd is better split by instance. The scheduler may allocate.
+/// Deforms all vertices with oneTBB in the caller's arena (GOFFER_TBB=OFF: on the calling thread), in ranges
+/// of at least half of `grain` vertices. The same bits as run(). For one large body; CrowdJob splits many.
+/// goffer allocates nothing, but the scheduler may. Otherwise as run().
 DeformResult run_parallel(const DeformJob& job, std::size_t grain = 8192);
 
 }  // namespace goffer::bend

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// goffer's packed vertex, decoded. `words` is the vertex as three 32-bit words (R32G32B32_UINT), little-endian.
-// `low` and `high` are the instance's bounds. For GLSL 4.20 and ES 3.00 and later; a fragment shader in ES needs
-// "precision highp int;" before.
+// Decodes goffer's packed vertex. `words` is the vertex as three 32-bit words (R32G32B32_UINT), little-endian.
+// `low` and `high` are the instance's bounds. For GLSL 4.20 and ES 3.00 and later; a fragment shader in ES must say
+// "precision highp int;" first.
 
 vec3 goffer_position(uvec3 words, vec3 low, vec3 high) {
     return low + vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x) * (high - low);

@@ -4,34 +4,35 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The packed stream: position and normal in 12 bytes a vertex, for a GPU to decode.
+/// The packed stream: position and normal in 12 bytes per vertex, for a GPU to decode.
 ///
-/// The GPU's side is goffer/bend/packed.glsl: two functions in GLSL, which are also valid C++ with GLM (that
-/// is how the tests run them).
+/// goffer/bend/packed.glsl decodes it: two GLSL functions, which are also valid C++ with GLM (that is how the
+/// tests run them).
 
 namespace goffer::bend {
 
-/// A vertex in 12 bytes: as vertex attributes R16G16B16A16_UNORM and R16G16_SNORM, or as three 32-bit words.
+/// A vertex in 12 bytes, to be read as the attributes R16G16B16A16_UNORM and R16G16_SNORM, or as three 32-bit
+/// words, little-endian. In the space of the job's outputs.
 struct PackedVertex {
-    /// Position in steps of the instance's bounds: low + position / 65535 (high - low) on each axis, with the
-    /// Bounds that bounds(job) gives. Rounded to nearest: off by half a step, 1 / 131070 of the bounds'
-    /// length, beside what the float kernels are off.
+    /// Position within the instance's bounds(job): low + position / 65535 (high - low) on each axis. Rounding
+    /// adds up to half a step, 1 / 131070 of the bounds' length, to the error of the float kernels.
     std::uint16_t position[3];
     std::uint16_t unused;  ///< 0
-    /// The unit normal, octahedral: (x, y) / (|x| + |y| + |z|), the lower half folded outward, in steps of 1
-    /// / 32767. Off by less than 0.004 degrees.
+    /// The unit normal in octahedral coordinates: (x, y) / (|x| + |y| + |z|), the lower half folded outward,
+    /// in steps of 1 / 32767. Off by less than 0.004 degrees.
     std::int16_t normal[2];
 };
 
 static_assert(sizeof(PackedVertex) == 12 && alignof(PackedVertex) == 2);
 
-/// Where packed vertices go. The memory is the caller's, aligned to 4 bytes, for `count` vertices. A
-/// default-made stream is empty: not asked for.
+/// Where packed vertices go. The memory is the caller's. It must be aligned to 4 bytes and hold `count`
+/// vertices, and is never read. A default-made stream is empty: the output is not asked for. A plain value
+/// that owns nothing.
 struct PackedStream {
     PackedVertex* first = nullptr;
-    std::size_t stride =
-        sizeof(PackedVertex);  ///< bytes from one vertex to the next; at least 12, a multiple of 4
-    std::size_t count = 0;     ///< vertices that the memory holds
+    /// Bytes from one vertex to the next: a multiple of 4, at least 12.
+    std::size_t stride = sizeof(PackedVertex);
+    std::size_t count = 0;  ///< vertices that the memory holds
 
     [[nodiscard]] bool empty() const noexcept { return first == nullptr; }
 };

@@ -10,46 +10,49 @@
 #include <span>
 #include <string_view>
 
-/// Bending a body of several regions along a path: a tentacle along a curve, a fish along its track.
+/// Bends a body of several regions along a path: a tentacle along a curve, a fish along its track. The
+/// functions do not allocate and are thread-safe.
 
 namespace goffer::bend {
 
-/// What is wrong with a path. describe() says what it should be.
+/// What is wrong with a path.
 enum class PathFault : std::uint8_t { none, too_few_points, not_finite, repeated_point };
 
-/// One line on `fault`, in static storage. Thread-safe.
+/// Says in one line what is wrong; "no fault" of none. Static storage.
 [[nodiscard]] std::string_view describe(PathFault fault) noexcept;
 
-/// The first fault of a polyline: fewer than two points, one that is not finite, or one that repeats the one
-/// before it. Thread-safe.
+/// Finds the first fault of a polyline: fewer than two points, a point that is not finite, or one that
+/// repeats the point before it. poses_along() accepts all of these; see there.
 [[nodiscard]] PathFault check_path(std::span<const glm::vec3> points) noexcept;
 
 /// How a body lies along a path.
 struct PathFit {
-    /// From model space to the path's: a rotation and a shift that put the base's center on the first point,
-    /// the axis along the path's beginning. The job's transform, if the instance is to lie on the path.
+    /// From model space to that of the path: a rotation and a shift that put the center of the base end on
+    /// the first point, and the axis along the beginning of the path. To lie on the path, an instance takes
+    /// this as its job's transform.
     glm::mat4x3 transform{1};
-    /// The largest distance from the center line to the path's part that it runs along, measured at 16 places
-    /// of each region, units of the path. A path shorter than the body goes straight on.
+    /// Largest distance from the center line to the part of the path that it runs along, measured at 16
+    /// places of each region, in the path's units.
     float error = 0;
-    bool clamped = false;  ///< a region would have had to bend beyond its max_angle(): it bends so far only
+    bool clamped = false;  ///< a region should have bent beyond its max_angle, and bends by that instead
 };
 
-/// Poses for the regions of `body`, one each into `poses` (the caller's; of fewer, the first regions get
-/// theirs, and the rest of the body is not looked at), such that its center line runs along the polyline
-/// `points`. Each region ends in the direction that the path has as far along as the region reaches;
-/// positions follow from that. For a smooth path the error falls with the square of the regions' lengths;
-/// more of them fit closer. The path's corners are not rounded first: of a path with long pieces only
-/// directions at the regions' ends count. Does not allocate. Thread-safe. Time goes with the number of
-/// points.
+/// Sets poses[r] to the pose of region r, so that the body's center line runs along the polyline `points`,
+/// which has the unit of the body. `poses` is the caller's and should hold one per region; if it is shorter,
+/// the remaining regions are ignored.
 ///
-/// Points that repeat the one before them are passed over; where all points are one, the body goes straight
-/// on from there, unturned. Fewer than two points, or one that is not finite: all poses are straight, the
-/// transform is the identity, and the error is infinite.
+/// Each region ends in the direction that the path has at that length along it; positions follow from the
+/// directions. On a smooth path, the error falls with the square of the regions' lengths. Corners are not
+/// rounded, so of long pieces only their directions at the ends of regions count. Beyond its last point the
+/// path goes straight on. Takes time in proportion to the number of points.
+///
+/// Points that repeat the point before them are skipped. If all points are the same, the body goes straight
+/// on from there, unturned. With fewer than two points, or one that is not finite, all poses are straight,
+/// the transform is the identity, and the error is infinite.
 PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses) noexcept;
 
-/// The same along the cubic Bezier curve of four control points, some of which may be equal; directions are
-/// the curve's own. Some 4 microseconds for 16 regions.
+/// The same along the cubic Bezier curve of four control points, any of which may be equal. Directions are
+/// those of the curve itself. Takes time in proportion to the number of regions.
 PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses) noexcept;
 
 }  // namespace goffer::bend

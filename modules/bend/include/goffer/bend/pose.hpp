@@ -5,15 +5,15 @@
 
 namespace goffer::bend {
 
-/// How far and which way a body is bent: all the state that an instance has. A plain value.
+/// How far and which way a region is bent. One per region is all the state of an instance. A plain value.
 struct Pose {
-    /// Rotation angle alpha of the arc, radians: the tip's direction turns by it. Negative: the other way,
-    /// which is
-    /// (|angle|, direction + pi). Beyond the body's max_angle() it is clamped, and the job's result says so.
+    /// Angle alpha of the arc, by which the region's end turns, radians. A negative angle bends the other
+    /// way, like (|angle|, direction + pi). An |angle| beyond the region's max_angle is clamped to it, and
+    /// the result of a run says so.
     float angle = 0;
 
-    /// Direction theta that the body bends toward, radians about the axis from the body's e1 to its e2. Any
-    /// value.
+    /// Direction theta that the region bends toward, radians about the axis, from e1 toward e2 of the frame
+    /// in which the region begins. Any finite value.
     float direction = 0;
 
     [[nodiscard]] bool operator==(const Pose&) const noexcept = default;

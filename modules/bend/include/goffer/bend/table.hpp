@@ -7,53 +7,60 @@
 #include <cstddef>
 #include <vector>
 
-/// The wrinkle table: one row per bend angle, made at bind, read per frame.
+/// The tables of a region, with a row per bend angle: made at bind, read once per instance and frame.
 /// See modules/paper/README.md, "Wrinkle table".
 
 namespace goffer::bend {
 
-/// Coefficients of the amplitude profile over the columns, for one bend angle.
+/// Coefficients of the wrinkles' amplitude over the columns, for one bend angle.
 ///
-/// The amplitude of the column at beta is
-///     A = sqrt(kappa T) P(T),   T = 1 + cos(beta - theta),   P(T) = sum of row[n] T^n,
-/// in model units, with the region's size and the area factor m(alpha) in it. (The squeeze is q = kappa T:
-/// its root is the square-root start of eq 7's solution; P is its smooth rest.)
+/// The column at beta has the amplitude, in model units,
 ///
-/// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc and
-/// begins gently: with S and S_0 the column's scale in the pose and at rest,
+///     A = sqrt(kappa T) P(T),   T = 1 + cos(beta - theta),   P(T) = sum of row[n] T^n.
+///
+/// The row includes the region's length and the area factor m(alpha). The squeeze is q = kappa T; the
+/// solution of eq 7 begins like its root, and P is the smooth factor that remains.
+///
+/// Where the region is bent at rest, or has an onset q0, the squeeze is relative to the rest arc. With S and
+/// S_0 the column's scale in the pose and at rest,
+///
 ///     q = max(0, 1 - S / S_0),   q' = q^2 / (q + q0),   A = S_0 sqrt(q') P(q' / kappa).
+///
 /// See modules/paper/README.md, "Bodies bent at rest".
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
-/// Rows from angle 0 to `max_angle`, at equal steps of the angle's root: row i of n is for max_angle (i / (n
-/// - 1))^2. (The area factor, like the amplitude, is smooth in the root.) A plain value; empty for a body
-/// that never wrinkles.
+/// Rows from angle 0 to `max_angle`, at equal steps of the angle's root, in which the area factor is smooth:
+/// row i of n is for the angle max_angle (i / (n - 1))^2. A plain value. Empty: the region never wrinkles.
 struct WrinkleTable {
     float max_angle = 0;           ///< angle of the last row, radians; > 0 where there are rows
-    std::vector<WrinkleRow> rows;  ///< none, or two and more
+    std::vector<WrinkleRow> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
-    /// The row at `angle`, linear between the two nearest, clamped to the table; zeros where there are no
-    /// rows. An angle that is not finite counts as 0. Does not allocate. Thread-safe.
+    /// The row at `angle` in radians, interpolated linearly over the angle's root between the two nearest
+    /// rows. Angles outside 0..max_angle count as the nearer end, and those that are not finite as 0. Zeros
+    /// where there are no rows. Does not allocate. Thread-safe.
     [[nodiscard]] WrinkleRow at(float angle) const noexcept;
 };
 
-/// Factors on the amplitude by angle and direction (mode `mesh`: with them the bound mesh keeps its own
-/// area). Rows at angles as those of WrinkleTable; value j of a row is for the direction 2 pi j / directions
-/// from that of the region's rest arc, toward e2. Squares of factors, in which area is nearly linear; below
-/// 0 where even no wrinkle is too much. A plain value; empty where all factors are 1.
+/// Factors on the amplitude by angle and direction, with which the bound mesh keeps its own area (amplitude
+/// mode `mesh`). Rows stand at the same angles as those of a WrinkleTable. Value j of a row is for the
+/// direction 2 pi j / directions, counted from the direction of the region's rest arc, toward e2. The values
+/// are squares of factors, in which area is nearly linear; negative ones count as 0. A plain value. Empty:
+/// all factors are 1.
 /// See modules/paper/README.md, "Amplitude modes".
 struct FactorTable {
-    static constexpr std::size_t directions = 16;
+    static constexpr std::size_t directions = 16;  ///< values in a row
+
     float max_angle = 0;  ///< angle of the last row, radians; > 0 where there are rows
-    std::vector<std::array<float, directions>> rows;  ///< none, or two and more
+    std::vector<std::array<float, directions>> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
 
-    /// The factor at `angle` and any `direction`: its square linear between its four neighbors, the angle
-    /// clamped to the table's; 1 where there are no rows. What is not finite counts as 0. Does not allocate.
-    /// Thread-safe.
+    /// The factor at `angle`, and at `direction` from the rest arc's, both in radians. Its square is
+    /// interpolated linearly over the direction and over the angle's root. Angles outside 0..max_angle count
+    /// as the nearer end; numbers that are not finite count as 0. 1 where there are no rows. Does not
+    /// allocate. Thread-safe.
     [[nodiscard]] float at(float angle, float direction) const noexcept;
 };
 
