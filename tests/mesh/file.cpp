@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "files.hpp"
 
-#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/io/error.hpp>
 
 #include <doctest/doctest.h>
-#include <sys/resource.h>
 
 #include <array>
-#include <csignal>
 
 using namespace goffer::mesh;
 using namespace goffer::test;
@@ -138,7 +136,7 @@ TEST_CASE("file: an output that cannot be written is refused, and what was there
     const Folder folder;
     const Mesh mesh = made();
     const auto error = [&](const fs::path& file, const std::string& what) {
-        const std::string message = error_of([&] { save(mesh, file); });
+        const std::string message = message_of<goffer::io::Error>([&] { save(mesh, file); });
         INFO(message);
         return tells(message, what);
     };
@@ -146,7 +144,7 @@ TEST_CASE("file: an output that cannot be written is refused, and what was there
     fs::create_directory(folder / "a.stl");
     CHECK(error(folder / "a.stl", "is a folder"));
     fs::create_symlink("/dev/full", folder / "full.ply");
-    const std::string full = error_of([&] { save(mesh, folder / "full.ply"); });
+    const std::string full = message_of<goffer::io::Error>([&] { save(mesh, folder / "full.ply"); });
     CHECK(full.find("/dev/full: is not a regular file") == 0);
     CHECK(error(folder / (std::string(254, 'x') + ".ply"), "cannot be written"));
     CHECK(folder.files() == 2);
@@ -161,49 +159,11 @@ TEST_CASE("file: when the disk is full nothing is left behind and the old file s
         mesh.corners.insert(mesh.corners.end(), {0, 1, 2});
     }
     mesh.parts.clear();
-    rlimit old{};
-    getrlimit(RLIMIT_FSIZE, &old);
-    const rlimit small{1 << 16, old.rlim_max};
-    auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
-    const std::string message = error_of([&] { save(mesh, folder / "a.stl"); });
-    setrlimit(RLIMIT_FSIZE, &old);
-    std::signal(SIGXFSZ, handler);
+    const std::string message = message_of<goffer::io::Error>([&] {
+        const FullDisk full(1 << 16);
+        save(mesh, folder / "a.stl");
+    });
     CHECK(tells(message, "a.stl: cannot be written: File too large"));
     CHECK(bytes_of(folder / "a.stl") == "old");
     CHECK(folder.files() == 1);
-}
-
-TEST_CASE("atomic file: it is there when it is committed, and not before") {
-    const Folder folder;
-    folder.write("a", "old");
-    {
-        AtomicFile file(folder / "a");
-        file.write("lost");
-        CHECK(folder.files() == 2);
-    }
-    CHECK(bytes_of(folder / "a") == "old");
-    CHECK(folder.files() == 1);
-    AtomicFile file(folder / "a");
-    AtomicFile other(folder / "a");
-    file.write("new");
-    std::fputs(" text", file.stream());
-    CHECK(bytes_of(folder / "a") == "old");
-    file.commit();
-    CHECK(bytes_of(folder / "a") == "new text");
-    CHECK(folder.files() == 2);
-}
-
-TEST_CASE("atomic file: links are followed, permissions stay") {
-    const Folder folder;
-    folder.write("real", "old");
-    fs::permissions(folder / "real", fs::perms::owner_read | fs::perms::owner_write);
-    fs::create_symlink("real", folder / "link");
-    write_file(folder / "link", "new");
-    CHECK(fs::is_symlink(folder / "link"));
-    CHECK(bytes_of(folder / "real") == "new");
-    CHECK(fs::status(folder / "real").permissions() == (fs::perms::owner_read | fs::perms::owner_write));
-    fs::create_symlink("later", folder / "dangling");
-    write_file(folder / "dangling", "made");
-    CHECK(bytes_of(folder / "later") == "made");
 }

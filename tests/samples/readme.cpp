@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/files.hpp"
+
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
@@ -6,8 +8,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 /// The samples do what the README says, and the README shows the program that is compiled.
@@ -16,23 +16,6 @@ namespace goffer::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    REQUIRE(stream);
-    return (std::ostringstream() << stream.rdbuf()).str();
-}
-
-/// A folder of this test's own, gone with it.
-struct Folder {
-    fs::path path;
-
-    explicit Folder(const std::string& name)
-        : path(fs::temp_directory_path() / ("goffer samples " + name + std::to_string(std::rand()))) {
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-};
 
 int run(const std::string& program, const fs::path& first, const fs::path& second) {
     return std::system(
@@ -43,19 +26,19 @@ int run(const std::string& program, const fs::path& first, const fs::path& secon
 
 TEST_CASE("the README's program is samples/hello.cpp") {
     const fs::path root = GOFFER_SOURCE_DIR;
-    const std::string readme = text_of(root / "README.md");
+    const std::string readme = bytes_of(root / "README.md");
     const std::size_t begin = readme.find("```cpp\n") + 7;
     const std::string shown = readme.substr(begin, readme.find("```", begin) - begin);
-    const std::string program = text_of(root / "samples" / "hello.cpp");
+    const std::string program = bytes_of(root / "samples" / "hello.cpp");
     CHECK(program.substr(program.find('\n') + 1) == shown);
 }
 
 TEST_CASE("the README's program bends the bundled model") {
-    const Folder folder("hello");
-    const fs::path model = folder.path / "worm.glb";
-    const fs::path bent = folder.path / "bent.glb";
+    const Folder folder;
+    const fs::path model = folder / "worm.glb";
+    const fs::path bent = folder / "bent.glb";
     REQUIRE(std::system(("'" GOFFER_CATERPILLAR "' '" + model.string() + "' >/dev/null").c_str()) == 0);
-    REQUIRE(std::system(("cd '" + folder.path.string() + "' && '" GOFFER_HELLO "'").c_str()) == 0);
+    REQUIRE(std::system(("cd '" + (folder / ".").string() + "' && '" GOFFER_HELLO "'").c_str()) == 0);
     const mesh::Mesh before = mesh::load(model);
     const mesh::Mesh after = mesh::load(bent);
     REQUIRE(after.positions.size() == before.positions.size());
@@ -70,13 +53,13 @@ TEST_CASE("the README's program bends the bundled model") {
 }
 
 TEST_CASE("the crowd sample leaves its picture and its model") {
-    const Folder folder("crowd");
-    const fs::path model = folder.path / "caterpillar.glb";
+    const Folder folder;
+    const fs::path model = folder / "caterpillar.glb";
     REQUIRE(std::system(("'" GOFFER_CATERPILLAR "' '" + model.string() + "' >/dev/null").c_str()) == 0);
-    REQUIRE(run(GOFFER_CROWD, model, folder.path) == 0);
-    CHECK(mesh::load(folder.path / "crowd.glb").positions.size() == 24 * mesh::load(model).positions.size());
-    CHECK(fs::file_size(folder.path / "crowd.png") > 100000);
-    CHECK(run(GOFFER_CROWD, folder.path / "none.glb", folder.path) != 0);
+    REQUIRE(run(GOFFER_CROWD, model, folder / ".") == 0);
+    CHECK(mesh::load(folder / "crowd.glb").positions.size() == 24 * mesh::load(model).positions.size());
+    CHECK(fs::file_size(folder / "crowd.png") > 100000);
+    CHECK(run(GOFFER_CROWD, folder / "none.glb", folder / ".") != 0);
 }
 
 }  // namespace goffer::test

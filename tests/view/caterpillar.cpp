@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/files.hpp"
+
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
@@ -6,9 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
-#include <random>
 #include <string>
 
 using namespace goffer;
@@ -17,14 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 mesh::Mesh written(const char* name) {
-    const fs::path folder =
-        fs::temp_directory_path() / ("goffer-caterpillar-" + std::to_string(std::random_device{}()));
-    fs::create_directory(folder);
+    const test::Folder folder;
     const std::string command = "\"" GOFFER_CATERPILLAR "\" \"" + (folder / name).string() + "\"";
     REQUIRE(std::system(command.c_str()) == 0);
-    mesh::Mesh mesh = mesh::load(folder / name);
-    fs::remove_all(folder);
-    return mesh;
+    return mesh::load(folder / name);
 }
 
 }  // namespace

@@ -1,49 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "shapes.hpp"
+#include "support/files.hpp"
+
+#include <goffer/io/error.hpp>
+#include <goffer/view/picture.hpp>
 
 #include <doctest/doctest.h>
 #include <png.h>
-#include <sys/resource.h>
 
-#include <csignal>
-#include <fstream>
-#include <iterator>
 #include <random>
 
 using namespace goffer;
+using namespace goffer::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("goffer-view-" + std::to_string(std::random_device{}()));
-    Folder() { fs::create_directory(path); }
-    ~Folder() { fs::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    [[nodiscard]] std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(path), {}); }
-};
-
-// Files cannot grow beyond `bytes` while this lives, as on a full disc.
-class FullDisc {
-public:
-    explicit FullDisc(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~FullDisc() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FullDisc(const FullDisc&) = delete;
-    FullDisc& operator=(const FullDisc&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
 
 view::Picture noise(int width, int height) {
     view::Picture picture{width, height, {}};
@@ -52,22 +22,17 @@ view::Picture noise(int width, int height) {
     return picture;
 }
 
-std::string content(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 TEST_CASE("a PNG reads back as it was") {
     const Folder folder;
     const auto picture = noise(123, 45);
-    view::save_png(picture, folder.path / "a.png");
+    view::save_png(picture, folder / "a.png");
     CHECK(folder.files() == 1);
 
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    REQUIRE(png_image_begin_read_from_file(&image, (folder.path / "a.png").c_str()) != 0);
+    REQUIRE(png_image_begin_read_from_file(&image, (folder / "a.png").c_str()) != 0);
     CHECK(image.width == 123);
     CHECK(image.height == 45);
     image.format = PNG_FORMAT_RGB;
@@ -78,45 +43,48 @@ TEST_CASE("a PNG reads back as it was") {
 
 TEST_CASE("an existing picture is replaced as a whole, or left as it was") {
     const Folder folder;
-    const fs::path file = folder.path / "a.png";
-    std::ofstream(file) << "old";
+    const fs::path file = folder.write("a.png", "old");
     {
-        const FullDisc full(1000);
-        CHECK_THROWS_AS(view::save_png(noise(100, 100), file), view::Error);
+        const FullDisk full(1000);
+        CHECK_THROWS_AS(view::save_png(noise(100, 100), file), io::Error);
     }
-    CHECK(content(file) == "old");
+    CHECK(bytes_of(file) == "old");
     CHECK(folder.files() == 1);
 
     view::save_png(noise(10, 10), file);
-    CHECK(content(file).substr(1, 3) == "PNG");
+    CHECK(bytes_of(file).substr(1, 3) == "PNG");
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a picture takes the place that a link leads to, with the permissions of the old one") {
+    const Folder folder;
+    const auto mine = fs::perms::owner_read | fs::perms::owner_write;
+    fs::permissions(folder.write("real.png", "old"), mine);
+    fs::create_symlink("real.png", folder / "link.png");
+    view::save_png(noise(10, 10), folder / "link.png");
+    CHECK(fs::is_symlink(folder / "link.png"));
+    CHECK(bytes_of(folder / "real.png").substr(1, 3) == "PNG");
+    CHECK(fs::status(folder / "real.png").permissions() == mine);
 }
 
 TEST_CASE("where no file can be, one line says so") {
     const Folder folder;
-    fs::create_directory(folder.path / "taken.png");
-    std::ofstream(folder.path / "file") << "x";
-    for (const fs::path& file : {folder.path / "taken.png", folder.path / "none" / "a.png",
-                                 folder.path / "file" / "a.png", fs::path("/dev/null"), fs::path()}) {
-        CAPTURE(file.string());
-        std::string what;
-        try {
-            view::save_png(noise(4, 4), file);
-        } catch (const view::Error& error) {
-            what = error.what();
-        }
-        CHECK(what.find(file.string()) != std::string::npos);
-        CHECK(what.find("cannot be written") != std::string::npos);
-        CHECK(what.find('\n') == std::string::npos);
-    }
+    fs::create_directory(folder / "taken.png");
+    folder.write("file", "x");
+    const auto error = [](const fs::path& file) {
+        return message_of<io::Error>([&] { view::save_png(noise(4, 4), file); });
+    };
+    CHECK(tells(error(folder / "taken.png"), "taken.png: is a folder"));
+    CHECK(tells(error(folder / "none/a.png"), "a.png: there is no such folder"));
+    CHECK(tells(error(folder / "file/a.png"), "a.png: there is no such folder"));
+    CHECK(error("/dev/null").starts_with("/dev/null: is not a regular file"));
     CHECK(folder.files() == 2);
     CHECK(fs::is_character_file("/dev/null"));
 }
 
 TEST_CASE("a picture without pixels, or with too few bytes, is refused") {
     const Folder folder;
-    CHECK_THROWS_AS(view::save_png({}, folder.path / "a.png"), view::Error);
-    CHECK_THROWS_AS(view::save_png({2, 2, std::vector<std::uint8_t>(11)}, folder.path / "a.png"),
-                    view::Error);
+    CHECK_THROWS_AS(view::save_png({}, folder / "a.png"), view::Error);
+    CHECK_THROWS_AS(view::save_png({2, 2, std::vector<std::uint8_t>(11)}, folder / "a.png"), view::Error);
     CHECK(folder.files() == 0);
 }

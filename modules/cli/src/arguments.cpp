@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 
-#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <glm/geometric.hpp>
@@ -188,7 +188,7 @@ void check_picture_output(const std::filesystem::path& file) {
 }
 
 void check_output(const std::filesystem::path& file) {
-    const mesh::AtomicFile probe(file);
+    const io::AtomicFile probe(file);
 }
 
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {

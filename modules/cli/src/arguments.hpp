@@ -58,7 +58,7 @@ using Action = std::function<void()>;
 [[nodiscard]] fit::Cylinder read_fit(const std::filesystem::path& file);
 
 /// Refuses, before any work, an output whose ending no writer knows (UsageError) or that cannot be written
-/// (Error of mesh).
+/// (io::Error).
 void check_model_output(const std::filesystem::path& file);
 void check_picture_output(const std::filesystem::path& file);
 void check_output(const std::filesystem::path& file);

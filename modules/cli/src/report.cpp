@@ -3,7 +3,7 @@
 
 #include "arguments.hpp"
 
-#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/io/atomic_file.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -60,7 +60,7 @@ void Report::finish() {
     const std::string text =
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const bool to_output = json_file_ == "-";
-    if (!json_file_.empty() && !to_output) mesh::write_file(json_file_, text);
+    if (!json_file_.empty() && !to_output) io::write_file(json_file_, text);
 
     std::FILE* people = to_output ? stderr : stdout;
     for (const std::string& line : lines_) std::fprintf(people, "%s\n", line.c_str());

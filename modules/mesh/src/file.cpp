@@ -2,7 +2,7 @@
 #include "format.hpp"
 #include "text.hpp"
 
-#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <algorithm>
@@ -74,9 +74,9 @@ Mesh read(const fs::path& file, std::string_view bytes) {
 /// Both files are written before either takes its place.
 void save_obj(const Mesh& mesh, const fs::path& file) {
     const std::string materials = write_mtl(mesh);
-    AtomicFile obj(file);
+    io::AtomicFile obj(file);
     obj.write(write_obj(mesh, file));
-    if (!materials.empty()) write_file(mtl_beside(file), materials);
+    if (!materials.empty()) io::write_file(mtl_beside(file), materials);
     obj.commit();
 }
 
@@ -113,13 +113,13 @@ void save(const Mesh& mesh, const fs::path& file) {
         case Format::obj:
             return save_obj(mesh, file);
         case Format::ply:
-            return write_file(file, write_ply(mesh));
+            return io::write_file(file, write_ply(mesh));
         case Format::stl:
-            return write_file(file, write_stl(mesh));
+            return io::write_file(file, write_stl(mesh));
         case Format::glb:
-            return write_file(file, write_glb(mesh, file));
+            return io::write_file(file, write_glb(mesh, file));
         case Format::gltf:
-            return write_file(file, write_gltf(mesh, file));
+            return io::write_file(file, write_gltf(mesh, file));
         case Format::unknown:
             break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "text.hpp"
 
+#include <goffer/io/error.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ std::optional<Real> to_real(std::string_view token) {
 }  // namespace
 
 void fail(const std::filesystem::path& file, const std::string& what) {
-    throw Error(one_line(file.string()) + ": " + what);
+    throw Error(io::about(file, what));
 }
 
 std::string quoted(std::string_view text) {
@@ -116,13 +117,6 @@ void append(std::string& out, float value) {
 
 void append(std::string& out, std::uint64_t value) {
     out += std::to_string(value);
-}
-
-std::string one_line(std::string_view name) {
-    std::string out(name);
-    std::ranges::replace_if(
-        out, [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '_');
-    return out;
 }
 
 void Editor::replace(std::string_view old, std::string_view with) {

@@ -54,9 +54,6 @@ void append_all(std::string& out, T... values) {
     ((out += ' ', append(out, values)), ...);
 }
 
-/// `name` fit for one line of text: control characters become '_'.
-[[nodiscard]] std::string one_line(std::string_view name);
-
 /// A file's bytes with some of them replaced, from front to back.
 class Editor {
 public:

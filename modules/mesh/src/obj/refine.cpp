@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "refine.hpp"
+
 #include "format.hpp"
 #include "obj.hpp"
-#include "refine.hpp"
 
 #include <algorithm>
 #include <utility>

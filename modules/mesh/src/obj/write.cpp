@@ -2,6 +2,8 @@
 #include "format.hpp"
 #include "obj.hpp"
 
+#include <goffer/io/error.hpp>
+
 #include <algorithm>
 
 namespace goffer::mesh {
@@ -98,7 +100,7 @@ private:
 std::vector<std::string> material_names(const Mesh& mesh) {
     std::vector<std::string> names;
     for (const Material& material : mesh.materials) {
-        const std::string name = one_line(material.name.empty() ? "material" : trimmed(material.name));
+        const std::string name = io::one_line(material.name.empty() ? "material" : trimmed(material.name));
         std::string unique = name;
         for (int i = 2; std::ranges::find(names, unique) != names.end(); ++i)
             unique = name + "_" + std::to_string(i);
@@ -121,7 +123,8 @@ void append_faces(std::string& out, const Mesh& mesh) {
     std::string group;
     std::int32_t material = -1;
     for (const Part& part : mesh.parts) {
-        if (const std::string name = one_line(part.name); name != group) out += "g " + (group = name) + '\n';
+        if (const std::string name = io::one_line(part.name); name != group)
+            out += "g " + (group = name) + '\n';
         // OBJ cannot take a material back: faces without one, after faces with one, choose one that has no
         // entry.
         if (part.material != material)
@@ -180,7 +183,7 @@ std::string write_obj(const Mesh& mesh, const std::filesystem::path& file) {
 }
 
 std::filesystem::path mtl_beside(const std::filesystem::path& obj) {
-    return std::filesystem::path(obj).replace_filename(one_line(obj.stem().string()) + ".mtl");
+    return std::filesystem::path(obj).replace_filename(io::one_line(obj.stem().string()) + ".mtl");
 }
 
 std::string write_mtl(const Mesh& mesh) {

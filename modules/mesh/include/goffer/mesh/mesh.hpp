@@ -18,7 +18,8 @@
 
 namespace goffer::mesh {
 
-/// A file that cannot be read or written. what() is one line: what is wrong, where, how to mend it.
+/// A file that cannot be read, or a mesh that cannot be written. what() is one line: what is wrong, where,
+/// how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -80,8 +81,9 @@ struct Mesh {
 
 /// Writes `mesh` in the format of the file name's ending (.obj .ply .stl .glb .gltf). Into the format it came
 /// from, everything that `mesh` does not change is kept (`source`); into another, whatever that can carry.
-/// Written beside and renamed: on failure an existing file is left as it was. Throws Error. An OBJ that was
-/// none before gets its materials in a file beside it, of the same name with the ending .mtl.
+/// Written beside and renamed: on failure an existing file is left as it was. An OBJ that was none before
+/// gets its materials in a file beside it, of the same name with the ending .mtl. Throws Error for an unknown
+/// ending or a mesh that does not fit together, and io::Error where a file cannot be written.
 void save(const Mesh& mesh, const std::filesystem::path& file);
 
 /// The endings `save` knows, for error messages and for refusing an output before any work is done.

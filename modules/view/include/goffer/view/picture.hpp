@@ -15,7 +15,7 @@
 
 namespace goffer::view {
 
-/// A picture that cannot be made or written. what() is one line: what is wrong, where, how to mend it.
+/// A picture that cannot be made. what() is one line: what is wrong, where, how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -60,7 +60,8 @@ struct Picture {
 [[nodiscard]] Picture render(std::span<const Model> models, const Camera& camera,
                              const Settings& settings = {});
 
-/// Writes a PNG, beside and renamed: on failure an existing file is left as it was. Throws Error.
+/// Writes a PNG, beside and renamed: on failure an existing file is left as it was. Throws Error where the
+/// picture is empty or its bytes are not width x height x 3, and io::Error where the file cannot be written.
 void save_png(const Picture& picture, const std::filesystem::path& file);
 
 }  // namespace goffer::view

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/io/error.hpp>
+
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
 
 /// Files that appear whole or not at all, for every output that goffer writes.
 
-namespace goffer::mesh {
+namespace goffer::io {
 
 /// A file being written beside its place, under a name of its own; `commit` moves it there. Without a commit
 /// (an error, an early return) nothing is left of it, and a file that was there before is as it was. Several
@@ -16,8 +18,8 @@ namespace goffer::mesh {
 class AtomicFile {
 public:
     /// Opens the file beside `target`, so that an output that cannot be written is refused before any work is
-    /// done. A symbolic link is followed. Throws Error: no such folder, a folder itself, a device, not
-    /// permitted.
+    /// done. A symbolic link is followed. Throws Error: no such folder, a folder itself, a device, a link
+    /// that leads to itself, not permitted.
     explicit AtomicFile(std::filesystem::path target);
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -44,4 +46,4 @@ private:
 /// The whole of a file at once: opened, written and committed. Throws Error.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
-}  // namespace goffer::mesh
+}  // namespace goffer::io

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "text.hpp"
-
-#include <goffer/mesh/atomic_file.hpp>
+#include <goffer/io/atomic_file.hpp>
 
 #include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
 
-namespace goffer::mesh {
+namespace goffer::io {
 namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+    throw Error(about(file, what));
+}
+
 fs::path followed(fs::path target) {
     std::error_code error;
-    constexpr int most_links = 40;  // then it is a loop, which opening will refuse
+    constexpr int most_links = 40;  // as many as systems follow; what is still a link then is a loop
     for (int i = 0; i < most_links && fs::is_symlink(target, error); ++i)
         target = target.parent_path() / fs::read_symlink(target, error);
     return target;
@@ -27,6 +29,7 @@ void refuse_unwritable(const fs::path& target) {
     if (target.filename().empty() || fs::is_directory(target, error))
         fail(target, "is a folder; give the name of a file");
     if (!fs::is_directory(folder, error)) fail(target, "there is no such folder to write to; make it first");
+    if (fs::is_symlink(target, error)) fail(target, "is a link that leads to itself; give another name");
     if (!fs::exists(target, error)) return;
     if (!fs::is_regular_file(target, error)) fail(target, "is not a regular file; give the name of one");
     // Moving a file over another needs no right to write to that one; a write-protected output stays
@@ -83,4 +86,4 @@ void write_file(const fs::path& target, std::string_view bytes) {
     file.commit();
 }
 
-}  // namespace goffer::mesh
+}  // namespace goffer::io
