@@ -131,7 +131,7 @@ TEST_CASE("P8: bending a body of revolution another way is turning the result") 
                 row * columns + (column + columns - static_cast<std::size_t>(step)) % columns);
             const glm::dvec3 expected(p.x * std::cos(theta) - p.y * std::sin(theta),
                                       p.x * std::sin(theta) + p.y * std::cos(theta), p.z);
-            REQUIRE(glm::length(turned.position(i) - expected) < 5e-5);
+            REQUIRE(glm::length(turned.position(i) - expected) < 5e-6);
         }
     }
 }

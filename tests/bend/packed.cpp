@@ -135,7 +135,7 @@ TEST_CASE("normals along axes and edges of the octahedron are packed as well") {
         CHECK(worst.position <= 1e-6);
         CHECK(worst.normal <= 0.004);
         for (std::size_t i = 0; i < normals.size(); ++i) {
-            REQUIRE(angle_between(out.normal(i), {normals[i].rho, normals[i].beta, normals[i].z}) < 1e-4);
+            REQUIRE(angle_between(out.normal(i), {normals[i].rho, normals[i].beta, normals[i].z}) < 1e-5);
         }
     }
 }

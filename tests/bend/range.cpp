@@ -176,7 +176,7 @@ TEST_CASE("bodies from the smallest to the largest keep their shape") {
                 std::vector<glm::dvec3>& shape = shapes.emplace_back();
                 for (std::size_t i = 0; i < vertices.size(); ++i) shape.push_back(out.position(i) / length);
                 for (std::size_t i = 0; i < vertices.size(); ++i)
-                    REQUIRE(glm::distance(shape[i], shapes[0][i]) < 1e-4);
+                    REQUIRE(glm::distance(shape[i], shapes[0][i]) < 1e-6);
             }
         }
     }

@@ -104,8 +104,8 @@ void check_rest(const Case& one) {
             const std::size_t vertex = one.binding.order.empty() ? i : one.binding.order[i];
             const glm::dvec3 rest(one.test_mesh.positions[vertex]);
             REQUIRE(glm::length(out.position(i) - rest) <= 1e-6 * one.test_mesh.cylinder.length);
-            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.test_mesh.normals[vertex])) < 1e-3);
-            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.test_mesh.tangents[vertex])) < 1e-3);
+            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.test_mesh.normals[vertex])) < 4e-4);
+            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.test_mesh.tangents[vertex])) < 4e-4);
         }
     }
 }
@@ -172,8 +172,8 @@ TEST_CASE("P9: two regions of the same curvature and direction are one of the su
             bend::run(make_job(parts.body, poses, isa, b));
             for (std::size_t i = 0; i < count; ++i) {
                 const std::size_t vertex = parts.order[i];
-                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 5e-6);
-                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 0.01);
+                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 2e-6);
+                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 3e-4);
             }
         }
     }
@@ -215,7 +215,7 @@ TEST_CASE("regions meet: positions, and the tangent planes of the bare bend") {
                 bend::run(job);
                 for (std::size_t i = 0; i < around; ++i) {
                     REQUIRE(glm::length(out.position(i) - out.position(around + i)) < 1e-6);
-                    if (weight == 0) REQUIRE(angle_between(out.normal(i), out.normal(around + i)) < 0.01);
+                    if (weight == 0) REQUIRE(angle_between(out.normal(i), out.normal(around + i)) < 2e-4);
                 }
             }
         }
@@ -243,7 +243,7 @@ TEST_CASE("P8: turning all directions and the body's vertices turns the result")
             for (bend::Pose& pose : poses) pose.direction -= static_cast<float>(turn);
             bend::run(make_job(other.body, poses, isa, b));
             for (std::size_t i = 0; i < count; ++i)
-                REQUIRE(glm::length(a.position(i) - b.position(i)) < 5e-6);
+                REQUIRE(glm::length(a.position(i) - b.position(i)) < 1e-6);
         }
     }
 }
@@ -292,7 +292,7 @@ TEST_CASE("P3: squeezed columns keep the lengths that they have at rest, region 
                 length += glm::length(bent.position(i) - bent.position(j));
             }
             CAPTURE(beta);
-            CHECK(std::fabs(length - expected) < 1e-3 * 20);
+            CHECK(std::fabs(length - expected) < 4e-4 * 20);
         }
     }
 }

@@ -103,7 +103,7 @@ TEST_CASE("bend: beyond the largest angle it is clamped, and says so") {
             CHECK(all["warnings"][0].get<std::string>().find("beyond the largest") != std::string::npos);
             well(folder, Words{"bend", "base.ply", "-o", "limit.ply", "--amplitude", amplitude, "--angle",
                                std::to_string(sign * (all["max_angle"].get<double>() - 1e-4))});
-            CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "limit.ply")) < 1e-3);
+            CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "limit.ply")) < 2e-5);
         }
     }
 }
@@ -116,7 +116,7 @@ TEST_CASE("bend: the tip goes where the closed form says, in the direction asked
             CAPTURE(angle);
             CAPTURE(direction);
             const Words pose{"--angle", std::to_string(angle), "--direction", std::to_string(direction)};
-            CHECK(glm::length(tip(folder, pose) - tip_of(angle, direction)) < 5e-5);
+            CHECK(glm::length(tip(folder, pose) - tip_of(angle, direction)) < 6e-6);
         }
     }
 }
@@ -124,9 +124,9 @@ TEST_CASE("bend: the tip goes where the closed form says, in the direction asked
 TEST_CASE("bend: a negative angle is the other way") {
     const Folder folder;
     base(folder, "base.ply", {"--caps"});
-    CHECK(glm::length(tip(folder, {"--angle", "-50", "--direction", "20"}) - tip_of(50, 200)) < 5e-5);
+    CHECK(glm::length(tip(folder, {"--angle", "-50", "--direction", "20"}) - tip_of(50, 200)) < 2e-6);
     well(folder, {"bend", "base.ply", "-o", "other.ply", "--angle", "50", "--direction", "200"});
-    CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "other.ply")) < 5e-6 * length);
+    CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "other.ply")) < 4e-7 * length);
 }
 
 TEST_CASE("bend: direction turns from e1 to e3 x e1 whichever way the axis points") {
@@ -139,8 +139,8 @@ TEST_CASE("bend: direction turns from e1 to e3 x e1 whichever way the axis point
         return glm::dvec3(positions[positions.size() - 2]);
     };
     const glm::dvec3 straight = tip_of(90, 0);
-    CHECK(glm::length(first("0") - glm::dvec3(straight.x, 0, length - straight.z)) < 5e-5);
-    CHECK(glm::length(first("90") - glm::dvec3(0, -straight.x, length - straight.z)) < 5e-5);
+    CHECK(glm::length(first("0") - glm::dvec3(straight.x, 0, length - straight.z)) < 1e-6);
+    CHECK(glm::length(first("90") - glm::dvec3(0, -straight.x, length - straight.z)) < 2e-6);
 }
 
 TEST_CASE("bend: at angle 0 the mesh comes back") {
@@ -148,7 +148,7 @@ TEST_CASE("bend: at angle 0 the mesh comes back") {
     base(folder, "base.ply", {"--caps"});
     for (const std::string angle : {"0", "-0", "1e-30"}) {
         well(folder, {"bend", "base.ply", "-o", "out.ply", "--angle", angle, "--direction", "33"});
-        CHECK(farthest(mesh::load(folder / "base.ply"), mesh::load(folder / "out.ply")) <= 1e-6 * length);
+        CHECK(farthest(mesh::load(folder / "base.ply"), mesh::load(folder / "out.ply")) <= 1e-7 * length);
     }
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("bend: instruction sets agree") {
         }
         CAPTURE(isa);
         CHECK(json::parse(bytes_of(folder / "report.json"))["isa"] == isa);
-        CHECK(farthest(mesh::load(folder / "out.ply"), scalar) < 5e-6 * length);
+        CHECK(farthest(mesh::load(folder / "out.ply"), scalar) < 5e-7 * length);
     }
 }
 
@@ -193,17 +193,17 @@ TEST_CASE("bend: amplitudes and profiles") {
         return all["base_area_change"].get<double>();
     };
     const double kappa = std::numbers::pi / 2 * radius / length;
-    CHECK(change({"--amplitude", "none"}) == doctest::Approx(-kappa).epsilon(1e-5));
+    CHECK(std::abs(change({"--amplitude", "none"}) + kappa) < 1e-6);
     const mesh::Mesh bare = mesh::load(folder / "out.ply");
-    CHECK(std::abs(change({"--amplitude", "area"})) < 1e-6);
+    CHECK(std::abs(change({"--amplitude", "area"})) < 1e-12);
     const mesh::Mesh area = mesh::load(folder / "out.ply");
-    CHECK(change({"--amplitude", "paper"}) > 1e-4);
+    CHECK(change({"--amplitude", "paper"}) > 1e-3);
     const mesh::Mesh paper = mesh::load(folder / "out.ply");
     CHECK(change({"--amplitude", "paper", "--profile", "smooth"}) != change({"--profile", "damped"}));
     well(folder, {"bend", "base.ply", "-o", "out.ply", "--folds", "4", "--profile", "smooth"});
     const mesh::Mesh smooth = mesh::load(folder / "out.ply");
     CHECK(farthest(bare, paper) > 0.1 * radius);
-    CHECK(farthest(area, paper) > 1e-4 * radius);
+    CHECK(farthest(area, paper) > 1e-3 * radius);
     CHECK(farthest(smooth, paper) > 0.01 * radius);
 }
 

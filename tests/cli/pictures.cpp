@@ -58,25 +58,25 @@ double check_picture(const char* name, const Words& more = {}) {
 
 }  // namespace
 
-TEST_CASE("pictures: OBJ") {
+TEST_CASE("pictures: banana.obj") {
     check_picture("banana.obj");
 }
 
-TEST_CASE("pictures: PLY, with a ghost there is more to frame") {
+TEST_CASE("pictures: fuze.ply, with a ghost there is more to frame") {
     const double plain = check_picture("fuze.ply");
     if (plain == 0) return;  // not at hand
     CHECK(check_picture("fuze.ply", {"--ghost"}) < 0.9 * plain);
 }
 
-TEST_CASE("pictures: STL, tiny units") {
+TEST_CASE("pictures: lh_trochanterfemur.stl, in tiny units") {
     check_picture("lh_trochanterfemur.stl");
 }
 
-TEST_CASE("pictures: several primitives, materials and nodes") {
+TEST_CASE("pictures: insect_leg.glb, of several primitives, materials and nodes") {
     check_picture("insect_leg.glb");
 }
 
-TEST_CASE("pictures: glTF") {
+TEST_CASE("pictures: WaterBottle.gltf") {
     check_picture("WaterBottle.gltf");
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("pictures: a crowd, in whatever form it was written") {
     CHECK(share > 0.05);
     CHECK(share < 0.9);
     // Packed positions are off by some 1e-5, and so some pixels on edges.
-    CHECK(differing(planar, packed) < 1e-3);
+    CHECK(differing(planar, packed) < 3e-4);
     CHECK(planar != packed);
 }
 

@@ -96,7 +96,7 @@ bool near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
 
 }  // namespace
 
-TEST_CASE("clean cylinders: axis, length and radius within 1e-4 from 12 columns up, however tessellated") {
+TEST_CASE("clean cylinders: axis, length and radius within 4e-6 from 12 columns up, however tessellated") {
     std::mt19937 random(31);
     for (const int vertices : {200, 1500}) {
         each_family(vertices, [&](const Recipe& recipe) {
@@ -104,16 +104,16 @@ TEST_CASE("clean cylinders: axis, length and radius within 1e-4 from 12 columns 
             const Placing placing = test::random_placing(10 * recipe.length, random);
             const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
             const Miss off = miss(fitted, recipe, placing);
-            CHECK(off.axis < 1e-4);
-            CHECK(off.line < 1e-4);
-            CHECK(off.length < 1e-4);
-            CHECK(off.radius < 1e-4);
-            CHECK(fitted.residual < 1e-3);
+            CHECK(off.axis < 5e-7);
+            CHECK(off.line < 3e-6);
+            CHECK(off.length < 2e-6);
+            CHECK(off.radius < 4e-6);
+            CHECK(fitted.residual < 5e-4);
         });
     }
 }
 
-TEST_CASE("2 % radial noise: axis within 0.2 degrees, length and radius within 0.5 %") {
+TEST_CASE("2 % radial noise: axis within 0.2 degrees, length within 0.25 %, radius within 0.15 %") {
     std::mt19937 random(32);
     each_family(5000, [&](Recipe recipe) {
         recipe.noise = 0.02;
@@ -122,9 +122,9 @@ TEST_CASE("2 % radial noise: axis within 0.2 degrees, length and radius within 0
         const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
         const Miss off = miss(fitted, recipe, placing);
         CHECK(off.axis < 0.2 * degree);
-        CHECK(off.line < 0.005);
-        CHECK(off.length < 0.005);
-        CHECK(off.radius < 0.005);
+        CHECK(off.line < 0.003);
+        CHECK(off.length < 0.0025);
+        CHECK(off.radius < 0.0015);
         CHECK(fitted.residual < 0.025);
     });
 }
@@ -154,9 +154,9 @@ TEST_CASE("a thousand lengths away, the fit is as exact as the floats") {
         const Recipe recipe{.columns = 24, .rows = 40, .length = 10};
         const Placing placing = test::random_placing(1000 * recipe.length, random);
         const Miss off = miss(fit_to(test::placed(test::cylinder(recipe, random), placing)), recipe, placing);
-        CHECK(off.axis < 5e-4);
-        CHECK(off.length < 5e-4);
-        CHECK(off.radius < 5e-4);
+        CHECK(off.axis < 1.2e-5);
+        CHECK(off.length < 1.6e-4);
+        CHECK(off.radius < 5e-5);
     }
 }
 
@@ -168,9 +168,9 @@ TEST_CASE("the origin is the base end, a unit right-handed frame, all z in 0..L"
         const Solid solid = test::placed(test::cylinder(recipe, random), placing);
         const Cylinder fitted = fit_to(solid);
         CHECK_NOTHROW(fit::check(fitted));
-        CHECK(std::abs(glm::length(fitted.axis) - 1) < 1e-14);
-        CHECK(std::abs(glm::length(fitted.zero) - 1) < 1e-14);
-        CHECK(std::abs(glm::dot(fitted.axis, fitted.zero)) < 1e-14);
+        CHECK(std::abs(glm::length(fitted.axis) - 1) < 1e-15);
+        CHECK(std::abs(glm::length(fitted.zero) - 1) < 1e-15);
+        CHECK(std::abs(glm::dot(fitted.axis, fitted.zero)) < 1e-15);
         const bool along = glm::dot(fitted.axis, placing.turn[2]) > 0;
         CHECK(glm::length(fitted.origin - placing({0, 0, along ? 0 : 6})) < 0.02 * placing.scale);
         double low = 1e300, high = -1e300;
@@ -179,8 +179,8 @@ TEST_CASE("the origin is the base end, a unit right-handed frame, all z in 0..L"
             low = std::min(low, z);
             high = std::max(high, z);
         }
-        CHECK(std::abs(low) < 1e-10 * fitted.length);
-        CHECK(std::abs(high - fitted.length) < 1e-10 * fitted.length);
+        CHECK(std::abs(low) < 1e-14 * fitted.length);
+        CHECK(std::abs(high - fitted.length) < 1e-14 * fitted.length);
     }
 }
 
@@ -211,8 +211,8 @@ TEST_CASE("a given axis is kept, sign and all, at any length") {
         const Cylinder fitted = fit::fit_cylinder(solid.geometry(), glm::dvec3(0, 0, -length));
         CHECK(near(fitted.axis, {0, 0, -1}, 1e-15));
         CHECK(near(fitted.origin, {0, 0, 10}));
-        CHECK(fitted.length == doctest::Approx(10));
-        CHECK(fitted.radius == doctest::Approx(1));
+        CHECK(std::abs(fitted.length - 10) < 1e-12);
+        CHECK(std::abs(fitted.radius - 1) < 5e-8);
     }
     const glm::dvec3 given = glm::normalize(glm::dvec3(0.02, 0.01, 1));
     CHECK(near(fit::fit_cylinder(solid.geometry(), given).axis, given, 1e-15));
@@ -226,9 +226,9 @@ TEST_CASE("along a given axis the line runs through the middle of the circles, n
         const Placing placing = test::random_placing(50, random);
         const Solid solid = test::placed(test::cylinder(recipe, random), placing);
         const Miss off = miss(fit::fit_cylinder(solid.geometry(), placing.turn[2]), recipe, placing);
-        CHECK(off.line < 1e-4);
-        CHECK(off.length < 1e-4);
-        CHECK(off.radius < 1e-4);
+        CHECK(off.line < 3e-7);
+        CHECK(off.length < 1.3e-6);
+        CHECK(off.radius < 3e-7);
     }
 }
 
@@ -243,9 +243,9 @@ TEST_CASE("half a pipe has the whole pipe's axis") {
     }
     half.triangles = kept;
     const Miss off = miss(fit_to(half), recipe, {});
-    CHECK(off.axis < 1e-4);
-    CHECK(off.line < 1e-4);
-    CHECK(off.radius < 1e-4);
+    CHECK(off.axis < 1e-14);
+    CHECK(off.line < 2e-9);
+    CHECK(off.radius < 2e-8);
 }
 
 TEST_CASE("a shallow trough keeps its line in its own box, not in the far middle of its circle") {
@@ -296,8 +296,8 @@ TEST_CASE("a given axis through a sphere finds its sections' mean area") {
                    return glm::dvec3(p.x * std::sin(polar), p.y * std::sin(polar), std::cos(polar));
                });
     const Cylinder fitted = fit::fit_cylinder(ball.geometry(), glm::dvec3(0, 0, 1));
-    CHECK(fitted.length == doctest::Approx(2));
-    CHECK(fitted.radius == doctest::Approx(std::sqrt(2.0 / 3)).epsilon(2e-3));
+    CHECK(std::abs(fitted.length - 2) < 1e-7);
+    CHECK(std::abs(fitted.radius - std::sqrt(2.0 / 3)) < 1.4e-4);
 }
 
 TEST_CASE("the result does not depend on duplicated or unused vertices, winding or order") {
@@ -308,9 +308,9 @@ TEST_CASE("the result does not depend on duplicated or unused vertices, winding 
     const Cylinder fitted = fit_to(test::scrambled(solid));
     CHECK(near(fitted.axis, expected.axis, 1e-9));
     CHECK(near(fitted.origin, expected.origin, 1e-9 * expected.length));
-    CHECK(fitted.length == doctest::Approx(expected.length).epsilon(1e-9));
-    CHECK(fitted.radius == doctest::Approx(expected.radius).epsilon(1e-9));
-    CHECK(fitted.residual == doctest::Approx(expected.residual).epsilon(1e-6));
+    CHECK(std::abs(fitted.length / expected.length - 1) < 1e-12);
+    CHECK(std::abs(fitted.radius / expected.radius - 1) < 1e-12);
+    CHECK(std::abs(fitted.residual / expected.residual - 1) < 1e-10);
 }
 
 TEST_CASE("a body that is no cylinder follows rotation, translation and scale, and its tessellation little") {
@@ -328,10 +328,10 @@ TEST_CASE("a body that is no cylinder follows rotation, translation and scale, a
             const Placing placing = test::random_placing(30, random);
             const Solid solid = test::placed(warped(test::cylinder(recipe, random), bowling_pin), placing);
             const Cylinder fitted = fit_to(solid);
-            CHECK(test::angle_between(fitted.axis, placing.turn * expected.axis) < 2e-3);
-            CHECK(fitted.length == doctest::Approx(placing.scale * expected.length).epsilon(2e-3));
-            CHECK(fitted.radius == doctest::Approx(placing.scale * expected.radius).epsilon(5e-3));
-            CHECK(fitted.residual == doctest::Approx(expected.residual).epsilon(2e-2));
+            CHECK(test::angle_between(fitted.axis, placing.turn * expected.axis) < 4e-5);
+            CHECK(std::abs(fitted.length / (placing.scale * expected.length) - 1) < 1e-5);
+            CHECK(std::abs(fitted.radius / (placing.scale * expected.radius) - 1) < 1.3e-3);
+            CHECK(std::abs(fitted.residual / expected.residual - 1) < 5e-3);
         }
     }
 }
@@ -339,11 +339,11 @@ TEST_CASE("a body that is no cylinder follows rotation, translation and scale, a
 TEST_CASE("a prism's radius is that of its corners, an elliptic section's that of its area") {
     std::mt19937 random(40);
     const Solid prism = test::cylinder({.columns = 5, .rows = 3, .length = 9}, random);
-    CHECK(fit_to(prism).radius == doctest::Approx(1).epsilon(1e-6));
+    CHECK(std::abs(fit_to(prism).radius - 1) < 3e-8);
     for (const int columns : {16, 32, 128}) {
         const Solid flat = warped(test::cylinder({.columns = columns, .rows = 64}, random),
                                   [](glm::dvec3 p) { return glm::dvec3(2 * p.x, 0.5 * p.y, 2 * p.z); });
-        CHECK(fit_to(flat).radius == doctest::Approx(1).epsilon(columns < 100 ? 0.05 : 0.002));
+        CHECK(std::abs(fit_to(flat).radius - 1) < (columns < 100 ? 0.05 : 0.002));
     }
 }
 
@@ -355,7 +355,7 @@ TEST_CASE("a frustum's radius is exact from one row up, for it is linear") {
             const double rho = 1 - p.z / 12;
             return glm::dvec3(rho * p.x, rho * p.y, p.z);
         });
-        CHECK(fit_to(frustum).radius == doctest::Approx(std::sqrt(7.0 / 12)).epsilon(1e-3));
+        CHECK(std::abs(fit_to(frustum).radius - std::sqrt(7.0 / 12)) < 1e-8);
     }
 }
 
@@ -366,7 +366,7 @@ TEST_CASE("the residual is the relief over the radius") {
             const double rho = 1 + 0.05 * std::sin(6 * std::atan2(p.y, p.x));
             return glm::dvec3(rho * p.x, rho * p.y, p.z);
         });
-    CHECK(fit_to(fluted).residual == doctest::Approx(0.05 / std::sqrt(2.0)).epsilon(0.02));
+    CHECK(std::abs(fit_to(fluted).residual - 0.05 / std::sqrt(2.0)) < 3e-4);
 }
 
 TEST_CASE("bodies that floats cannot carry are refused") {
@@ -418,7 +418,7 @@ TEST_CASE("hostile but valid meshes end in an error or in finite numbers") {
             REQUIRE(std::string(error.what()).find("nan") == std::string::npos);
         }
     }
-    CHECK(fitted > rounds / 8);
+    CHECK(fitted > rounds / 2);
 }
 
 TEST_CASE("check of a cylinder names the field at fault") {

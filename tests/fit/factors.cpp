@@ -76,43 +76,84 @@ Change change_of(const fit::Binding& binding, const Soup& soup) {
     return change;
 }
 
-}  // namespace
-
-TEST_CASE("amplitude mesh: every real model that carries its folds keeps its own area within 0.1 %") {
-    for (const char* name : {"wine_bottle.glb", "WaterBottle.gltf", "banana.obj", "blub_open.obj",
-                             "log_01.glb", "insect_leg.glb", "cushion_02.glb", "fuze.ply", "koala.obj",
-                             "lh_trochanterfemur.stl", "l_arista.stl", "softball.obj"}) {
-        const std::filesystem::path path = test::model(name);
-        if (path.empty()) continue;
-        const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
-        const Soup read{records.positions, records.triangles};
-        if (read.positions.size() > most_vertices) {
-            MESSAGE("left out under a sanitizer: ", name);
-            continue;
-        }
-        // Bodies that are bent at rest are bound as straight: straightening stretches them, which no wrinkle
-        // mends.
-        const bool ball = std::string_view(name) == "softball.obj";  // has no long axis
-        const fit::Cylinder cylinder = fit::fit_cylinder(
-            read.geometry(), ball ? std::optional(glm::dvec3(0, 1, 0)) : std::nullopt, fit::Rest::straight);
-        const Soup soup = refined(read, cylinder);
-        fit::BindOptions options;
-        options.folds = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
-        const Change paper = change_of(fit::bind(soup.geometry(), cylinder, options), soup);
-        options.amplitude = paper::Amplitude::mesh;
-        const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
-        const Change own = change_of(binding, soup);
-        std::printf(
-            "%-24s %8zu vertices, %2d folds, bound in %6.0f ms: paper %+6.2f .. %+5.2f %%, mesh %+6.3f "
-            ".. %+5.3f %%\n",
-            name, soup.positions.size(), binding.folds(), binding.milliseconds, 100 * paper.low,
-            100 * paper.high, 100 * own.low, 100 * own.high);
-        CAPTURE(name);
-        CHECK(own.most() < 1e-3);
+/// Bound for its own area, a model that carries its folds keeps it within `most`. Bodies that are bent at
+/// rest are bound as straight: straightening stretches them, which no wrinkle mends.
+void check_area(const char* name, double most, std::optional<glm::dvec3> axis = std::nullopt) {
+    const std::filesystem::path path = test::model(name);
+    if (path.empty()) return;
+    const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
+    const Soup read{records.positions, records.triangles};
+    if (read.positions.size() > most_vertices) {
+        MESSAGE("left out under a sanitizer: ", name);
+        return;
     }
+    const fit::Cylinder cylinder = fit::fit_cylinder(read.geometry(), axis, fit::Rest::straight);
+    const Soup soup = refined(read, cylinder);
+    fit::BindOptions options;
+    options.folds = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
+    const Change paper = change_of(fit::bind(soup.geometry(), cylinder, options), soup);
+    options.amplitude = paper::Amplitude::mesh;
+    const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
+    const Change own = change_of(binding, soup);
+    std::printf(
+        "%-24s %8zu vertices, %2d folds, bound in %6.0f ms: paper %+6.2f .. %+5.2f %%, mesh %+6.3f "
+        ".. %+5.3f %%\n",
+        name, soup.positions.size(), binding.folds(), binding.milliseconds, 100 * paper.low, 100 * paper.high,
+        100 * own.low, 100 * own.high);
+    CHECK(own.most() < most);
 }
 
-TEST_CASE("amplitude mesh: a body bent at rest keeps its area when it is bent further") {
+}  // namespace
+
+TEST_CASE("amplitude mesh: wine_bottle.glb keeps its own area") {
+    check_area("wine_bottle.glb", 5e-5);
+}
+
+TEST_CASE("amplitude mesh: WaterBottle.gltf keeps its own area") {
+    check_area("WaterBottle.gltf", 2e-5);
+}
+
+TEST_CASE("amplitude mesh: banana.obj keeps its own area") {
+    check_area("banana.obj", 3.5e-5);
+}
+
+TEST_CASE("amplitude mesh: blub_open.obj keeps its own area") {
+    check_area("blub_open.obj", 7e-5);
+}
+
+TEST_CASE("amplitude mesh: log_01.glb keeps its own area") {
+    check_area("log_01.glb", 4e-5);
+}
+
+TEST_CASE("amplitude mesh: insect_leg.glb keeps its own area") {
+    check_area("insect_leg.glb", 1.1e-4);
+}
+
+TEST_CASE("amplitude mesh: cushion_02.glb keeps its own area") {
+    check_area("cushion_02.glb", 8e-5);
+}
+
+TEST_CASE("amplitude mesh: fuze.ply keeps its own area") {
+    check_area("fuze.ply", 2e-5);
+}
+
+TEST_CASE("amplitude mesh: koala.obj keeps its own area") {
+    check_area("koala.obj", 2.5e-5);
+}
+
+TEST_CASE("amplitude mesh: lh_trochanterfemur.stl keeps its own area") {
+    check_area("lh_trochanterfemur.stl", 3e-5);
+}
+
+TEST_CASE("amplitude mesh: l_arista.stl keeps its own area") {
+    check_area("l_arista.stl", 4e-5);
+}
+
+TEST_CASE("amplitude mesh: softball.obj keeps its own area") {
+    check_area("softball.obj", 2e-5, glm::dvec3(0, 1, 0));
+}
+
+TEST_CASE("amplitude mesh: banana.obj, bent at rest, keeps its area when it is bent further") {
     const std::filesystem::path path = test::model("banana.obj");
     if (path.empty()) return;
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));

@@ -55,7 +55,7 @@ TEST_CASE("normals of a cylinder's skin are its radii, of unit length at any sca
         for (std::size_t i = 0; i < normals.size(); ++i) {
             const glm::dvec3 p = glm::dvec3(solid.positions[i]) / scale;
             REQUIRE(near(normals[i], {p.x, p.y, 0}, 1e-5));
-            REQUIRE(std::abs(glm::length(glm::dvec3(normals[i])) - 1) < 1e-6);
+            REQUIRE(std::abs(glm::length(glm::dvec3(normals[i])) - 1) < 1e-7);
         }
     }
 }
@@ -84,7 +84,7 @@ TEST_CASE("hostile numbers give unit normals") {
         }
         for (int i = 0; i < 30; ++i) solid.triangles.push_back(static_cast<std::uint32_t>(random() % 10));
         for (const glm::vec3& n : normals_of(solid)) {
-            REQUIRE(std::abs(glm::length(glm::dvec3(n)) - 1) < 1e-6);
+            REQUIRE(std::abs(glm::length(glm::dvec3(n)) - 1) < 1e-7);
         }
     }
 }

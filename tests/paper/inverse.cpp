@@ -55,7 +55,7 @@ TEST_CASE("inverse of the bend: there and back, within 1e-12 L") {
         worst = std::max(worst, apart(inverse(ClosedForm(c.body, c.rest).position(v), c), v) / length);
     }
     CAPTURE(worst);
-    CHECK(worst < 1e-12);
+    CHECK(worst < 1e-14);
 }
 
 TEST_CASE("inverse of the bend: any place has one vertex, and it maps to that place") {
@@ -65,7 +65,7 @@ TEST_CASE("inverse of the bend: any place has one vertex, and it maps to that pl
         const double reach = 2 * c.body.length;
         const glm::dvec3 p{random.in(-reach, reach), random.in(-reach, reach), random.in(-reach, reach)};
         const Cylindrical v = inverse(p, c);
-        CHECK(glm::length(ClosedForm(c.body, c.rest).position(v) - p) < 1e-11 * c.body.length);
+        CHECK(glm::length(ClosedForm(c.body, c.rest).position(v) - p) < 5e-14 * c.body.length);
         CHECK(v.rho >= 0);
         CHECK(std::abs(v.beta) <= pi);
     }
@@ -82,7 +82,7 @@ TEST_CASE("inverse of the bend: the center line, the ends, and the arc's continu
             CHECK(on_line.z == doctest::Approx(u * length).epsilon(1e-12));
             CHECK(on_line.rho < 1e-13 * length);
             const Cylindrical skin{random.in(-pi, pi), u * length, c.body.radius};
-            CHECK(apart(inverse(map.position(skin), c), skin) < 1e-12 * length);
+            CHECK(apart(inverse(map.position(skin), c), skin) < 1e-14 * length);
         }
         CHECK(inverse({0, 0, 0}, c).z == 0);
         CHECK(inverse({0, 0, 0}, c).beta == 0);
@@ -123,7 +123,7 @@ TEST_CASE("inverse of the bend: a negative angle is the other direction") {
         const Case c = random.bent();
         const glm::dvec3 p = c.body.length * glm::dvec3(random.in(-1, 1), random.in(-1, 1), random.in(0, 1));
         const Case other{c.body, {-c.rest.angle, c.rest.direction + pi}};
-        CHECK(apart(inverse(p, c), inverse(p, other)) < 1e-11 * c.body.length);
+        CHECK(apart(inverse(p, c), inverse(p, other)) < 1e-14 * c.body.length);
     }
 }
 
