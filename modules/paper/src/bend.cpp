@@ -43,8 +43,8 @@ Bend bend_of(const Parameters& body, const Pose& pose) {
 }
 
 // Eq 2-5 give the center line X = z (1 - cos phi) / phi, Z = z sin phi / phi, both times 1 - kappa, and the
-// turned cross-section on it. What is computed is the displacement from rest, so that it vanishes with alpha
-// to the last bit.
+// turned cross-section on it. The displacement from rest is computed, which vanishes with alpha to the last
+// bit.
 glm::dvec3 Bend::position(const Cylindrical& rest, double wrinkle) const {
     const double c = std::cos(rest.beta - theta), s = std::sin(rest.beta - theta);
     const double phi = alpha * rest.z / length;

@@ -16,17 +16,19 @@ struct Bend {
 
     [[nodiscard]] double kappa() const { return alpha * radius / length; }
 
-    /// Where a vertex goes whose column is lifted by `wrinkle` (f), in the body frame.
+    /// Returns where `rest` goes, displaced by `wrinkle` (f) along the radius of its cross-section; body
+    /// frame.
     [[nodiscard]] glm::dvec3 position(const Cylindrical& rest, double wrinkle) const;
 
-    /// The vertex that is at `point` without a wrinkle. alpha < 2 pi.
+    /// Returns the vertex that goes to `point` without a wrinkle. alpha must be below 2 pi.
     [[nodiscard]] Cylindrical inverse(const glm::dvec3& point) const;
 };
 
-/// A vector from (e_theta, e_theta_perp, e3) to the body frame.
+/// Turns a vector from (e_theta, e_theta_perp, e3) to the body frame.
 [[nodiscard]] glm::dvec3 turned(const glm::dvec3& vector, double theta);
 
-/// The bend of `body` in `pose`. Throws std::invalid_argument as the constructor of ClosedForm documents.
+/// Returns the bend of `body` in `pose`. Throws std::invalid_argument as ClosedForm's constructor does for
+/// length, radius, folds, angle and direction.
 [[nodiscard]] Bend bend_of(const Parameters& body, const Pose& pose);
 
 }  // namespace goffer::paper

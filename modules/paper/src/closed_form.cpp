@@ -28,13 +28,14 @@ glm::dvec3 unit(const glm::dvec3& v) {
 }
 
 void require_rest(const Parameters& body) {
-    static_cast<void>(bend_of(body, {body.rest_angle, body.rest_direction}));  // throws where it cannot be
+    static_cast<void>(bend_of(body, {body.rest_angle, body.rest_direction}));  // throws if out of range
     if (!(body.rest_angle >= 0))
         throw std::invalid_argument("rest_angle is negative: turn rest_direction by pi");
     if (!(body.onset >= 0)) throw std::invalid_argument("onset is negative: it must be 0 or more");
     const bool relative = body.rest_angle != 0 || body.onset != 0;
     if (relative && body.amplitude == Amplitude::area) {
-        throw std::invalid_argument("amplitude area: not for a body bent at rest, nor with an onset");
+        throw std::invalid_argument(
+            "amplitude area: no factor is known for a body with a rest arc or an onset");
     }
 }
 
@@ -46,7 +47,7 @@ glm::dmat3 bent_frame(double c, double s, double phi) {
             sin_phi,      0, cos_phi};      // t
 }
 
-/// What the bare bend does to a vector at a vertex: turns it into `frame` and stretches it along the body.
+/// What the bare bend does to a vector at a vertex: it turns it into `frame` and stretches it along the body.
 struct BareBend {
     glm::dmat3 frame;  // in the body frame
     double stretch;

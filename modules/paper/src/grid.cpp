@@ -27,7 +27,7 @@ Grid::Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows)
         throw std::invalid_argument("the grid is " + std::to_string(columns) + " x " + std::to_string(rows) +
                                     ": it needs 3 columns and 2 rows or more");
     }
-    static_cast<void>(bend_of(body, {}));  // throws where the body's sizes are no sizes
+    static_cast<void>(bend_of(body, {}));  // throws if length, radius or folds is out of range
 }
 
 GridVertex Grid::bind(const Cylindrical& vertex) const {

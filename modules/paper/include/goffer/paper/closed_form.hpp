@@ -8,76 +8,75 @@
 
 #include <memory>
 
-/// The deformation as a closed-form map, in double and without a grid: bend (eq 2-5), wrinkle (eq 6-10), and
-/// the analytic Jacobian that carries normals and tangents. The float32 kernels are tested against it.
-/// See modules/paper/README.md, "Bend".
+/// The deformation as a closed-form map, in double and without a grid: the bend (eq 2-5), the wrinkle (eq
+/// 6-10), and the exact Jacobian, which carries normals and tangents. The float kernels are tested against
+/// it. See modules/paper/README.md, "Bend", and "Errata of the paper".
 ///
-/// Body frame: origin at the center of the base end, e3 along the axis from base to tip, e1 the zero of
-/// beta, e2 = e3 x e1. Angles are radians. Every function is pure and may be called from any thread.
-///
-/// Chen et al. 2015 (see wrinkle.hpp). Errata used: eq 5's dist is -x sin(theta) + y cos(theta), signed; eq
-/// 2's R0 lies at distance L / alpha - r from the center line, so that the outer column keeps its length.
+/// The body frame has its origin at the center of the base end; e3 points along the axis from base to tip, e1
+/// is the zero of beta, e2 = e3 x e1. Angles are radians, lengths model units. All functions are thread-safe.
 
 namespace goffer::paper {
 
-/// A vertex in cylinder coordinates: direction about the axis (rad), height 0..L, distance from the axis.
+/// A vertex in cylinder coordinates.
 struct Cylindrical {
-    double beta = 0;
-    double z = 0;
-    double rho = 0;
+    double beta = 0;  ///< direction about the axis, radians from e1 toward e2
+    double z = 0;     ///< height along the axis, 0..L on the body
+    double rho = 0;   ///< distance from the axis
 };
 
-/// A vector's components along (e_rho, e_beta, e_z) at a vertex.
+/// The components of a vector along (e_rho, e_beta, e_z) at a vertex.
 struct CylindricalVector {
     double rho = 0;
     double beta = 0;
     double z = 0;
 };
 
-/// The base cylinder and its wrinkle: what is fixed at bind.
+/// The base cylinder of one region and its wrinkle: what is fixed at bind.
 struct Parameters {
-    double length = 1;    ///< L, of the outer (never compressed) line
+    double length = 1;    ///< L, of the outer line, which a bend never shortens
     double radius = 0.1;  ///< r
     int folds = 0;        ///< k; 0: no wrinkle
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
-    double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that it is bent along at rest
-    double rest_direction = 0;  ///< theta_0
-    double onset = 0;           ///< q0: the amplitude is that of q^2 / (q + q0)
+    double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that the body is bent along at rest
+    double rest_direction = 0;  ///< theta_0 of that arc
+    double onset = 0;           ///< q0 >= 0: the amplitude is that of q^2 / (q + q0)
 };
 
-/// One instance's state. angle alpha < 0 means (|alpha|, theta + pi).
+/// What changes per frame. A negative angle alpha stands for (|alpha|, theta + pi).
 struct Pose {
     double angle = 0;
-    double direction = 0;
+    double direction = 0;  ///< theta, toward which the body bends
 };
 
-/// The map for one pose of one body. Construction solves what depends on the pose alone (m(alpha)).
+/// The map of one body in one pose. The constructor solves what depends on the pose alone. Immutable.
 class ClosedForm {
 public:
-    /// Throws std::invalid_argument where length or radius is not positive or |angle| >= length / (2 radius),
-    /// rest_angle likewise; where onset is negative; and for Amplitude::area of a body that is bent at rest
-    /// or has an onset, for which no factor is known.
+    /// Throws std::invalid_argument if length or radius is not a finite number above 0; folds, rest_angle or
+    /// onset is negative; |angle| or rest_angle is not below length / (2 radius); a direction is not finite;
+    /// or the amplitude is `area` and the body is bent at rest or has an onset, for which no factor is known.
     ClosedForm(const Parameters& body, const Pose& pose);
 
-    /// Deformed position in the body frame (eq 2-6). No division by alpha: at 0 exactly the rest position. Of
-    /// a body that is bent at rest, `rest` is where the vertex would be if straightened (to_cylindrical).
+    /// Returns the deformed position in the body frame (eq 2-6). Nothing is divided by alpha: at alpha = 0
+    /// the result is the rest position, to the last bit. For a body that is bent at rest, `rest` is the
+    /// vertex straightened (to_cylindrical).
     [[nodiscard]] glm::dvec3 position(const Cylindrical& rest) const;
 
-    /// Deformed unit normal in the body frame, from the normal at rest (of a body that is bent at rest:
-    /// straightened, see straightened_normal): inverse transpose of the Jacobian times the rest normal, the
-    /// depth weight's derivative included. Within `crease_width` of a crease of the wrinkle the one-sided
-    /// derivatives are blended linearly, so that a vertex on a crease carries the mean of both sides.
+    /// Returns the deformed unit normal in the body frame: the inverse transpose of the Jacobian times the
+    /// rest normal. For a body that is bent at rest, `rest_normal` is straightened (straightened_normal).
+    /// Within `crease_width` of a crease of the wrinkle the slopes of both sides are blended linearly, so
+    /// that a vertex on the crease carries their mean. A zero vector stays one.
     [[nodiscard]] glm::dvec3 normal(const Cylindrical& rest, const CylindricalVector& rest_normal) const;
 
-    /// Deformed tangent in the body frame: the Jacobian times the rest tangent, to unit length. Blends too.
+    /// Returns the deformed unit tangent in the body frame: the Jacobian times the rest tangent, which is
+    /// straightened and blended as normal() says.
     [[nodiscard]] glm::dvec3 tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent) const;
 
-    /// Amplitude A of the column at beta, m(alpha) included; model units.
+    /// Returns the amplitude A of the column at `beta`, with the factor m(alpha); model units.
     [[nodiscard]] double column_amplitude(double beta) const;
 
-    /// Bent position of the center line at height z, and the frame carried along it: columns (n, b, t) with n
-    /// toward theta, t along the center line, in the body frame.
+    /// Returns the bent position of the center line at height `z`, in the body frame. The wrinkle has no part
+    /// in it.
     [[nodiscard]] glm::dvec3 center(double z) const;
 
 private:
@@ -95,40 +94,46 @@ private:
     std::shared_ptr<const Wave> wave_;  // null without a wrinkle
 };
 
-/// A rest normal's components, straightened: by the transpose of the Jacobian of the bend `rest` of a body of
-/// `length` and `radius`; to unit length. `vector`: in the bent body's frame. `at`: the vertex, straightened.
-/// straightened_tangent: by the Jacobian's inverse. Both undo what normal() and tangent() do without a
-/// wrinkle. Errors as to_cylindrical.
+/// Straighten a normal or a tangent of a body that is bent by `rest` at rest. `vector`: in the body frame of
+/// the bent body. `at`: its vertex, straightened. The results have unit length. Both undo what normal() and
+/// tangent() do without a wrinkle: a normal goes by the transpose of the bend's Jacobian, a tangent by its
+/// inverse. Throw std::invalid_argument if length or radius is not a finite number above 0, |angle| is not
+/// below length / (2 radius), or the direction is not finite.
 [[nodiscard]] CylindricalVector straightened_normal(const glm::dvec3& vector, const Cylindrical& at,
                                                     double length, double radius, const Pose& rest);
 [[nodiscard]] CylindricalVector straightened_tangent(const glm::dvec3& vector, const Cylindrical& at,
                                                      double length, double radius, const Pose& rest);
 
-/// Half-width of the blend at the creases. Across the outer line (where the amplitude has a corner) the sign
-/// of h = cos((beta - theta) / 2) is replaced by clamp(h / crease_width, -1, 1); at mid-height the sign of x
-/// = 2 z / L - 1 by clamp(x / crease_width, -1, 1). About 0.1 degrees, and a thousandth of the half length.
+/// Half-width of the blend at the creases. Across the outer line, where the amplitude has a corner, the sign
+/// of h = cos((beta - theta) / 2) is replaced by clamp(h / crease_width, -1, 1): the blend reaches 0.11
+/// degrees to either side. At mid-height the sign of x = 2 z / L - 1 is replaced by clamp(x / crease_width,
+/// -1, 1): the blend reaches a thousandth of the half length.
 inline constexpr double crease_width = 1e-3;
 
-/// Depth weight w(rho) = min(1, 2 rho / r): the wrinkle fades toward the axis, so that inner parts keep
-/// their side.
+/// Returns the depth weight w(rho) = min(1, 2 rho / r), with which the wrinkle fades toward the axis, so that
+/// inner parts do not cross it. rho >= 0, radius > 0.
 [[nodiscard]] double depth_weight(double rho, double radius);
 
-/// Wrinkle shape with sign of slope along z: dg/dz at height z, blended at mid-height as `crease_width` says.
+/// Returns dg/dz, the slope of the wrinkle's shape at height `z` (0..length), blended at mid-height as
+/// `crease_width` says.
 [[nodiscard]] double shape_slope_z(Profile profile, int folds, double length, double z);
 
-/// Cylinder coordinates of a point of the body frame, and back. beta is 0 on the axis.
+/// Converts a point of the body frame to cylinder coordinates, and back. beta is within -pi..pi, 0 on the
+/// axis.
 [[nodiscard]] Cylindrical to_cylindrical(const glm::dvec3& point);
 [[nodiscard]] glm::dvec3 from_cylindrical(const Cylindrical& point);
 
-/// Cylinder coordinates of a point of a body of `length` L and `radius` r that is bent at rest: the inverse
-/// of the bend (eq 2-5) in `rest`, without a wrinkle. The point is in the body frame of the bent body: origin
-/// at the center of the base end, e3 the center line's tangent there.
+/// Returns the straightened cylinder coordinates of a point of a body that is bent by `rest` at rest: the
+/// inverse of the bend (eq 2-5), without a wrinkle. `point` is in the body frame of the bent body, whose e3
+/// is the tangent of the center line at the base end.
 ///
-/// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The
-/// whole circle is shared out so that the gap between tip and base is cut in its middle. beta is 0 on the
-/// axis, else within -pi..pi. Nothing cancels at small angles: at 0 it is exactly to_cylindrical(point).
-/// Throws std::invalid_argument where length or radius is not positive, or where |angle| is not below length
-/// / (2 radius) and below 2 pi, beyond which one place is that of two heights.
+/// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The gap
+/// between tip and base is divided in its middle: one half lies beyond the tip, the other before the base.
+/// beta is within -pi..pi, 0 on the axis. Nothing cancels at small angles: at angle 0 the result is
+/// to_cylindrical(point), to the last bit.
+///
+/// Throws std::invalid_argument if length or radius is not a finite number above 0, the direction is not
+/// finite, or |angle| is not below both length / (2 radius) and 2 pi, where one place would have two heights.
 [[nodiscard]] Cylindrical to_cylindrical(const glm::dvec3& point, double length, double radius,
                                          const Pose& rest);
 

@@ -6,50 +6,53 @@
 #include <span>
 #include <vector>
 
-/// The wrinkle curve with its quadrature made ready, for those who solve eq 7 more than once. The functions
-/// of wrinkle.hpp make a wave anew on every call; this one is made once and then shared.
+/// The wrinkle curve with its quadrature, for callers that solve eq 7 more than once. The functions of
+/// wrinkle.hpp make a wave on every call.
+/// See modules/paper/README.md, "Wrinkle".
 
 namespace goffer::paper {
 
-/// A wrinkled column as a fraction of the half length: its amplitude S a (eq 7), and how that grows with the
-/// square root of the squeeze. In sqrt(q) the amplitude is smooth down to q = 0, where it starts as a
-/// straight line.
+/// The wrinkle of a column, as a fraction of the half length. In sqrt(q) the amplitude is smooth down to
+/// q = 0, where it starts as a straight line.
 struct Column {
-    double amplitude = 0;  ///< S a = 2 A / L
-    double slope = 0;      ///< d(S a) / d sqrt(q); 0 <= q, finite at 0
+    double amplitude = 0;  ///< S a = 2 A / L (eq 7)
+    double slope = 0;      ///< d(S a) / d sqrt(q), finite at q = 0
 };
 
-/// How fine a wave's quadrature is, relative to the length and the area that are computed with it.
+/// How fine the quadrature of a wave is: the relative error of the lengths and areas that are computed with
+/// it.
 enum class Accuracy {
     full,   ///< 1e-12 up to a squeeze of 0.999
-    table,  ///< 1e-8 up to a squeeze of 0.99, at half the cost
+    table,  ///< 1e-8 up to a squeeze of 0.99, with fewer nodes
 };
 
-/// The curve g(u) of one profile and number of folds, sampled for quadrature over u in 0..1. Immutable: any
-/// number of threads may use one wave.
+/// The curve g(u) of one profile and number of folds, sampled for quadrature over u in 0..1. Immutable;
+/// thread-safe.
 class Wave {
 public:
-    /// A quadrature node: the integral of F(u) over 0..1 is the sum of weight * F.
+    /// A node of the quadrature: the integral of F(u) over 0..1 is the sum of weight * F.
     struct Node {
         double weight;
         double shape;  ///< g(u)
         double slope;  ///< g'(u)
     };
 
-    /// A wave that is fine enough for every squeeze in 0 <= q <= largest_squeeze < 1.
-    /// Throws std::invalid_argument where folds < 1 or largest_squeeze is out of range.
+    /// Makes a wave that has `accuracy` for squeezes up to `largest_squeeze`.
+    /// Throws std::invalid_argument if folds < 1 or largest_squeeze is not in 0 <= q < 1.
     Wave(Profile profile, int folds, double largest_squeeze, Accuracy accuracy = Accuracy::full);
 
-    /// Solves eq 7: see relative_amplitude in wrinkle.hpp.
+    /// Solves eq 7 for the relative amplitude a, as relative_amplitude() in wrinkle.hpp does. Above
+    /// largest_squeeze the result is less accurate. Throws std::invalid_argument if `squeeze` is not in
+    /// 0 <= q < 1.
     [[nodiscard]] double relative_amplitude(double squeeze) const;
 
-    /// The column at `squeeze` (same domain and errors as relative_amplitude).
+    /// Returns the wrinkle of the column at `squeeze`. Domain and errors as relative_amplitude().
     [[nodiscard]] Column column(double squeeze) const;
 
-    /// The nodes, in order of u. Valid as long as the wave.
+    /// Returns the nodes in order of u, valid as long as the wave.
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
-    /// Integrals of g(u)^2 and g'(u)^2 over u in 0..1.
+    /// Return the integrals of g(u)^2 and of g'(u)^2 over u in 0..1.
     [[nodiscard]] double shape_power() const { return shape_power_; }
     [[nodiscard]] double slope_power() const { return slope_power_; }
 
