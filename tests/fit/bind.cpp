@@ -144,6 +144,17 @@ TEST_CASE("within the largest angle nothing folds through itself") {
     }
 }
 
+TEST_CASE("folds that nobody asked for are never more than bind takes") {
+    Random random(24);
+    const auto folds = [&](double slenderness) {
+        const TestMesh mesh = random_mesh(random, slenderness, 1, 3, static_cast<int>(9 * slenderness), 0);
+        REQUIRE(fit::folds_capacity(mesh.geometry(), mesh.cylinder) > fit::BindOptions::max_folds);
+        return fit::bind(mesh.geometry(), mesh.cylinder).folds();
+    };
+    CHECK(folds(160) == fit::BindOptions::max_folds);
+    CHECK(folds(300) == 0);  // 64 of the 150 that suit it would reach past the axis
+}
+
 TEST_CASE("bind refuses what it cannot use, and names it") {
     Random random(22);
     const TestMesh good = random_mesh(random, 10, 1, 12, 17, 0);

@@ -18,14 +18,15 @@ namespace {
 
 void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     if (!options.regions.empty()) fit::check(options.regions);
-    if (!(onset >= 0 && onset <= 1)) throw Error("onset: " + text(onset) + " is outside 0..1");
+    if (!(onset >= 0 && onset <= 1))
+        throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0)) {
-        throw Error(std::string("amplitude: area is not for a body ") +
-                    (onset != 0 ? "with an onset" : "bent at rest") + "; use mesh");
+        throw Error(std::string("amplitude: area cannot be had for a body ") +
+                    (onset != 0 ? "with an onset" : "that is bent at rest") + "; use mesh");
     }
 }
 
-/// The regions' places on the axis, and what each can carry.
+/// The regions' places on the axis, and how many folds each has and can carry.
 std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylinder,
                                 const BindOptions& options, std::vector<RestRegion>& rest) {
     std::vector<RegionBinding> found;
@@ -34,7 +35,8 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
     for (const RegionOptions& region : regions_of(options)) {
         const Cylinder stretch = stretch_of(cylinder, region.share * cylinder.length);
         const int capacity = rows.folds(stretch.length);
-        const int folds = none ? 0 : region.folds.value_or(sensible_folds(stretch, capacity));
+        const int suitable = sensible_folds(stretch, std::min(capacity, BindOptions::max_folds));
+        const int folds = none ? 0 : region.folds.value_or(suitable);
         const double start = rest.empty() ? 0 : rest.back().start + rest.back().length;
         rest.push_back({start, stretch.length, folds});
         found.push_back({stretch.length, folds, capacity});
@@ -48,15 +50,15 @@ double largest_rho(std::span<const bend::RestVertex> vertices) {
     return largest;
 }
 
-/// A region as it is bound, and what its largest angle depends on.
+/// A region to be bound, and what its largest angle depends on.
 struct Plan {
     const Cylinder& cylinder;
     const BindOptions& options;
     const RestRegion& rest;
     double largest_rho;
 
-    /// With the wrinkle `factor` times as deep. At rest there is no wrinkle, and so room for the arc that the
-    /// body has.
+    /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
+    /// no wrinkle at rest.
     [[nodiscard]] double max_angle(double factor) const {
         return std::max(cylinder.rest_angle * rest.length / cylinder.length,
                         largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
@@ -108,8 +110,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 void check(std::span<const RegionOptions> regions) {
     if (regions.size() > bend::max_regions) {
-        throw Error("regions: " + std::to_string(regions.size()) + " of them, and a body has at most " +
-                    std::to_string(bend::max_regions));
+        throw Error("regions: there are " + std::to_string(regions.size()) + " of them; give " +
+                    std::to_string(bend::max_regions) + " at most");
     }
     double sum = 0;
     for (const RegionOptions& region : regions) {
@@ -120,7 +122,7 @@ void check(std::span<const RegionOptions> regions) {
         sum += region.share;
     }
     if (std::fabs(sum - 1) > 1e-6) {
-        throw Error("regions: the sum of their shares adds up to " + text(sum) + " of the length; make it 1");
+        throw Error("regions: their shares add up to " + text(sum) + " of the length; make it 1");
     }
 }
 
@@ -170,7 +172,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     const auto start = std::chrono::steady_clock::now();
     check(level);
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
-        throw Error("rig: its body is empty or another's; give what bind returned");
+        throw Error("rig: its body is empty or does not have its regions; give what bind returned");
     RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places_of(rig));
     const std::span<const bend::RegionInput> own = rig.body.region_inputs();
     std::vector<bend::RegionInput> regions(own.begin(), own.end());
