@@ -88,7 +88,7 @@ TEST_CASE("bad regions: wrong usage, one line, and nothing written") {
     std::string many = "0.03";
     for (int i = 0; i < 32; ++i) many += ",0.03";
     for (const Bad& bad : {
-             Bad{{"--regions", "0.3,0.3"}, "adds up to 0.6"},
+             Bad{{"--regions", "0.3,0.3"}, "add up to 0.6"},
              Bad{{"--regions", "0.5,0,0.5"}, "must be above 0"},
              Bad{{"--regions", "0.5,x"}, "'x'"},
              Bad{{"--regions", "0.5,,0.5"}, "''"},

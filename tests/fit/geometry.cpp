@@ -61,7 +61,7 @@ TEST_CASE("faults of triangles are named with index and mend") {
     solid.triangles[7] = 0xffffffffu;
     CHECK(has(fault(solid.geometry()), "triangle 2 uses vertex 4294967295"));
     solid.triangles.pop_back();
-    CHECK(has(fault(solid.geometry()), "11 indices are no multiple of 3"));
+    CHECK(has(fault(solid.geometry()), "11 indices are not a multiple of 3"));
 }
 
 TEST_CASE("numbers that are not finite are named with their vertex, used or not") {

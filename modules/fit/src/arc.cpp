@@ -13,15 +13,15 @@ namespace {
 
 using Row = Eigen::Matrix<double, 6, 1>;
 
-/// The vertices of a cloud about its centroid and a direction.
+/// A cloud of vertices, seen along a direction through its centroid.
 struct Chord {
     Line line;
     double spread;                // variance along it
     std::array<Vector3d, 5> bow;  // directions in which the body may bow off it, unit
 };
 
-/// Most arcs bow as n in x, y = a + m z + n z^2 says, in least squares. Where a stout body's caps drown that,
-/// it is one of the main directions of the surface across the chord.
+/// Most arcs bow in the direction of n in (x, y) = a + m z + n z^2, in least squares. Where the caps of a
+/// stout body hide that, they bow in one of the main directions of the surface across the chord.
 Chord chord_of(const Body& cloud, const Vector3d& axis) {
     Vector3d centroid = Vector3d::Zero();
     for (const Vector3d& p : cloud.points) centroid += p / static_cast<double>(cloud.points.size());
@@ -45,7 +45,7 @@ Chord chord_of(const Body& cloud, const Vector3d& axis) {
     return {line, normal(1, 1) / normal(0, 0), {across(by.row(2)), p, -p, q, -q}};
 }
 
-/// The arc of `angle` with that centroid and that spread.
+/// The arc of `angle` that bows toward `bow`, with the centroid and the spread of the chord.
 Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
     const double half = angle / 2;
     const double radius = std::sqrt(2 * chord.spread / (1 - std::sin(angle) / angle));
@@ -53,8 +53,8 @@ Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
     return line_through(chord.line.point - inward * bow, chord.line.axis(), bow / radius);
 }
 
-/// A body's sections, gathered in a few slices along its line: a bottle's neck is thinner than its belly, and
-/// none of that is a bend.
+/// The sections of a body, gathered in a few slices along its line: that a bottle's neck is thinner than its
+/// belly must not count as a bend.
 class Slices {
 public:
     Slices(const Body& body, const View& view) : body_(body), view_(view) {
@@ -114,7 +114,7 @@ Row regress(const Body& body, const Line& line) {
         products.topRightCorner<6, 1>());
 }
 
-/// Moves, tilts and bows the line until it is that of the sections' circles, or for `steps`.
+/// Moves, tilts and bows the line until the centers of the sections' circles lie on it, in `steps` at most.
 Line settle(const Body& body, const Line& start, int steps) {
     constexpr double settled = 1e-6;
     Line line = start;
@@ -128,11 +128,11 @@ Line settle(const Body& body, const Line& start, int steps) {
     return line;
 }
 
-/// One below a full turn whose inner side has a length; false for NaN.
+/// Whether a body can have this arc: below a full turn, with a length left on its inner side. False for NaN.
 bool possible(const Fitted& arc) {
     const double angle = arc.angle(), radius = arc.section.radius;
     const double length = arc.high - arc.low + angle * radius;  // of the outer line
-    constexpr double inside = 1 - 1e-4;  // what is left of the inner line must be a length
+    constexpr double inside = 1 - 1e-4;                         // leaves something of the inner line
     return angle < 2 * std::numbers::pi && angle * 2 * radius < inside * length;
 }
 
@@ -143,8 +143,8 @@ std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {
     return possible(arc) ? std::optional(arc) : std::nullopt;
 }
 
-/// How far the sections about a line are from circles about it: rms of rho's difference from its mean in a
-/// slice. However thick the body is here and there, this is 0 where all sections are circles about the line.
+/// How far the sections about a line are from circles about it: the rms of rho's difference from its mean in
+/// a slice. It is 0 if all sections are circles about the line, whatever their radii.
 double roughness(const Body& body, const Line& line) {
     const View view(body, line);
     std::array<Sums<2>, Slices::count> slices{};
@@ -161,13 +161,13 @@ double roughness(const Body& body, const Line& line) {
     return std::sqrt(std::max(0.0, variance) / weight);
 }
 
-/// Whether the arc is an arc, and better than the straight line by more than noise and reliefs would make it.
-/// `slack`: 1, or more where both are known roughly.
+/// Whether the body is a tube about the arc, and that by more than noise or a relief would make it better
+/// than one about the straight line. `slack`: 1, or more where both lines are known only roughly.
 bool convincing(const Body& body, const Fitted& arc, const Line& straight, double slack) {
-    constexpr double better = 0.8;      // of the straight line's roughness
-    constexpr double least_sag = 0.05;  // of the radius: what bends less is straight
-    // Of the radius: others are no tubes. Few are bent by more than a half turn, but such an arc finds
-    // something about most that are not.
+    constexpr double better = 0.8;      // share of the straight line's roughness
+    constexpr double least_sag = 0.05;  // share of the radius: what bends less is straight
+    // As a share of the radius: rougher bodies are no tubes. Beyond a half turn less is allowed, since few
+    // bodies are bent so far, but such an arc fits many others a little.
     const double roughest = arc.angle() < std::numbers::pi ? 0.3 : 0.2;
     const double rough = roughness(body, arc.line);
     const double sag = (arc.high - arc.low) * arc.angle() / 8;
@@ -175,7 +175,7 @@ bool convincing(const Body& body, const Fitted& arc, const Line& straight, doubl
            rough < slack * better * roughness(body, straight);
 }
 
-/// The best of arcs that bend this way and that.
+/// The best of arcs that begin with several angles and directions.
 std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
     constexpr double degree = std::numbers::pi / 180;
     constexpr int few_steps = 5;

@@ -22,15 +22,16 @@ namespace {
 /// than along the next: an open cylinder of L = 3 r does by 1.22, a sphere, a cube and a disc by 1.00.
 constexpr double long_enough = 1.1;
 
-/// Least squares speak about bodies that are cylinders but for a relief. Others keep their principal axis.
+/// Least squares can tell the axis of a body that is a cylinder but for a relief. Others keep their principal
+/// axis. This is the largest residual of the former.
 constexpr double nearly_round = 0.1;
 
 /// The long axis, signed so that its largest component is positive.
 Vector3d long_axis(const Principal& principal) {
     if (principal.distinct < long_enough) {
         throw Error("the mesh has no long axis: its surface spreads " + text(principal.distinct) +
-                    " times as far along its longest direction as along the next, " + text(long_enough) +
-                    " is needed; name the axis with --axis x|y|z|X,Y,Z");
+                    " times as far along its longest direction as along the next, and " + text(long_enough) +
+                    " is needed; give an axis (on the command line: --axis x|y|z|X,Y,Z)");
     }
     return principal.axis;
 }
@@ -43,8 +44,8 @@ Vector3d given_axis(const glm::dvec3& axis) {
     return direction.stableNormalized();
 }
 
-/// Keeps the start where settling comes to nothing, or to a line as far away as the middle of a shallow
-/// trough's circle.
+/// Settles the line, but keeps the start where that fails, or leads as far away as the center of a shallow
+/// trough's circle is.
 Line settled_near(const Body& body, const Line& start, bool tilt) {
     constexpr double far = 0.8;  // of the circle's radius: an arc of less than 130 degrees
     const Settled settled = settle(body, start, tilt);
@@ -54,14 +55,14 @@ Line settled_near(const Body& body, const Line& start, bool tilt) {
 
 /// Tilts a long axis where the body is so round that this makes it more exact.
 Line straighten(const Body& body, const Line& start) {
-    constexpr double hopeless = 3 * nearly_round;  // saves the time
+    constexpr double hopeless = 3 * nearly_round;  // tilting is not worth its time
     if (section(body, start).residual > hopeless) return start;
     const Line tilted = settled_near(body, start, true);
     return section(body, tilted).residual < nearly_round ? tilted : start;
 }
 
-/// The same body from its other end, if that is where `axis` says that its tip lies. Without an axis, the
-/// largest component of the direction from base to tip is positive.
+/// The fit with base and tip exchanged if `axis` asks for it. Without an axis, the largest component of the
+/// direction from base to tip is made positive.
 Fitted toward(const std::optional<glm::dvec3>& axis, const Fitted& fitted) {
     const Vector3d chord = moved_along(fitted.line, (fitted.low + fitted.high) / 2).axis();
     const double along = axis ? chord.dot(given_axis(*axis)) : chord[first_largest(chord.cwiseAbs())];
@@ -70,7 +71,7 @@ Fitted toward(const std::optional<glm::dvec3>& axis, const Fitted& fitted) {
     return {line_through(line.point, -line.axis(), line.bow), -fitted.high, -fitted.low, fitted.section};
 }
 
-/// The arc, if there is one and its ends lie from each other about as `axis` says.
+/// The arc, if there is one and its chord has about the direction of `axis`.
 std::optional<Fitted> arc_instead(const Body& body, const Principal& principal, const Line& straight,
                                   const std::optional<glm::dvec3>& axis) {
     constexpr double within = 0.7;  // cosine of 45 degrees
@@ -82,7 +83,7 @@ std::optional<Fitted> arc_instead(const Body& body, const Principal& principal, 
     return std::abs(chord.dot(given_axis(*axis))) < within ? std::nullopt : arc;
 }
 
-/// From the base end, in model space.
+/// The fit as a cylinder in model space.
 Cylinder cylinder_of(const Body& body, const Fitted& fitted) {
     const Line base = moved_along(fitted.line, fitted.low);
     const double angle = fitted.angle();
@@ -99,17 +100,18 @@ Cylinder cylinder_of(const Body& body, const Fitted& fitted) {
     return cylinder;
 }
 
-/// A float at these coordinates has to tell the axis from the skin, and base from tip.
+/// Float at these coordinates has to tell the axis from the skin, and base from tip.
 void check_size(const Cylinder& cylinder, const Body& body) {
     using Float = std::numeric_limits<float>;
     const double reach = body.middle.cwiseAbs().maxCoeff() + body.size;
     const double least = std::max<double>(4 * double{Float::epsilon()} * reach, Float::min());
     const bool thin = cylinder.radius < least;
     if (!thin && cylinder.length >= least) return;
-    throw Error("the mesh's " + std::string(thin ? "radius " : "length ") +
-                text(thin ? cylinder.radius : cylinder.length) + " about the axis " +
-                text(eigen(cylinder.axis)) + " is too small for floats at coordinates up to " + text(reach) +
-                "; move the mesh to the origin, scale it up or name another axis with --axis");
+    throw Error(
+        "the mesh's " + std::string(thin ? "radius " : "length ") +
+        text(thin ? cylinder.radius : cylinder.length) + " about the axis " + text(eigen(cylinder.axis)) +
+        " is too small for floats at coordinates up to " + text(reach) +
+        "; move the mesh to the origin, scale it up or give another axis (on the command line: --axis)");
 }
 
 void check_unit(const glm::dvec3& v, std::string_view name) {
@@ -124,12 +126,12 @@ void check_positive(double value, std::string_view name) {
     throw Error("cylinder: " + std::string(name) + " is " + text(value) + "; give a finite number above 0");
 }
 
-/// An arc whose inner line has a length, and which does not come round to where it began.
+/// The inner line of the arc must have a length, and the arc must not come around to where it began.
 void check_rest_angle(const Cylinder& cylinder) {
     const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
     if (cylinder.rest_angle >= 0 && cylinder.rest_angle < most) return;
     throw Error("cylinder: rest_angle " + text(cylinder.rest_angle) + " is outside 0.." + text(most) +
-                ", what a body of that length and radius can have; give radians");
+                ", the range for this length and radius; give radians within it");
 }
 
 void check_finite(const Vector3d& value, std::string_view name) {
@@ -170,7 +172,7 @@ void check(const Cylinder& cylinder) {
     constexpr double tolerance = 1e-3;
     if (std::abs(glm::dot(cylinder.axis, cylinder.zero)) > tolerance) {
         throw Error("cylinder: zero " + text(eigen(cylinder.zero)) + " is not orthogonal to axis " +
-                    text(eigen(cylinder.axis)) + "; take its part along the axis away");
+                    text(eigen(cylinder.axis)) + "; subtract its part along the axis");
     }
 }
 

@@ -74,9 +74,9 @@ double solve(const Surface& surface, std::span<const std::uint32_t> triangles, d
     return best;
 }
 
-/// The square of that factor; below 0, as if area grew evenly with it, where even the bare bend has more than
-/// is wanted. What lies between is then interpolated well up to where wrinkles begin. Where there is nothing
-/// to wrinkle, the guess.
+/// The square of that factor. Where even the bare bend has more area than is wanted, it is below 0, as if
+/// area grew evenly with the square, so that the table interpolates well up to where wrinkles begin. Where
+/// there is nothing to wrinkle it is that of the guess.
 double solve_square(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted,
                     double guess) {
     constexpr double least = -4;
@@ -87,7 +87,7 @@ double solve_square(const Surface& surface, std::span<const std::uint32_t> trian
     return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
 }
 
-/// Triangles of which two corners or more are the region's, as vertices of the body.
+/// The triangles that have two corners or more in the region, as vertices of the body.
 std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> place) {
     std::vector<std::uint32_t> own;
@@ -104,14 +104,14 @@ std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<co
     return own;
 }
 
-/// Poses of a body, and what its surface is in them.
+/// Bends a body, one region at a time.
 class Poser {
 public:
     explicit Poser(const bend::Body& body) : body_(body) {
         for (std::size_t r = 0; r < body.region_count(); ++r) poses_.push_back(body.rest_pose(r));
     }
 
-    /// The body at rest but for one region.
+    /// The surface with all regions at rest but one.
     void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {
         poses_[region] = pose;
         deform(0, surface.bare);
@@ -129,7 +129,7 @@ private:
         job.body = &body_;
         job.poses = poses_;
         job.wrinkle_weight = wrinkle_weight;
-        job.transform[3] = -glm::vec3(body_.origin());  // so that no digits go to a distance from the origin
+        job.transform[3] = -glm::vec3(body_.origin());  // so that no digits are lost far from the origin
         job.positions = interleaved<3>(&positions[0].x, positions.size());
         bend::run(job);
     }
@@ -138,7 +138,7 @@ private:
     std::vector<bend::Pose> poses_;
 };
 
-/// One direction's column of a region's table.
+/// Solves one direction's column of a region's table.
 void solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
                      std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table) {
     Poser poser(body);

@@ -40,13 +40,13 @@ void check_triangles(std::span<const std::uint32_t> triangles, std::size_t verti
     }
     if (triangles.size() % 3 != 0) {
         throw Error("triangles: " + std::to_string(triangles.size()) +
-                    " indices are no multiple of 3; give three per triangle");
+                    " indices are not a multiple of 3; give three per triangle");
     }
     const auto bad = std::ranges::find_if(triangles, [vertices](std::uint32_t i) { return i >= vertices; });
     if (bad == triangles.end()) return;
     throw Error("triangle " + std::to_string((bad - triangles.begin()) / 3) + " uses vertex " +
                 std::to_string(*bad) + ", but the mesh has " + std::to_string(vertices) +
-                " (counted from 0); mend the index or add the vertex");
+                " vertices, counted from 0; correct the index or add the vertex");
 }
 
 /// The used vertex farthest out by `distance`, and how far.
@@ -68,8 +68,8 @@ std::pair<glm::dvec3, double> farthest(const Geometry& geometry, Distance distan
     throw Error(message.str());
 }
 
-/// Grows a point to a line to a plane to a solid by the farthest vertex each time. What is within a few
-/// roundings of a float at these coordinates counts as nothing: a plane that was turned is still a plane.
+/// Grows a point to a line, a plane and a solid, by the farthest vertex each time. A distance within a few
+/// roundings of float at these coordinates counts as none: a plane that was rotated is still a plane.
 void check_spread(const Geometry& geometry) {
     const glm::dvec3 a = geometry.positions[geometry.triangles[0]];
     const double reach = farthest(geometry, [](const glm::dvec3& p) { return glm::length(p); }).second;

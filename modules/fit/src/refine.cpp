@@ -21,7 +21,7 @@ constexpr int most_folds = 1 << 20;   // as folds_capacity
 constexpr int rows_per_stretch = 16;  // 8 a fold, folds per half length
 constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
 
-/// Heights counted in rows: a broken line, whose inverse is wanted too.
+/// Heights counted in rows: a piecewise linear function, with its inverse.
 class RowScale {
 public:
     explicit RowScale(std::span<const Stretch> stretches) {
@@ -39,7 +39,7 @@ public:
         return piece.row + (z - piece.z) * piece.rate;
     }
 
-    /// The height of a row; of a stretch without folds, all of which is one row, its upper end.
+    /// The height of a row. All of a stretch without folds is one row, whose height is the upper end.
     [[nodiscard]] double height(double row) const {
         const Piece& piece = last_before([row](const Piece& p) { return p.row <= row && p.rate > 0; });
         return piece.rate > 0 ? piece.z + (row - piece.row) / piece.rate : piece.z;
@@ -63,7 +63,7 @@ struct Edge {
     std::uint32_t a, b;
 };
 
-/// A triangle's corners from bottom to top (by rows), and whether that order turns as the triangle does.
+/// The corners of a triangle from bottom to top (by rows), and whether this order winds as the triangle does.
 struct Upright {
     std::uint32_t low, middle, high;
     bool same_turn;
@@ -71,8 +71,8 @@ struct Upright {
 
 class Refiner {
 public:
-    /// `arc`: from model space to the coordinates that heights are of, where edges are not straight in them;
-    /// else null.
+    /// `arc`: maps model space to the coordinates that heights are measured in, if edges are curved in these;
+    /// null if heights change evenly along edges.
     Refiner(const Geometry& geometry, std::span<const double> heights, const RowScale& scale,
             const Straightening* arc)
         : triangles_(geometry.triangles),
@@ -146,8 +146,8 @@ void Refiner::emit(std::size_t parent, const Upright& corners, std::array<std::u
     out_.parents.push_back(static_cast<std::uint32_t>(parent));
 }
 
-/// The first of the `count` new vertices on an edge, which follow it upward. Heights are the same on both
-/// sides of a seam, so both name the edge that way and make the same sums.
+/// The first of the `count` new vertices on an edge; the others follow it upward. On a seam both sides have
+/// the same heights, so both name the edge in this direction and get the same sums.
 std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     const auto next = static_cast<std::uint32_t>(points_.size());
     const std::uint64_t key = (std::uint64_t{edge.a} << 32) | edge.b;
@@ -166,8 +166,9 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     return entry->second;
 }
 
-/// Where an edge, from a up to b, is at a height, as a share. About an arc's center a straight edge turns one
-/// way, but not evenly: by false position (the Illinois way), which brackets it whatever comes.
+/// Where an edge, from a up to b, reaches a height, as a share of the edge. About an arc's center a straight
+/// edge turns one way, but not evenly: solved by false position (the Illinois variant), which keeps a
+/// bracket.
 double Refiner::place(Edge edge, double height) const {
     constexpr int most_steps = 60;
     double low = 0, high = 1;
@@ -198,8 +199,8 @@ void Refiner::append_inner(std::vector<std::uint32_t>& chain, Edge upward) {
     for (std::uint32_t i = 0; i < count; ++i) chain.push_back(first + i);
 }
 
-/// Whether the next piece takes a step up the left side. The side that lags may always step; the other one
-/// may where the new cross edge stays within a row. Of two that may, the shorter cross edge is taken.
+/// Whether the next piece takes a step up the left side. The side that lags may always step, the other one if
+/// the new cross edge stays within a row. If both may, the shorter cross edge decides.
 bool Refiner::left_next(std::size_t i, std::size_t j) const {
     if (j + 1 == right_.size()) return true;
     if (i + 1 == left_.size()) return false;
@@ -213,9 +214,9 @@ bool Refiner::left_next(std::size_t i, std::size_t j) const {
     return by_left == by_right ? left_lags : by_left < by_right;
 }
 
-/// One side of an upright triangle is its longest edge, the other one the other two; pieces fill the space
-/// between, from the bottom up, as a zip is closed. Each has one side's edge and, across, a vertex of the
-/// other side that is within a row of both ends.
+/// One side of an upright triangle is the edge from low to high, the other side is the other two edges.
+/// Pieces fill the space between from the bottom up, like a zipper: each has an edge of one side and a vertex
+/// of the other side that is within a row of both its ends.
 void Refiner::cut(std::size_t triangle) {
     const Upright corners = upright(triangle);
     if (pieces({corners.low, corners.high}) == 1) {
@@ -246,9 +247,9 @@ void check_stretches(std::span<const Stretch> stretches) {
         const std::string which = stretches.size() > 1 ? " of stretch " + std::to_string(i) : "";
         const auto [length, folds] = stretches[i];
         if (!(length > 0) || !std::isfinite(length))
-            throw Error("length" + which + " is " + text(length) + "; give one above 0");
+            throw Error("length" + which + " is " + text(length) + "; give a finite length above 0");
         if (folds < 0 || folds > most_folds)
-            throw Error("folds" + which + " are " + std::to_string(folds) + "; give 0 to " +
+            throw Error("folds" + which + ": " + std::to_string(folds) + "; give 0 to " +
                         std::to_string(most_folds));
     }
 }
@@ -263,7 +264,7 @@ void check_heights(std::span<const double> heights, std::size_t vertices) {
                     " is NaN or infinite; give z in model units");
 }
 
-/// `arc` as Refiner's.
+/// `arc` is that of Refiner's constructor.
 Refinement refined(const Geometry& geometry, std::span<const double> heights,
                    std::span<const Stretch> stretches, const Straightening* arc,
                    const RefineOptions& options) {

@@ -21,7 +21,7 @@ bool usable_direction(const glm::dvec3& v) {
     return std::isfinite(length) && length > 1e-12;
 }
 
-/// The vertices that no triangle uses: nobody's surface.
+/// The vertices that no triangle uses.
 class Unused {
 public:
     explicit Unused(const Geometry& geometry) : geometry_(geometry) {}
@@ -82,7 +82,7 @@ bend::RestVector any_orthogonal(const bend::RestVector& n) {
     return {tangent.x, tangent.y, tangent.z};
 }
 
-/// Normals of a geometry: its own, or made where it has none or one of no length.
+/// The normals of a geometry: its own, or made ones where it has none or one without length.
 class Normals {
 public:
     explicit Normals(const Geometry& geometry) : geometry_(geometry) {}

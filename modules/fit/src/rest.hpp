@@ -25,13 +25,13 @@ struct RestRegion {
     int folds = 0;
 };
 
-/// The regions that `bound` was planned with.
+/// Returns the regions that `binding` was made with.
 [[nodiscard]] std::vector<RestRegion> places_of(const Binding& binding);
 
-/// The base's axes in model space: columns e1, e2, e3.
+/// Returns the axes of the base in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
 
-/// From model space to the base's coordinates: those of the straightened body. `cylinder` must outlive it.
+/// Maps model space to coordinates of the base, those of the straightened body. `cylinder` must outlive it.
 class Straightening {
 public:
     explicit Straightening(const Cylinder& cylinder);
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] paper::Cylindrical vertex(const glm::dvec3& position) const;
     /// vertex(position).z, at less cost where the body is straight anyway.
     [[nodiscard]] double height(const glm::dvec3& position) const;
-    /// A normal, or a tangent, at the vertex `at`; of unit length.
+    /// A normal, or a tangent, at the vertex `at`; the result has unit length.
     [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const;
     [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const;
 
@@ -51,11 +51,12 @@ private:
     paper::Pose rest_;
 };
 
-/// The vertex at `at`, which lies in `region`: z from where that begins, with its wrinkle.
+/// Returns the vertex at `at`, which lies in `region`, with its wrinkle and with z from where the region
+/// begins.
 [[nodiscard]] bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& region,
                                            double radius, paper::Profile profile);
 
-/// The region that holds height z; a joint belongs to the region that begins there.
+/// Returns the region that holds height z; a joint belongs to the region that begins there.
 [[nodiscard]] std::size_t region_at(std::span<const RestRegion> regions, double z);
 
 /// How far apart a mesh's rows of vertices lie along its base.
@@ -67,7 +68,7 @@ public:
     [[nodiscard]] int folds(double length) const;
 
 private:
-    double reach_;  // along z, of the coarsest triangles that count
+    double reach_;  // how far the coarsest triangles that count reach along z
 };
 
 /// A mesh's vertices at rest, straightened, region by region.

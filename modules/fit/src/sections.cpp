@@ -65,7 +65,7 @@ Straightened::Straightened(const Line& line)
     s_ = bow.y();
 }
 
-// As paper::to_cylindrical, about a point amid the line.
+// The same as paper::to_cylindrical, but about a point in the middle of the line.
 Vector3d Straightened::unbent(const Vector3d& local) const {
     const double x = c_ * local.x() + s_ * local.y();
     const double inward = 1 - curvature_ * x, along = curvature_ * local.z();
@@ -99,7 +99,7 @@ std::pair<double, double> extent(const Body& body, const Line& line) {
 
 Section section(const Body& body, const Line& line) {
     double flux = 0, unrolled = 0, area = 0;
-    double moment = 0;  // of rho^2 over the lateral area; that of rho is the flux
+    double moment = 0;  // integral of rho^2 over the lateral area; that of rho is the flux
     each_sample(body, View(body, line), [&](const Sample& s) {
         flux += s.flux;
         unrolled += s.unrolled;
@@ -109,7 +109,7 @@ Section section(const Body& body, const Line& line) {
     constexpr double no_flux = 1e-14;
     if (flux < no_flux) {
         throw Error("the mesh has no surface around the axis " + text(line.axis()) +
-                    "; name another with --axis");
+                    "; give another axis (on the command line: --axis)");
     }
     const double r = std::sqrt(flux / unrolled);
     return {r, std::sqrt(std::max(0.0, (moment - 2 * r * flux) / area + r * r)) / r};

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// A surface about a center line, straight or a circular arc: what its cross-sections are.
+/// The cross-sections of a surface about a center line, which is straight or a circular arc.
 
 namespace goffer::fit {
 
@@ -22,20 +22,21 @@ struct Line {
     Vector3d axis() const { return frame.col(2); }
 };
 
-/// e1 is the world axis most nearly orthogonal to `axis` (unit), made orthogonal. Of `bow` the part across
-/// the axis is kept.
+/// Makes a line. e1 is the world axis most nearly orthogonal to `axis` (unit length), made orthogonal. The
+/// part of `bow` along the axis is dropped.
 [[nodiscard]] Line line_through(const Vector3d& point, const Vector3d& axis,
                                 const Vector3d& bow = Vector3d::Zero());
 
-/// The first of x, y, z whose value is the largest. What differs by less than a fit can tell is a tie, so
-/// that no choice turns on a rounding.
+/// Which of x, y, z has the largest value. Values that differ by less than a fit can tell are a tie, which
+/// the first wins, so that no choice depends on a rounding.
 [[nodiscard]] int first_largest(const Vector3d& values);
 
 /// The same line, from the point and the tangent that lie `distance` along it.
 [[nodiscard]] Line moved_along(const Line& line, double distance);
 
-/// Places about a line: (x, y) along e1 and e2 as carried along it, z the line's own length from its point.
-/// About a straight line these are the coordinates in its frame; about an arc, what unbending it leaves.
+/// Maps places to coordinates about a line: (x, y) along e1 and e2 as carried along it, z the length along
+/// the line from its point. About a straight line these are the coordinates in its frame; about an arc, those
+/// that are left when it is unbent.
 class Straightened {
 public:
     explicit Straightened(const Line& line);
@@ -51,14 +52,14 @@ private:
     Matrix3d turn_;
     Vector3d point_;
     double curvature_;
-    double c_ = 1, s_ = 0;  // of the bow's direction, in e1 and e2
+    double c_ = 1, s_ = 0;  // the direction of the bow, in e1 and e2
 };
 
 /// The middle of a triangle's edge. Three of them integrate what is quadratic over the triangle exactly.
 struct Sample {
     Vector3d place;   // straightened
-    double rho;       // the mean of the edge's ends, not shortened by the chord
-    double flux;      // its share of the integral of rho^2 over the unrolled (beta, z) plane; none for caps
+    double rho;       // mean of the edge's ends, which the chord does not shorten
+    double flux;      // its share of the integral of rho^2 over the unrolled (beta, z) plane; 0 on a cap
     double unrolled;  // its share of that plane's area
     double upright;   // squared cosine of the surface's slope against the line: 1 on a tube, 0 on a cap
 
@@ -73,11 +74,12 @@ struct View {
     View(const Body& body, const Line& line);
 };
 
-/// The flux of the field (x, y, 0) through the triangles is the integral of rho^2 over their images in the
-/// unrolled plane. Taken without its sign, so that the winding does not matter.
+/// Calls visit(sample) for the samples of all triangles. The flux of the field (x, y, 0) through a triangle
+/// is the integral of rho^2 over its image in the unrolled plane. Its sign is dropped, so that the winding
+/// does not matter.
 template <class Visit>
 void each_sample(const Body& body, const View& view, Visit visit) {
-    constexpr double least = 0.05;  // of rho^2: no sample on the axis outweighs all others
+    constexpr double least = 0.05;  // share of rho^2, so that no sample on the axis outweighs all others
     for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
         const std::array corner{body.triangles[t], body.triangles[t + 1], body.triangles[t + 2]};
         const Vector3d& p = view.local[corner[0]];
@@ -108,7 +110,7 @@ struct Section {
 /// where there is no surface around the line.
 [[nodiscard]] Section section(const Body& body, const Line& line);
 
-/// A center line with what is about it, in units of the body's size.
+/// A center line with the body's extent and section about it, in units of the body's size.
 struct Fitted {
     Line line;
     double low, high;  // from the line's point to base and tip, along the line
@@ -120,12 +122,13 @@ struct Fitted {
 /// Throws Error where there is no surface around the line.
 [[nodiscard]] Fitted measured(const Body& body, const Line& line);
 
-/// Moves a straight line, and tilts it if it may, until it is the axis of the sections' circles. What comes
-/// may be nonsense where the body has no such axis.
 struct Settled {
     Line line;
-    double radius;  // of the circles; NaN where that came to nothing
+    double radius;  // of the sections' circles; NaN if there are none
 };
+
+/// Moves a straight line, and with `tilt` turns it, until it is the axis of the sections' circles. The result
+/// may be nonsense if the body has no such axis.
 [[nodiscard]] Settled settle(const Body& body, const Line& start, bool tilt);
 
 }  // namespace goffer::fit

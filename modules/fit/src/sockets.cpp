@@ -52,16 +52,19 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3
 
 bend::Socket socket_at(const Binding& binding, double z, double beta, double rho) {
     const double length = binding.cylinder.length;
-    if (!(z >= 0 && z <= length)) throw Error("socket: z = " + text(z) + " is outside 0.." + text(length));
-    if (!(rho >= 0) || !std::isfinite(rho)) throw Error("socket: rho = " + text(rho) + " is not a distance");
-    if (!std::isfinite(beta)) throw Error("socket: beta = " + text(beta) + " is not an angle");
+    if (!(z >= 0 && z <= length))
+        throw Error("socket: z = " + text(z) + " is outside the body's 0.." + text(length));
+    if (!(rho >= 0) || !std::isfinite(rho))
+        throw Error("socket: rho = " + text(rho) + " is not a distance; give 0 or more");
+    if (!std::isfinite(beta))
+        throw Error("socket: beta = " + text(beta) + " is not an angle; give finite radians");
     return placed(binding, {beta, z, rho});
 }
 
 bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const glm::dvec3& point) {
     check(geometry);
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-        throw Error("socket: the point is not finite");
+        throw Error("socket: the point is not finite; give finite coordinates");
     glm::dvec3 nearest(0), normal(0);
     double distance = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {

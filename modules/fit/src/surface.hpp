@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// The mesh as the fit sees it: a surface in double.
+/// The mesh as fit_cylinder uses it: a surface in double.
 
 namespace goffer::fit {
 
@@ -30,7 +30,7 @@ inline std::string text(const Vector3d& v) {
     return text(v.x()) + "," + text(v.y()) + "," + text(v.z());
 }
 
-/// The mesh about its middle and in units of its size: nothing cancels, nothing overflows.
+/// The mesh about its middle and in units of its size, so that nothing cancels or overflows.
 struct Body {
     std::vector<Vector3d> points;  // one per vertex
     std::span<const std::uint32_t> triangles;
@@ -50,9 +50,9 @@ struct Principal {
 /// From the exact integrals of 1, x and x x^T over the triangles. Throws Error where all are without area.
 [[nodiscard]] Principal principal_axis(const Body& body);
 
-/// `count` small triangles of the same area and at places spread evenly over the surface, turned as it is
-/// there: the same body, roughly, to anything that integrates over it, at a cost that does not depend on the
-/// mesh. `triangles` is where its indices are kept and must outlive the result.
+/// Returns `count` small triangles of equal area, spread evenly over the surface and lying in it. To anything
+/// that integrates over the surface this is roughly the same body, at a cost that does not depend on the
+/// mesh. The indices are kept in `triangles`, which must outlive the result.
 [[nodiscard]] Body confetti(const Body& body, std::size_t count, std::vector<std::uint32_t>& triangles);
 
 }  // namespace goffer::fit

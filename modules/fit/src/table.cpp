@@ -11,8 +11,8 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int squeeze_points = 24;  // for Q(q): eq 7 is solved at so many squeezes
-constexpr int factor_points = 16;   // for m, which is smooth in the root of the angle and close to one
+constexpr int squeeze_points = 24;  // squeezes at which eq 7 is solved, for Q(q)
+constexpr int factor_points = 16;  // angles at which m is solved; it is smooth in their root and close to one
 
 bool wrinkles(paper::Amplitude amplitude, int folds) {
     return amplitude != paper::Amplitude::none && folds > 0;
@@ -36,7 +36,7 @@ Chebyshev smooth_amplitude(paper::Profile profile, int folds, double largest_squ
             [&](double q) { return wave.column(q).amplitude / std::sqrt(q); }};
 }
 
-/// m(alpha) as a function of the root of alpha / max_angle; one for all angles where it isn't asked for.
+/// m(alpha) as a function of the root of alpha / max_angle; 1 throughout in modes other than `area`.
 Chebyshev area_factors(paper::Profile profile, paper::Amplitude amplitude, int folds, double length,
                        double radius, double max_angle) {
     const bool solved = amplitude == paper::Amplitude::area;
@@ -70,7 +70,7 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
                                      [&](double t) { return scale * q_part(two_kappa * t); });
         const std::vector<double> coefficients = profile_in_t.monomials();
         bend::WrinkleRow& row = table.rows[static_cast<std::size_t>(i)];
-        for (std::size_t n = 0; n < row.size(); ++n) {  // from t = T / 2 to T
+        for (std::size_t n = 0; n < row.size(); ++n) {  // from powers of t = T / 2 to powers of T
             row[n] = static_cast<float>(std::ldexp(coefficients[n], -static_cast<int>(n)));
         }
     }
@@ -81,7 +81,7 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
                      double radius, double rho_max, double factor) {
     check_shape(folds, length, radius);
     if (!(rho_max >= 0) || !std::isfinite(rho_max)) {
-        throw Error("rho_max: " + text(rho_max) + " is not a distance");
+        throw Error("rho_max: " + text(rho_max) + " is not a distance; give 0 or more");
     }
     const double outermost = std::max(rho_max, radius);
     const auto search = [&](double own) {

@@ -11,38 +11,38 @@
 #include <span>
 #include <vector>
 
-/// Binds a mesh to its base cylinder: the offline step that makes a body (may allocate, may throw).
+/// Binds a mesh to its base cylinder, which makes a body. Offline: functions may allocate and throw.
 
 namespace goffer::fit {
 
-/// How the depth of wrinkles is chosen: none, as the paper has it (paper), such that the base cylinder keeps
-/// its area exactly (area), or such that the bound mesh does (mesh).
+/// What decides the depth of wrinkles: nothing, there are none (none); every column of the base cylinder
+/// keeps its length, as in the paper (paper); the base cylinder keeps its area exactly (area); or the bound
+/// mesh keeps its area (mesh).
 using Amplitude = paper::Amplitude;
 
-/// The shape of wrinkles along the body: deepest at mid-length as the paper has it, with creases there and at
-/// the ends (damped), or without creases (smooth).
+/// The shape of wrinkles along the body. They are deepest at mid-length, and either have creases there and at
+/// the ends, as in the paper (damped), or none (smooth).
 using Profile = paper::Profile;
 
-/// A stretch of the body that bends along an arc of its own.
+/// What can be chosen for one region: a stretch of the body that bends along an arc of its own.
 struct RegionOptions {
-    double share = 1;  ///< of the body's length, > 0; the shares of all regions add up to 1 (within 1e-6)
-    std::optional<int> folds;  ///< as BindOptions::folds, of this region
+    double share = 1;          ///< of the body's length, > 0; all regions' shares add up to 1, within 1e-6
+    std::optional<int> folds;  ///< as BindOptions::folds, for this region
 };
 
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
 struct BindOptions {
-    /// Folds k per half length of a region, 0..max_folds. Unset: sensible_folds() of each region. More than
-    /// the mesh carries is allowed.
+    /// Folds k per half length of a region, 0..max_folds. More than the mesh has vertices for are allowed.
+    /// Unset: sensible_folds() of each region, with a capacity of at most max_folds.
     std::optional<int> folds;
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::damped;
-    int table_rows = default_table_rows;  ///< 2..4096
-    /// From base to tip, at most bend::max_regions; none: the body is one region. Their lengths and folds are
-    /// fixed at bind; each has an angle and a direction of its own in a pose.
+    int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
+    /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions;
-    /// q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently; columns
-    /// become shorter by up to about q0 of their length for it. Unset: 0, and gentle_onset for a body that is
-    /// bent at rest, where without it the wrinkle would begin with a step.
+    /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
+    /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,
+    /// whose wrinkles would begin with a step otherwise; 0 for a straight one.
     /// See modules/paper/README.md, "Onset".
     std::optional<double> onset;
 
@@ -51,84 +51,99 @@ struct BindOptions {
     static constexpr double gentle_onset = 1e-3;
 };
 
-/// Throws Error, which begins with "regions: ", if a body cannot be cut into `regions`: more than
-/// bend::max_regions, a share that is not above 0, shares that do not add up to 1. Thread-safe.
+/// Throws Error, with a text that begins with "regions: ", if a body cannot be cut into `regions`: they are
+/// more than bend::max_regions, a share is not a finite number above 0, or the shares do not add up to 1.
+/// Thread-safe.
 void check(std::span<const RegionOptions> regions);
 
-/// The regions that `options` ask for: one of all the length where none are named; those without folds of
-/// their own get BindOptions::folds. Thread-safe.
+/// Returns the regions that `options` ask for: one over the whole length if there are none. Those without
+/// folds of their own get BindOptions::folds. Thread-safe.
 [[nodiscard]] std::vector<RegionOptions> regions_of(const BindOptions& options);
 
-/// What was found of a region.
+/// What bind found out about a region.
 struct RegionBinding {
-    double length = 0;       ///< of its outer line, model units
+    double length = 0;       ///< of the region's outer line, model units
     int folds = 0;           ///< k in use; 0: no wrinkle
     int folds_capacity = 0;  ///< most folds that the mesh has vertices for
 };
 
-/// A body, and what was found on the way. It is a rig, too: bind_level() puts other meshes on it.
+/// A body, and what was found on the way to it. bind_level() binds other meshes to the same cylinder, regions
+/// and tables: this is then their rig.
 struct Binding {
     bend::Body body;
-    std::vector<RegionBinding> regions;  ///< as many as the body's
-    /// Vertex i of the body, and so of every output stream, is vertex order[i] of the geometry: regions'
-    /// vertices follow each other. Empty where the order is the geometry's, as it is for one region.
+    std::vector<RegionBinding> regions;  ///< one for each of the body's regions
+    /// Vertex i of the body, and so of every output stream, is vertex order[i] of the geometry: the vertices
+    /// of a region follow those of the one before. Empty where the order is the geometry's, as with one
+    /// region.
     std::vector<std::uint32_t> order;
-    Cylinder cylinder;  ///< the base that it was bound to
+    Cylinder cylinder;  ///< the base cylinder that the mesh was bound to
     Profile profile = Profile::damped;
-    double milliseconds = 0;  ///< time that bind took
+    double milliseconds = 0;  ///< what bind or bind_level took, by the wall clock
 
+    /// `region` must be in range.
     [[nodiscard]] int folds(std::size_t region = 0) const { return regions[region].folds; }
     [[nodiscard]] int folds_capacity(std::size_t region = 0) const { return regions[region].folds_capacity; }
 };
 
-/// Makes the body of `geometry` on `cylinder`, straight or bent at rest. Vertices go to the region that they
-/// stand in, in the order that they have in the geometry (Binding::order). Normals and tangents are carried
-/// where the geometry has them; normals are made (make_normals) where it doesn't. Vectors of no length are
-/// replaced (normals by made ones, tangents by a direction orthogonal to the normal).
+/// Makes a body of `geometry` on `cylinder`, straight or bent at rest. A vertex belongs to the region that it
+/// stands in; within a region vertices keep the order that they have in the geometry (Binding::order).
+/// Normals and tangents are taken from the geometry, at unit length. Normals that it does not have, or that
+/// have no length, are made (make_normals); a tangent without length becomes a direction orthogonal to the
+/// normal. A vertex that no triangle uses and that lies beyond an end is bound at that end.
 ///
-/// Throws Error: what check(geometry) and check(cylinder) throw; an option out of range; a vertex of a
-/// triangle below z = 0 or above z = length by more than a thousandth of it; numbers outside
-/// bend::WorkingRange; Amplitude::area for a body bent at rest or with an onset (use Amplitude::mesh). A
-/// vertex that no triangle uses is bound at the nearer end where it lies beyond. Thread-safe. About 1 ms per
-/// 10,000 vertices and 10 ms for each region's table; Amplitude::mesh deforms the mesh some hundred times, on
-/// all processors: a tenth of a second for 10,000 vertices.
+/// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
+/// triangle lies beyond an end by more than a thousandth of the length, a number is outside
+/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset (use
+/// Amplitude::mesh).
+///
+/// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
+/// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the
+/// calling thread. Thread-safe.
 [[nodiscard]] Binding bind(const Geometry& geometry, const Cylinder& cylinder,
                            const BindOptions& options = {});
 
-/// Binds another mesh of the same model to the rig of `rig`: a level of detail, a layer of clothes.
-/// The new body shares with it the cylinder, the regions with their lengths, folds, rest arcs and onsets, the
-/// tables of wrinkles and factors, and the largest angles. One array of poses serves both, and vertices whose
-/// positions at rest are equal, bit for bit, are deformed to positions that are equal, bit for bit: where a
-/// level keeps vertices of the finer mesh, they don't move when levels change.
+/// Binds another mesh of the same model to the base of `rig`: a level of detail, or a layer of clothes. The
+/// new body has the rig's cylinder, regions (lengths, folds, rest arcs, onsets), tables of wrinkles and of
+/// factors, and largest angles. One array of poses serves both bodies, and vertices with the same position at
+/// rest, bit for bit, go to the same position, bit for bit: a vertex that a level keeps of the finer mesh
+/// does not move when levels change.
 ///
-/// The level's own are its vertices, their normals and tangents (carried or made as bind() does) and, in the
-/// result, RegionBinding::folds_capacity and Binding::order. `level` is in the model space of the mesh that
-/// the rig was bound from. Bind the finest level with bind(), where folds are chosen and Amplitude::mesh is
-/// solved, and the others to it: a coarser one gets the finer one's wrinkles as far as its rows can show
-/// them, and keeps its area as well as it resembles the finer one.
+/// The vertices, normals and tangents are the level's own (taken or made as bind() does), and so are
+/// RegionBinding::folds_capacity and Binding::order in the result. `level` is in the model space of the mesh
+/// that the rig was bound from. Bind the finest level with bind(), which chooses the folds and solves
+/// Amplitude::mesh, and the others to it: a coarser level shows the same wrinkles as far as its rows can, and
+/// keeps its area as well as it resembles the finer one.
 ///
-/// Vertices of its triangles may lie off the finer mesh, as a simplifier leaves them, but not beyond the base
-/// cylinder's ends by more than a thousandth of its length. The largest angles are not taken back for a
-/// vertex that lies farther from the axis than all of the rig's: at these angles such a vertex may fold
-/// through the body. `rig` is not needed afterward, and may itself be a level.
+/// Vertices of triangles may lie off the finer mesh, as a simplifier leaves them, but not beyond an end of
+/// the base cylinder by more than a thousandth of its length. A vertex that is farther from the axis than all
+/// of the rig's does not lower the largest angles: near them it may fold through the body. `rig` may itself
+/// be a level, and is not needed afterward.
 ///
-/// Throws Error: what check(level) throws; an empty rig; a vertex beyond the ends; numbers outside
-/// bend::WorkingRange. Thread-safe. About 1 ms per 10,000 vertices.
+/// Throws Error as check(level) does, and if the rig's body is empty or does not have the rig's regions, a
+/// vertex of a triangle lies beyond the ends, or a number is outside bend::WorkingRange. Thread-safe.
 [[nodiscard]] Binding bind_level(const Geometry& level, const Binding& rig);
 
-/// The wrinkle table for a base cylinder: `rows` rows from angle 0 to `max_angle` (radians, > 0), made in
-/// double from eq 7's solution at Chebyshev points; kernels that interpolate 256 of them stay within 5e-6 L
-/// of the closed form. (Not so for Amplitude::area with one or two folds of Profile::smooth: that factor has
-/// a corner at a fraction of a degree, which the points round off, by some 1e-4 L.) Empty for folds = 0 or
-/// Amplitude::none. Thread-safe. Throws Error on a length, radius, angle, folds or rows out of range.
+/// Makes the wrinkle table of one region: `rows` rows (2..4096) from angle 0 to `max_angle` (radians), in
+/// double, from solutions of eq 7 at Chebyshev points. Kernels that interpolate 256 rows stay within 5e-6 L
+/// of the closed form, except for Amplitude::area with four folds or fewer: up to 1e-3 L with one fold of
+/// Profile::smooth. Amplitude::mesh has the table of Amplitude::paper; its factors are solved by bind().
+/// Empty for folds = 0 or Amplitude::none.
+///
+/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, max_angle
+/// is not above 0 and below length / (2 radius), or `rows` is out of range. Thread-safe. See
+/// modules/paper/README.md, "Wrinkle table".
 [[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude, int folds,
                                                     double length, double radius, double max_angle,
                                                     int rows = BindOptions::default_table_rows);
 
-/// The largest usable |angle| (radians): just below where L / alpha - r = rho_max + A(alpha), that is where
-/// the outermost vertex, lifted by the wrinkle, would reach the arc's center and the body fold through
-/// itself. `rho_max`: largest distance of a vertex from the axis; `factor`: on the amplitude, beside that of
-/// Amplitude::area. See modules/paper/README.md, "Limits". Thread-safe; errors as above.
+/// Returns the largest usable |angle| of a region (radians): 0.999 times the one at which L / alpha - r =
+/// rho_max + A(alpha), where the outermost vertex, lifted by the wrinkle, reaches the center of the arc and
+/// the body begins to fold through itself. `rho_max` is the largest distance of a vertex from the axis
+/// (counted as the radius if less); `factor` >= 0 multiplies the amplitude, beside the factor of
+/// Amplitude::area.
+///
+/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, or rho_max
+/// is negative or not finite. Thread-safe. See modules/paper/README.md, "Limits".
 [[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, int folds, double length,
                                    double radius, double rho_max, double factor = 1);
 

@@ -9,76 +9,78 @@
 #include <span>
 #include <vector>
 
-/// Fits the base cylinder: axis, base and tip, length, radius (offline; may allocate, may throw).
+/// Fits the base cylinder of a mesh: axis, base and tip, length, radius, and the arc of a body that is bent
+/// in its file. Offline: functions may allocate and throw.
 
 namespace goffer::fit {
 
 /// The base cylinder of a body, in model space and model units. A plain value.
 struct Cylinder {
-    glm::dvec3 origin{0};       ///< center of the base end: z = 0
-    glm::dvec3 axis{0, 0, 1};   ///< e3, unit, from base to tip
-    glm::dvec3 zero{1, 0, 0};   ///< e1, unit, orthogonal to axis: the zero of beta
-    double length = 1;          ///< L > 0
+    glm::dvec3 origin{0};       ///< center of the base end, where z = 0
+    glm::dvec3 axis{0, 0, 1};   ///< e3, unit length, from base to tip (at the base end of an arc)
+    glm::dvec3 zero{1, 0, 0};   ///< e1, unit length, orthogonal to `axis`: the zero of beta
+    double length = 1;          ///< L > 0, of the outer line of an arc
     double radius = 0.1;        ///< r > 0
-    double rest_angle = 0;      ///< alpha_0 (rad) of the center line at rest; 0 for a straight body
-    double rest_direction = 0;  ///< theta_0 (rad)
-    double residual = 0;        ///< area-weighted rms of (rho - r) / r over the lateral surface
+    double rest_angle = 0;      ///< alpha_0 of the center line at rest, radians; 0 for a straight body
+    double rest_direction = 0;  ///< theta_0 of the center line at rest, radians
+    double residual = 0;        ///< area-weighted rms of (rho - r) / r over the lateral surface: how far the
+                                ///< mesh is from the cylinder. For information
 };
 
-/// What may be taken for a body's shape at rest.
+/// What fit_cylinder may take for a body's shape at rest.
 enum class Rest {
-    automatic,  ///< an arc where that fits clearly better than a straight line
+    automatic,  ///< an arc where one fits clearly better than a straight line
     straight    ///< a straight line, whatever the body
 };
 
-/// Fits a base cylinder to any triangle mesh.
+/// Fits a base cylinder to a triangle mesh.
 ///
-/// `axis`: the direction from base to tip (any length, any sign is kept), or nothing to find the mesh's long
-/// axis. A found axis is signed so that its largest component is positive. `zero` is the world axis (the one
-/// most nearly orthogonal to `axis`; x before y before z) made orthogonal to `axis`.
+/// `axis` is the direction from base to tip, of any length; nothing: the mesh's long axis is found, and
+/// signed so that its largest component is positive. `zero` of the result is the world axis that is most
+/// nearly orthogonal to its `axis` (x before y before z where they tie), made orthogonal.
 ///
-/// With Rest::automatic the center line may be an arc. `rest_angle` is then that of the arc, below 2 pi and
-/// below length / (2 radius), and `rest_direction` (-pi..pi) is where it bends to at the base; `axis` is the
-/// tangent at the base end, `length` that of the outer line, and `residual` is measured about the arc.
-/// A vertex's coordinates are paper::to_cylindrical's. An `axis` that is given then means the general
-/// direction from base to tip, that of the arc's chord: the chord is found, and signed like it.
-/// The arc is taken where its sections are circles about it within a fifth of the radius, and within four
-/// fifths of what they are about the best straight line (rms of rho within slices, so that taper does not
-/// count), where its sagitta is more than a twentieth of the radius, and where a given axis is within 45
-/// degrees of its chord. Otherwise the result is that of Rest::straight, with rest_angle exactly 0.
+/// With Rest::automatic the center line may be an arc: rest_angle is then below 2 pi and below length /
+/// (2 radius), rest_direction (-pi..pi) is where it bends toward, and `residual` is measured about the arc.
+/// The direction from base to tip is that of the arc's chord, which is found; an `axis` that is given decides
+/// which end is the base. An arc is taken if its sections are circles about it within 0.3 of the radius, or
+/// 0.2 beyond a half turn, and within 0.8 of what they are about the best straight line (rms of rho within
+/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; and if a given
+/// `axis` is within about 45 degrees of its chord. Otherwise the result is that of Rest::straight, and
+/// rest_angle is exactly 0.
 ///
-/// The result does not depend on how densely parts are tessellated, on duplicated vertices, nor on whether
-/// the ends are open or closed; it follows rotation, translation and uniform scale of the mesh. Throws Error:
-/// what `check` throws; a mesh without a long axis when none is given (says how to give one); an axis that is
-/// zero, not finite, or along which the mesh has no extent; a body thinner than float can carry. Pure; may be
-/// called from any thread.
+/// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
+/// ends are closed; it follows rotation, translation and uniform scale of the mesh.
+///
+/// Throws Error as check(geometry) does, and if no axis is given and the mesh has no long one, an axis is
+/// zero or not finite, the mesh has no surface around the axis or no extent along it, or the body is too thin
+/// for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     Rest rest = Rest::automatic);
 
-/// Throws Error naming the field if `cylinder` cannot be used as a base: a number not finite, length or
-/// radius not positive, rest_angle negative or not below 2 pi and length / (2 radius), axis or zero not of
-/// unit length (1e-3) or not orthogonal (1e-3).
+/// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length or
+/// radius is not above 0, rest_angle is negative or not below both 2 pi and length / (2 radius), or axis and
+/// zero are not of unit length or not orthogonal, within 1e-3. Thread-safe.
 void check(const Cylinder& cylinder);
 
-/// A stretch of `cylinder` as a cylinder of its own: `length` long, and else the same. Thread-safe.
+/// Returns `cylinder` with another length: a stretch of it, for sensible_folds(). Thread-safe.
 [[nodiscard]] inline Cylinder stretch_of(Cylinder cylinder, double length) {
     cylinder.length = length;
     return cylinder;
 }
 
-/// z of each position (model space): its height along the axis, or along the rest arc where there is one.
-/// `cylinder` as `check` accepts it. Pure; may be called from any thread.
+/// Returns z of each position (model space): its height along the axis, or along the rest arc where there is
+/// one; model units. `cylinder` must pass check(). Thread-safe.
 [[nodiscard]] std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder);
 
-/// The most folds per half length that the mesh can carry: a fold needs 8 rows of vertices along z, so an
-/// edge may reach over at most L / (16 k). Decided by the triangles' extents in z, by area, the
-/// coarsest 2 % left out, so that it does not turn on one sliver. 0: too coarse for any wrinkle. Both
-/// arguments as `check` accepts them. Pure; may be called from any thread.
+/// Returns the most folds per half length that the mesh has vertices for. A fold needs 8 rows of vertices
+/// along z, so an edge may reach over at most L / (16 k), within a thousandth. What counts is how far each
+/// triangle reaches along z; the coarsest 2 % of the area are left out, so that one sliver does not decide.
+/// 0: too coarse for any fold. Both arguments must pass check(). Thread-safe.
 [[nodiscard]] int folds_capacity(const Geometry& geometry, const Cylinder& cylinder);
 
-/// The number of folds to use when nobody says: folds about as long as the radius, k = round(L / (2 r)), at
-/// most what the mesh can carry; none where it can carry less than half of that, since fewer and so deeper
-/// folds would reach past the axis. At least 0. Pure; may be called from any thread.
+/// Returns the number of folds to use when none is asked for: k = round(L / (2 r)), which makes folds about
+/// as long as the radius, or `capacity` if that is less. Returns 0 if `capacity` is less than half of k,
+/// since so few folds would be so deep that they reach past the axis. Thread-safe.
 [[nodiscard]] int sensible_folds(const Cylinder& cylinder, int capacity);
 
 }  // namespace goffer::fit

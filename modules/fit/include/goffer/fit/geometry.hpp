@@ -9,36 +9,36 @@
 #include <stdexcept>
 #include <string>
 
-/// What the offline side of goffer reads of a mesh, whoever owns it: an importer of ours, an engine's asset,
-/// a test.
+/// What the offline functions read of a mesh, whoever owns it: goffer's importers, an engine, a test.
 
 namespace goffer::fit {
 
-/// A mesh as spans. The caller owns the memory; nothing is kept after a call returns.
+/// A mesh as spans. The caller owns the memory; no function keeps a span after it returns.
 ///
-/// All positions are in one space (model space), in any unit. `triangles` holds three vertex indices per
-/// triangle. Vertices that no triangle uses are allowed. Several vertices may stand at one place (seams,
-/// soups).
+/// Positions, normals and tangents are in one space (model space), in any unit. Vertices that no triangle
+/// uses are allowed, and so are several vertices at one place (seams, triangle soups).
 struct Geometry {
     std::span<const glm::vec3> positions;      ///< one per vertex
-    std::span<const std::uint32_t> triangles;  ///< 3 per triangle, each < positions.size()
-    std::span<const glm::vec3> normals = {};   ///< empty, or one per vertex; need not be of unit length
-    std::span<const glm::vec4> tangents = {};  ///< empty, or one per vertex; w is the bitangent's sign
+    std::span<const std::uint32_t> triangles;  ///< 3 vertex indices each, every one < positions.size()
+    std::span<const glm::vec3> normals = {};   ///< empty, or one per vertex, of any length
+    std::span<const glm::vec4> tangents = {};  ///< empty, or one per vertex, of any length; the sign of w is
+                                               ///< that of the bitangent
 };
 
-/// A mesh, an axis or an option that fit cannot use. what() is one line: what is wrong, where, how to mend
-/// it.
+/// Thrown for a mesh, an axis or an option that fit cannot use. what() is one line: what is wrong, where, and
+/// how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Throws Error naming the first fault: no triangles, an index out of range, a coordinate that is NaN or
-/// infinite, an optional stream of another length, all vertices in one point, on one line or in one plane.
-/// Pure; may be called from any thread.
+/// Throws Error naming the first fault: no triangles, indices that are not 3 per triangle or out of range,
+/// normals or tangents that are neither none nor one per vertex, a number that is NaN or infinite, or
+/// triangles whose vertices all lie in one point, on one line or in one plane, as far as float can tell.
+/// Thread-safe.
 void check(const Geometry& geometry);
 
-/// Sum of the triangles' areas, in double. Pure; may be called from any thread.
+/// Returns the sum of the triangles' areas, summed in double. Indices must be in range. Thread-safe.
 [[nodiscard]] double surface_area(std::span<const glm::vec3> positions,
                                   std::span<const std::uint32_t> triangles);
 

@@ -11,10 +11,11 @@
 
 namespace goffer::fit {
 
-/// Unit normals, one per vertex: angle-weighted over the triangles that meet at the vertex's place, so that
-/// duplicated vertices agree; where they cancel (two sheets back to back), over the vertex's own. A vertex
-/// without a direction (no triangles, or none with an area) gets (0, 0, 1). Indices as `check` accepts them.
-/// Pure; may be called from any thread.
+/// Makes unit normals, one per vertex, on the side from which triangles appear counterclockwise: the mean of
+/// the triangles that meet at the vertex's place, weighted by their angles there, so that vertices at one
+/// place agree. Where these cancel, as with two sheets back to back, a vertex gets the mean of its own
+/// triangles. A vertex without a direction (no triangle, or none with an area) gets (0, 0, 1). Indices must
+/// be in range. Thread-safe.
 [[nodiscard]] std::vector<glm::vec3> make_normals(std::span<const glm::vec3> positions,
                                                   std::span<const std::uint32_t> triangles);
 

@@ -11,16 +11,18 @@
 
 namespace goffer::fit {
 
-/// The socket at height `z` (0..the body's length, model units, from the base), direction `beta` (radians
-/// about the axis, from e1 to e2) and distance `rho` >= 0 from the axis. Its frame at rest: third axis
-/// outward, first axis along the body toward the tip. Throws Error where z lies beyond the ends, rho is
-/// negative, or one is not finite. Thread-safe.
+/// Returns the socket at height `z` above the base (0..the cylinder's length, model units, along the rest arc
+/// where there is one), direction `beta` (radians about the axis, from e1 toward e2) and distance `rho` from
+/// the axis (model units). In its frame at rest the third axis points outward, the first one along the body
+/// toward the tip. Throws Error if z is beyond the ends, rho is negative, or one of the three is not finite.
+/// Thread-safe.
 [[nodiscard]] bend::Socket socket_at(const Binding& binding, double z, double beta, double rho);
 
-/// The socket at the point of the mesh's surface that is nearest to `point` (model space, at rest), with the
-/// triangle's normal as third axis and, for the first, the direction in its plane that points to the tip the
-/// most. `geometry`: what `bound` was bound from. Looks at every triangle. Throws Error where `point` is not
-/// finite, and what check(geometry) throws. Thread-safe.
+/// Returns the socket at the point of the mesh's surface that is nearest to `point` (model space, at rest).
+/// The third axis of its frame is the triangle's normal; the first one is the direction in the triangle's
+/// plane that points most toward the tip or, on a cap, away from the axis. Triangles without area do not
+/// count. `geometry` is the mesh that `binding` was bound from; every triangle is looked at. Throws Error if
+/// `point` is not finite, and as check(geometry) does. Thread-safe.
 [[nodiscard]] bend::Socket socket_near(const Binding& binding, const Geometry& geometry,
                                        const glm::dvec3& point);
 
