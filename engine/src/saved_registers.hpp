@@ -12,10 +12,10 @@
 
 namespace goffer {
 
-/// Bits of saved_registers().
-constexpr std::uint64_t saves_256_bits = 0x06;  ///< both halves of the AVX registers
-constexpr std::uint64_t saves_512_bits =
-    0xe6;  ///< these, masks, upper halves of 512 bits, registers 16 to 31
+/// Bits of saved_registers(): both halves of the AVX registers; for 512 bits also the masks, the upper halves
+/// and the registers 16 to 31.
+constexpr std::uint64_t saves_256_bits = 0x06;
+constexpr std::uint64_t saves_512_bits = 0xe6;
 
 /// The registers that the system saves when it switches threads, as the bits of XCR0. 0 where it cannot be
 /// asked. Thread-safe.

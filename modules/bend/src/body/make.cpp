@@ -151,7 +151,7 @@ Squeeze squeeze_of(const RegionInput& region) {
     return compares_with_rest(region) ? Squeeze::relative : Squeeze::plain;
 }
 
-/// `direction` within half a turn either way.
+/// Takes a direction to -pi..pi.
 float reduced(double direction) {
     return static_cast<float>(
         std::remainder(static_cast<double>(static_cast<float>(direction)), 2 * std::numbers::pi));

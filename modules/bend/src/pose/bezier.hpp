@@ -199,8 +199,8 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterPlaces& pla
 
 inline double Bezier::go(const CenterPlaces& places) noexcept {
     constexpr int most_steps = 4;
-    constexpr float near =
-        0.004f;  // steps this small end the search: the error that remains is about their square
+    // Steps this small end the search: the error that remains is about their square.
+    constexpr float near = 0.004f;
     constexpr int fours = CenterPlaces::fours;
     gone_ += places.length;
     const Place to = at(gone_);
