@@ -52,7 +52,7 @@ TEST_CASE("file: what is no readable file is refused, and named") {
     CHECK(error(folder / "none/none.obj", "there is no such file"));
     CHECK(error(folder / "", "is a folder"));
     CHECK(error(folder.write("a.obj", ""), "a.obj: is empty"));
-    CHECK(error(folder.write("a.xyz", "1 2 3"), "a.xyz: neither content nor ending"));
+    CHECK(error(folder.write("a.xyz", "1 2 3"), "a.xyz: neither the content nor the ending"));
     fs::create_symlink("/dev/zero", folder / "zero.obj");
     CHECK(error(folder / "zero.obj", "is not a regular file"));
     const std::string garbage("\x01\x80\xff\x00\x7f\x13 v f", 9);

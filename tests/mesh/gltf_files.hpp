@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-/// Small glTF documents put together by hand, and a look into those that goffer writes.
+/// Small glTF documents made by hand, and access to those that goffer writes.
 
 namespace goffer::test {
 

@@ -16,7 +16,7 @@ Mesh nodes(const char* json) {
     return load_document(tetra_with_nodes(json));
 }
 
-/// The message for a tetrahedron that `spoil` has been at.
+/// The message for a tetrahedron that `spoil` has changed.
 std::string error_when(const std::function<void(Document&)>& spoil) {
     Document document = tetra();
     spoil(document);
@@ -250,8 +250,8 @@ TEST_CASE("gltf: an attribute that some primitives lack has an index for each co
     CHECK(mesh.normals.values.size() == 4);
     REQUIRE(mesh.normals.corners.size() == 24);
     CHECK(mesh.normals.corners[0] == Attribute<glm::vec3>::none);
-    CHECK(mesh.normals.values[mesh.normals.corners[13]] ==
-          glm::vec3(0, 1, 0));  // vertex 2 of the second primitive
+    // Corner 13 is vertex 2 of the second primitive.
+    CHECK(mesh.normals.values[mesh.normals.corners[13]] == glm::vec3(0, 1, 0));
     CHECK(mesh.tangents.per_vertex());
 }
 

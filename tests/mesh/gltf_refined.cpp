@@ -11,7 +11,7 @@ using namespace goffer::test;
 
 namespace {
 
-/// What stands in an accessor: floats, or whole numbers of `width` bytes.
+/// The values of an accessor: floats, or whole numbers of `width` bytes.
 std::vector<double> values(const Document& document, const Json& number) {
     const Json& accessor = document.json["accessors"][number.get<std::size_t>()];
     const Json& view = document.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
@@ -105,8 +105,8 @@ TEST_CASE("gltf: refined, joints of both ends are mixed, the largest stay, the s
     for (std::size_t i = 4; i < 49; ++i) {
         CHECK(much[4 * i] + much[4 * i + 1] + much[4 * i + 2] + much[4 * i + 3] == doctest::Approx(1));
         CHECK(std::ranges::is_sorted(slice(much, 4 * i, 4), std::greater{}));
-        // at three quarters of the way from vertex 0, which hangs on 0 and 1, to the last: the least of five
-        // joints goes
+        // At three quarters of the way from vertex 0, which depends on joints 0 and 1, to the last vertex:
+        // the lightest of five joints is dropped.
         const bool there = points[3 * i] == 0 && points[3 * i + 1] == 0 && points[3 * i + 2] == 2.25;
         if (!there) continue;
         const double kept = 0.375 + 0.1875 + 0.1875 + 0.1875;

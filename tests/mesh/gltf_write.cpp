@@ -9,7 +9,8 @@ using goffer::mesh::save;
 
 namespace {
 
-/// Nodes with scale, mirror, shear (a turned child of an uneven parent), all fields that a document may have.
+/// Nodes with scale, mirror and shear (a rotated child of an unevenly scaled parent), and all fields that a
+/// document may have.
 Document rich() {
     Document document = tetra_with_nodes(R"([
         {"name": "root", "children": [1, 2], "scale": [2, 1, 0.5], "translation": [1, 2, 3], "extras": {"tag": [1, 2.5, "x"]}},
@@ -41,7 +42,7 @@ Document rich_alone() {
     return document;
 }
 
-/// Any change of shape that leaves no vertex, normal or tangent where it was.
+/// A change of shape that changes every vertex, normal and tangent.
 Mesh bent(Mesh mesh) {
     for (glm::vec3& p : mesh.positions)
         p = {p.x + 0.3f * p.y + 1.0f, p.y - 0.2f * p.z * p.z, p.z * 1.1f - 0.25f};

@@ -84,7 +84,7 @@ TEST_CASE("streams that the mesh lacks are ignored, streams that it needs are de
     bent.tangents.assign(bent.positions.size(), glm::vec4(1));
     CHECK(with_vertex_arrays(mesh, bent).tangents.empty());
     bent.normals.pop_back();
-    CHECK(error_of([&] { (void)with_vertex_arrays(mesh, bent); }).find("6 records") != std::string::npos);
+    CHECK(error_of([&] { (void)with_vertex_arrays(mesh, bent); }).find("6 entries") != std::string::npos);
     mesh.normals = {};
     CHECK(with_vertex_arrays(mesh, bent).positions == mesh.positions);
 }

@@ -36,7 +36,7 @@ const std::string rich =
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// `mesh` with vertex 1 moved and every record's normal made different.
+/// `mesh` with vertex 1 moved and every entry's normal made different.
 Mesh bent(const Mesh& mesh) {
     VertexArrays r = vertex_arrays(mesh);
     r.positions[1] = {2.5f, 1e-7f, 0.1f};

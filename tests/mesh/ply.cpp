@@ -13,8 +13,7 @@ using namespace goffer::test;
 
 namespace {
 
-/// Normals, colors, unknown properties and elements of all types and both spellings, lists before and
-/// behind.
+/// Normals, colors, unknown properties and elements of all types and both spellings, lists before and behind.
 const std::string header =
     "ply\nformat ascii 1.0\ncomment made by hand\nobj_info kept\n"
     "element vertex 4\n"
@@ -39,7 +38,7 @@ const std::string body =
     "9 3 0 2 3 0\n";
 const std::string rich = header + body;
 
-/// Number texts of rich's body as the bytes of its header's types.
+/// The numbers of the body of `rich`, as bytes of the types in its header.
 struct Binary {
     bool big;
     std::string bytes;

@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-/// Meshes refined, and what is to be seen of them afterward.
+/// Refines meshes, and examines the results.
 
 namespace goffer::test {
 
-/// What fit says on how to cut a mesh, in the words of mesh.
+/// A refinement of fit, as a subdivision of mesh.
 struct MeshRecipe {
     fit::Refinement made;
     std::vector<mesh::EdgeVertex> vertices;
@@ -68,8 +68,8 @@ inline MeshRecipe halves(const mesh::Mesh& mesh) {
     return recipe;
 }
 
-/// How many edges run more often one way than the other, duplicated vertices welded by the bits of their
-/// positions: 0 where the surface is closed.
+/// How many edges run more often one way than the other, with vertices of the same position, bit for bit,
+/// taken as one. 0 for a closed surface.
 inline std::size_t open_edges(const mesh::Mesh& mesh) {
     using Place = std::array<std::uint32_t, 3>;
     const auto place = [&](std::uint32_t vertex) {

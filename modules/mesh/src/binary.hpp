@@ -11,7 +11,7 @@
 
 namespace goffer::mesh {
 
-/// The number in the first bytes of `bytes`, which holds enough of them.
+/// Returns the number in the first bytes of `bytes`, which must have enough of them.
 template <class T>
 [[nodiscard]] T from_bytes(std::string_view bytes, std::endian order = std::endian::little) {
     std::array<char, sizeof(T)> raw;

@@ -29,7 +29,7 @@ Format format_of_ending(const fs::path& file) {
     return Format::unknown;
 }
 
-/// Whether the first statement is one of OBJ's.
+/// Whether the first statement is one of OBJ.
 bool is_obj(std::string_view bytes) {
     constexpr std::array keywords{"v", "vn", "vt", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl"};
     while (!bytes.empty()) {
@@ -67,8 +67,8 @@ Mesh read(const fs::path& file, std::string_view bytes) {
         case Format::unknown:
             break;
     }
-    fail(file,
-         std::string("neither content nor ending is that of a mesh; give a ") + known_endings + " file");
+    fail(file, std::string("neither the content nor the ending is that of a mesh; give a ") + known_endings +
+                   " file");
 }
 
 /// Both files are written before either takes its place.
@@ -107,7 +107,8 @@ Mesh load(const fs::path& file) {
 void save(const Mesh& mesh, const fs::path& file) {
     const Format format = format_of_ending(file);
     if (format == Format::unknown)
-        fail(file, std::string("the ending tells no known format; give a name ending in ") + known_endings);
+        fail(file,
+             std::string("the ending is not of a known format; give a name that ends in ") + known_endings);
     check(mesh, file);
     switch (format) {
         case Format::obj:

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-/// What each format gives `load` and `save`. Readers take the file's bytes (and its path, for messages and
-/// for the files that it names); writers return the whole file as bytes, so that one place writes beside and
-/// renames.
+/// What each format provides for load() and save(). Readers take the bytes of a file, and its path for
+/// messages and for the files that it names. Writers return the whole file as bytes, so that one place writes
+/// beside and renames. All throw Error that begins with the path, and are thread-safe.
 
 namespace goffer::mesh {
 
@@ -18,36 +18,36 @@ namespace goffer::mesh {
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes);
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes);  // .gltf and .glb
 
-/// Whether the bytes are STL for sure; a broken STL file may not be.
+/// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);
 
 /// `file` is where the bytes will go: references to material files are kept valid from there.
 [[nodiscard]] std::string write_obj(const Mesh& mesh, const std::filesystem::path& file);
 /// The file that a new OBJ names for its materials.
 [[nodiscard]] std::filesystem::path mtl_beside(const std::filesystem::path& obj);
-/// The materials of a mesh that was no OBJ before; empty where there are none. An OBJ keeps its own mtllib
-/// lines.
+/// The materials of a mesh that is written anew; empty if it has none, or if it keeps the mtllib lines of the
+/// OBJ that it came from.
 [[nodiscard]] std::string write_mtl(const Mesh& mesh);
 [[nodiscard]] std::string write_ply(const Mesh& mesh);
 [[nodiscard]] std::string write_stl(const Mesh& mesh);
 /// `file` is where the bytes will go: references to outside files are kept valid from there.
 [[nodiscard]] std::string write_glb(const Mesh& mesh, const std::filesystem::path& file);
-[[nodiscard]] std::string write_gltf(const Mesh& mesh,
-                                     const std::filesystem::path& file);  // buffers as data URIs
+/// Its buffer is a data URI.
+[[nodiscard]] std::string write_gltf(const Mesh& mesh, const std::filesystem::path& file);
 
-/// All bytes of a regular file. Throws Error: missing, a folder, empty, unreadable.
+/// Returns all bytes of a regular file. Throws Error if it is missing, no regular file, empty or unreadable.
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& file);
 
-/// Throws Error, beginning with `file`, unless sizes, indices, parts and materials fit together and all
+/// Throws Error that begins with `file`, unless sizes, indices, parts and materials fit together and all
 /// positions and normals are finite.
 void check(const Mesh& mesh, const std::filesystem::path& file);
 
-/// Whether `mesh` is `read` but for the values of positions, normals and tangents, and for normals or
-/// tangents that were split: then a writer can give back the file that `read` came from with those values
+/// Whether `mesh` differs from `read` only in the values of positions, normals and tangents, some of which
+/// may have been split. A writer can then give back the file that `read` came from with these values
 /// replaced.
 [[nodiscard]] bool only_bent(const Mesh& mesh, const Mesh& read);
 
-/// The index into `attribute` of face corner `corner`, whose vertex is `vertex`; `none` where it has no
+/// Returns the index into `attribute` for face corner `corner`, whose vertex is `vertex`; `none` if it has no
 /// value.
 template <class T>
 [[nodiscard]] std::uint32_t value_at(const Attribute<T>& attribute, std::size_t corner,

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-/// Values between those of two vertices, at (1 - t) a + t b. All of them are summed in double.
+/// Interpolates the values of two vertices at (1 - t) a + t b, in double.
 
 namespace goffer::mesh {
 
@@ -15,7 +15,8 @@ template <glm::length_t n>
     return glm::vec<n, float>(Double(a) + t * (Double(b) - Double(a)));
 }
 
-/// A direction, of unit length. Where the two cancel or are none, that of the nearer end, else the other's.
+/// Interpolates directions; the result has unit length. Where the two cancel, it is that of the nearer end;
+/// where both are zero, it is zero.
 [[nodiscard]] inline glm::vec3 direction(const glm::vec3& a, const glm::vec3& b, double t) {
     const auto unit = [](const glm::dvec3& v) {
         const double length = glm::length(v);
@@ -27,7 +28,7 @@ template <glm::length_t n>
     return glm::vec3(glm::length(near) > 0 ? near : far);
 }
 
-/// A tangent: its direction, and the side (w) of the nearer end.
+/// Interpolates tangents: the direction, with the sign (w) of the nearer end.
 [[nodiscard]] inline glm::vec4 tangent_between(const glm::vec4& a, const glm::vec4& b, double t) {
     return {direction(glm::vec3(a), glm::vec3(b), t), t < 0.5 ? a.w : b.w};
 }

@@ -23,7 +23,7 @@ struct Key {
     auto operator<=>(const Key&) const = default;
 };
 
-/// What each record is made of, and the record of each face corner.
+/// What each entry of the vertex arrays is made of, and the entry of each face corner.
 struct Split {
     std::vector<Key> keys;
     std::vector<std::uint32_t> corners;
@@ -34,7 +34,7 @@ Key key_of(const Mesh& mesh, std::size_t corner) {
     return {vertex, value_at(mesh.normals, corner, vertex), value_at(mesh.tangents, corner, vertex)};
 }
 
-/// A vertex that no face uses: its attributes are known only where they are per vertex.
+/// The key of a vertex that no face uses: it has an attribute only where that is one per vertex.
 Key key_of_loose(const Mesh& mesh, std::uint32_t vertex) {
     const bool normal = !mesh.normals.empty() && mesh.normals.per_vertex();
     const bool tangent = !mesh.tangents.empty() && mesh.tangents.per_vertex();
@@ -93,8 +93,8 @@ std::array<std::uint32_t, n> bits(const glm::vec<n, float>& value) {
     return out;
 }
 
-/// The index of each record's new value: its old one where this record is the first to use it or agrees with
-/// the first, else a copy behind the others.
+/// Puts each entry's new value into the attribute: in the old value's place if the entry is the first to use
+/// it or agrees with the first, else in a copy behind the others.
 template <glm::length_t n>
 void scatter(Attribute<glm::vec<n, float>>& attribute, const Split& split, std::uint32_t Key::*index,
              const std::vector<glm::vec<n, float>>& bent) {
@@ -155,7 +155,7 @@ void check_finite(const std::vector<glm::vec3>& values, const char* what, const 
     const auto bad = std::ranges::find_if_not(values, finite);
     if (bad != values.end())
         fail(file, std::string(what) + " " + std::to_string(bad - values.begin()) +
-                       " (counted from 0) is not finite; mend or leave out what uses it");
+                       " (counted from 0) is not finite; correct it, or remove what uses it");
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {
     if (!enough(bent.positions) || (!mesh.normals.empty() && !enough(bent.normals)) ||
         (!mesh.tangents.empty() && !enough(bent.tangents)))
         throw Error("with_vertex_arrays: the mesh has " + std::to_string(parts.keys.size()) +
-                    " records; give each a position, and a normal and a tangent where the mesh has them");
+                    " entries; give each a position, and a normal and a tangent if the mesh has them");
     Mesh out = mesh;
     std::copy_n(bent.positions.begin(), out.positions.size(), out.positions.begin());
     scatter(out.normals, parts, &Key::normal, bent.normals);
@@ -196,23 +196,25 @@ Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {
 }
 
 void check(const Mesh& mesh, const std::filesystem::path& file) {
-    if (mesh.positions.empty()) fail(file, "there are no vertices; a mesh needs some");
-    if (mesh.faces.empty()) fail(file, "there are no faces; points and lines alone cannot be bent");
+    if (mesh.positions.empty()) fail(file, "there are no vertices; give a mesh that has some");
+    if (mesh.faces.empty()) fail(file, "there are no faces; points and lines cannot be bent, give it faces");
     if (std::ranges::any_of(mesh.faces, [](auto size) { return size < 3; }) ||
         std::accumulate(mesh.faces.begin(), mesh.faces.end(), std::size_t{0}) != mesh.corners.size())
-        fail(file, "faces and corners do not fit together; each face needs 3 corners or more");
+        fail(file, "faces and corners do not fit together; give each face 3 corners or more");
     const auto lost = std::ranges::find_if(mesh.corners, [&](auto v) { return v >= mesh.positions.size(); });
     if (lost != mesh.corners.end())
         fail(file, "corner " + std::to_string(lost - mesh.corners.begin()) + ": vertex index " +
                        std::to_string(*lost) + " is out of range: there are " +
                        std::to_string(mesh.positions.size()) + " vertices, counted from 0");
-    if (!fits(mesh.normals, mesh)) fail(file, "the normals do not fit the vertices or the corners");
-    if (!fits(mesh.tangents, mesh)) fail(file, "the tangents do not fit the vertices or the corners");
+    const std::string mend = " do not fit; give one to each vertex, or an index in range to each corner";
+    if (!fits(mesh.normals, mesh)) fail(file, "the normals" + mend);
+    if (!fits(mesh.tangents, mesh)) fail(file, "the tangents" + mend);
     for (const auto& uvs : mesh.uvs)
-        if (!fits(uvs, mesh)) fail(file, "the texture coordinates do not fit the vertices or the corners");
+        if (!fits(uvs, mesh)) fail(file, "the texture coordinates" + mend);
     if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
         fail(file, "the colors do not fit the vertices; give one to each or none");
-    if (!parts_fit(mesh)) fail(file, "the parts do not cover the faces in order, or name a missing material");
+    if (!parts_fit(mesh))
+        fail(file, "the parts do not fit; let them cover all faces in order, and name materials that exist");
     check_finite(mesh.positions, "vertex", file);
     check_finite(mesh.normals.values, "normal", file);
 }

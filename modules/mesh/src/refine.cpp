@@ -30,7 +30,7 @@ struct MixHash {
     }
 };
 
-/// Faces and corners of the refined mesh, and its parts.
+/// Makes the faces, corners and parts of the refined mesh.
 class FaceMaker {
 public:
     FaceMaker(const Cut& cut, Mesh& out) : cut_(cut), out_(out), count_(cut.mesh().faces.size(), 0) {
@@ -63,15 +63,16 @@ public:
 private:
     const Cut& cut_;
     Mesh& out_;
-    std::vector<std::uint32_t> count_;  ///< of faces that each face becomes
+    std::vector<std::uint32_t> count_;  ///< how many faces each face becomes
     std::uint32_t next_face_ = 0;
 };
 
-/// An attribute with an index of its own: new values where both ends have one, shared where the ends are.
-template <class T, class EdgeVertex>
+/// Refines an attribute with an index per corner. Where both ends have a value there is a new one, which
+/// corners with the same two values share.
+template <class T, class Interpolate>
 class CornerMaker {
 public:
-    CornerMaker(const Cut& cut, const Attribute<T>& attribute, EdgeVertex between)
+    CornerMaker(const Cut& cut, const Attribute<T>& attribute, Interpolate between)
         : cut_(cut), was_(attribute), out_{attribute.values, {}}, between_(between) {
         cut.each_face(*this);
     }
@@ -101,7 +102,7 @@ private:
     const Cut& cut_;
     const Attribute<T>& was_;
     Attribute<T> out_;
-    EdgeVertex between_;
+    Interpolate between_;
     std::unordered_map<Mix, std::uint32_t, MixHash> made_;
 };
 

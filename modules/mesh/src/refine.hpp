@@ -11,23 +11,23 @@
 #include <span>
 #include <vector>
 
-/// What the parts of `refined` share. Each format refines the file that a mesh came from and reads that, so
-/// that the mesh and its source go on belonging together.
+/// What the parts of refined() share. Each format refines the file that a mesh came from and reads the
+/// result, so that the mesh and its source go on belonging together.
 
 namespace goffer::mesh {
 
-/// A corner of a piece: a corner of the mesh, or a place between two of the same triangle.
+/// A corner of a piece: a corner of the mesh, or a place between two corners of the same triangle.
 struct PieceCorner {
     std::uint32_t vertex;  ///< of the refined mesh
-    std::size_t a, b;      ///< corners of the mesh; both the same where it is one
-    double t;              ///< 0 where it is one
+    std::size_t a, b;      ///< corners of the mesh; equal for a corner of the mesh
+    double t;              ///< 0 for a corner of the mesh
     [[nodiscard]] bool is_old() const { return a == b; }
 };
 
-/// A mesh and its pieces, known to fit together.
+/// A mesh and its pieces, known to fit together. Refers to both, which must outlive it.
 class Cut {
 public:
-    /// Throws Error where they don't fit.
+    /// Throws Error if they do not fit.
     Cut(const Mesh& mesh, const Subdivision& pieces);
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
@@ -36,7 +36,7 @@ public:
     /// The positions of the new vertices.
     [[nodiscard]] std::vector<glm::vec3> positions() const;
 
-    /// The pieces of a triangle or of a run of them: a range of pieces.
+    /// The first piece of a triangle; the last one is before that of the next triangle.
     [[nodiscard]] std::size_t first_piece(std::size_t triangle) const { return first_piece_[triangle]; }
 
     [[nodiscard]] bool is_cut(std::size_t triangle) const;
@@ -44,9 +44,8 @@ public:
     /// The corners of a piece, in the mesh's terms.
     [[nodiscard]] std::array<PieceCorner, 3> corners(std::size_t piece) const;
 
-    /// Calls visit.face(face, size) for each face that stays and visit.piece(face, piece) for each piece of
-    /// those that don't, in the order that the refined mesh has them in. `corner` of a face: the mesh's
-    /// first.
+    /// Calls visit.face(face, corner, size) for each face that stays, where `corner` is its first one in the
+    /// mesh, and visit.piece(face, piece) for each piece of the others, in the order of the refined mesh.
     template <class Visit>
     void each_face(Visit&& visit) const {
         std::size_t triangle = 0, corner = 0;
@@ -72,11 +71,12 @@ private:
     std::vector<std::size_t> first_piece_;  ///< of each triangle, and the number of pieces
 };
 
-/// `cut` in a mesh without a source, whatever the mesh came from: new vertices behind all others.
+/// Returns the refined mesh without a source, whatever the mesh came from: new vertices are behind all
+/// others.
 [[nodiscard]] Mesh refined_alone(const Cut& cut);
 
-/// The refined mesh with a refined source of its format; null where the mesh has none of that format, or is
-/// not its source's any more. `alone`: what refined_alone makes.
+/// Return the refined mesh with a refined source; null if the mesh has no source of that format, differs from
+/// it in more than what bending changes, or cannot be refined in it. `alone` is what refined_alone() returns.
 [[nodiscard]] std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone);
 [[nodiscard]] std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone);
 [[nodiscard]] std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone);

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What the text formats share: tokens, exact numbers, error messages, and a file's bytes given back with
-/// some tokens replaced. All views are into the bytes of the file.
+/// What the text formats share: tokens, exact numbers, error messages, and an editor that replaces tokens.
+/// All views are into the bytes of the file.
 
 namespace goffer::mesh {
 
@@ -22,8 +22,8 @@ namespace goffer::mesh {
 /// "line N", where `place` points into `text`; lines count from 1.
 [[nodiscard]] std::string line_of(std::string_view text, const char* place);
 
-/// Takes the next token off the front of `rest`; empty at its end. A backslash before a line's end is a
-/// blank.
+/// Takes the next token off the front of `rest`; empty at its end. A backslash before the end of a line
+/// counts as a blank.
 std::string_view next_token(std::string_view& rest);
 
 /// Takes the next line off the front of `rest`, without its end (LF, CRLF, or CR as on old Macs).
@@ -38,8 +38,8 @@ std::string_view next_line(std::string_view& rest);
 /// `text` in lower case (ASCII).
 [[nodiscard]] std::string lower(std::string_view text);
 
-/// A whole token as a number, correctly rounded; beyond the type's range an infinity or 0. Reads nan and inf
-/// too.
+/// Convert a whole token to a number, correctly rounded; null if it is none. What is beyond the type's range
+/// becomes an infinity or 0. nan and inf are read too.
 [[nodiscard]] std::optional<float> to_float(std::string_view token);
 [[nodiscard]] std::optional<double> to_double(std::string_view token);
 [[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view token);
@@ -65,13 +65,13 @@ public:
     void replace(std::string_view old, std::string_view with);
     void replace(std::string_view old, float with);
 
-    /// The whole of it; the editor is spent.
+    /// Returns the edited bytes. To be called once, last.
     [[nodiscard]] std::string finish();
 
 private:
     std::string_view source_;
     std::string out_;
-    std::size_t done_ = 0;  ///< bytes of the source that are in out_, or replaced
+    std::size_t done_ = 0;  ///< how many bytes of the source are in out_, or replaced
 };
 
 }  // namespace goffer::mesh

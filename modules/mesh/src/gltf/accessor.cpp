@@ -11,7 +11,7 @@ namespace {
 
 enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-/// Elements without bytes behind them are zeros; a number in a file must not make us take memory without end.
+/// Elements without bytes behind them are zeros. A count in a file must not make us allocate without end.
 constexpr std::uint64_t most_unbacked = 1u << 20;
 
 std::size_t size_of(std::uint64_t component) {
@@ -109,7 +109,7 @@ std::uint64_t component_type(const Value& owner, bool unsigned_only) {
     const bool known = size_of(value) != 0 && (!unsigned_only || value == u8 || value == u16 || value == u32);
     if (!known)
         type.fail("is " + std::to_string(value) + ", expected " +
-                  (unsigned_only ? "5121, 5123 or 5125" : "5120 to 5126"));
+                  (unsigned_only ? "5121, 5123 or 5125" : "5120 to 5126") + "; export the file again");
     return value;
 }
 
@@ -142,7 +142,8 @@ std::vector<T> read(const Document& document, const Value& index, std::size_t co
     const std::string& type = accessor["type"].text();
     if (components_of(type) != components) {
         accessor["type"].fail("is the wrong one here, expected " +
-                              (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)));
+                              (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)) +
+                              "; export the file again");
     }
     const std::uint64_t count = accessor["count"].whole();
     if (count == 0) accessor["count"].fail("is 0, expected 1 or more; export the file again");
@@ -178,7 +179,7 @@ void set_bounds(Json& accessor, const std::vector<float>& values, std::size_t co
         least[i % components] = std::min(least[i % components], values[i]);
         most[i % components] = std::max(most[i % components], values[i]);
     }
-    // as doubles: JSON then names the float exactly
+    // As doubles, so that the JSON has the exact floats.
     accessor["min"] = std::vector<double>(least.begin(), least.end());
     accessor["max"] = std::vector<double>(most.begin(), most.end());
 }

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little,
 namespace {
 
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-constexpr int deepest = 200;  // writing recurses; no document that is meant comes near it
+constexpr int deepest = 200;  // writing recurses; no sensible document comes near it
 constexpr const char* truncated = "the GLB is cut off or its lengths are wrong; copy or export it again";
 
 std::uint32_t u32(std::string_view bytes, std::size_t at) {
@@ -55,7 +55,7 @@ Container split_glb(std::string_view bytes) {
     return parts;
 }
 
-/// Counts brackets ahead of the parser, whose own callback takes quadratic time for long arrays.
+/// Counts brackets before the parser runs. (Its callback would take quadratic time for long arrays.)
 void check_depth(std::string_view text) {
     int depth = 0;
     bool in_string = false;
@@ -79,7 +79,7 @@ Json parse(std::string_view text) {
     } catch (const Json::parse_error& error) {
         throw Error("not valid JSON at byte " + std::to_string(error.byte) + "; export the file again");
     } catch (const Json::exception&) {
-        throw Error("the JSON has a number that no double can hold; mend or remove it");
+        throw Error("the JSON has a number that no double can hold; correct or remove it");
     }
 }
 
@@ -107,7 +107,7 @@ void refuse_compression(const Value& root) {
 std::string read_outer(const Value& uri, const std::filesystem::path& folder, std::uint64_t size) {
     if (!is_relative_uri(uri.text())) {
         uri.fail("is " + mesh::quoted(uri.text()) +
-                 "; only files beside the document are read, put it there");
+                 "; only relative paths are read, so put the file beside the document");
     }
     const std::filesystem::path file = folder / path_of(uri.text());
     std::error_code error;
@@ -224,8 +224,8 @@ std::shared_ptr<const Document> document_of(Output output, const std::filesystem
 
 std::string glb_file(Json json, const std::string& buffer) {
     set_buffer(json, buffer, "");
-    const std::string text =
-        json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names need not be UTF-8
+    // Names need not be UTF-8, which `replace` makes them.
+    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     const std::size_t length =
         12 + 8 + (text.size() + 3) / 4 * 4 + (buffer.empty() ? 0 : 8 + (buffer.size() + 3) / 4 * 4);
     if (length > std::numeric_limits<std::uint32_t>::max())

@@ -25,8 +25,8 @@ bool names_no_accessors(std::string_view extension) {
     return false;
 }
 
-/// All numbers inside other extensions, which might be indices of anything: we can't know, and rather keep
-/// too much.
+/// Adds all numbers inside other extensions. They might be indices of anything, so too much is kept rather
+/// than too little.
 void numbers_in_extensions(const Json& json, bool inside, std::set<std::size_t>& found) {
     if (inside) add_number(json, found);
     if (json.is_array()) {
@@ -139,7 +139,7 @@ std::size_t Edit::replace(Replacement replacement) {
     return number;
 }
 
-/// A mesh that a node shows which isn't changed, maybe in another scene, must stay as it is.
+/// A mesh that an unchanged node shows, maybe in another scene, must stay as it is.
 void Edit::keep_shown_elsewhere(const std::vector<Shape>& changed) {
     std::set<std::size_t> nodes;
     for (const Shape& shape : changed) nodes.insert(shape.node);
@@ -151,7 +151,7 @@ void Edit::keep_shown_elsewhere(const std::vector<Shape>& changed) {
     });
 }
 
-/// Gives a node an entry with its primitives: one that another node has already, the mesh's own, or a clone.
+/// Gives a node a mesh entry with its primitives: one that another node has got, the mesh's own, or a clone.
 void Edit::place_one(Shape shape) {
     std::vector<std::size_t>& entries = mesh_entries_[shape.mesh];
     const auto same = std::find_if(entries.begin(), entries.end(), [&](std::size_t entry) {
@@ -176,7 +176,7 @@ void Edit::place(std::vector<Shape> shapes) {
     for (Shape& shape : shapes) place_one(std::move(shape));
 }
 
-/// Replacements take the numbers of accessors that nothing uses any more, so that the file doesn't grow.
+/// Replacements take the numbers of accessors that nothing uses any more, so that the file does not grow.
 void Edit::settle_accessors() {
     const std::size_t count = document_.count("accessors");
     std::set<std::size_t> used = used_accessors(json_);
@@ -220,7 +220,7 @@ void Edit::renumber(const std::vector<std::size_t>& number) {
     });
 }
 
-/// The origin's fields with new values, in the origin's own view where nothing else uses that any more.
+/// The origin's fields with new values, in the origin's view if nothing else uses that any more.
 Json Edit::accessor_for(Replacement& replacement, std::set<std::size_t>& taken_views) {
     Json accessor = Json::object(), view = Json::object();
     std::optional<std::size_t> slot;
@@ -277,7 +277,7 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         std::ifstream stream(outer, std::ios::binary);
         std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
         const std::string type = mime_type(bytes);
-        if (type.empty()) continue;  // not an image that a GLB can hold
+        if (type.empty()) continue;  // a GLB cannot hold it
         image.erase("uri");
         image["mimeType"] = type;
         image["bufferView"] = add_view(std::move(bytes), Json::object(), std::nullopt);
@@ -285,8 +285,8 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
     }
 }
 
-/// All views in one buffer: the bytes that stay in their order (and at the same place modulo 4), then the new
-/// ones.
+/// Packs all views into one buffer: the bytes that stay, in their order and at the same place modulo 4, then
+/// the new ones.
 std::string Edit::pack() {
     std::string packed;
     std::vector<Kept> kept = kept_ranges(document_, new_views_);

@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
-/// A document changed in some accessors, and everything else in it kept: what bending and refining share.
+/// Changes some accessors of a document and keeps everything else: what bending and refining share.
 
 namespace goffer::mesh::gltf {
 
-/// An accessor that takes over for another.
+/// An accessor that takes the place of another.
 struct Replacement {
-    std::size_t origin =
-        none;           ///< whose fields, number and view it takes, where nothing else uses these; or none
+    /// The accessor whose fields it takes over, with its number and view where nothing else uses these; or
+    /// none.
+    std::size_t origin = none;
     Json fields;        ///< of the accessor: componentType, count, type, min and max where they matter
     std::string bytes;  ///< of its elements, without gaps
     int target = vertices;
@@ -25,32 +26,34 @@ struct Replacement {
     static constexpr int vertices = 34962, indices = 34963;
 };
 
-/// The fields of an accessor of floats, with its bounds where glTF wants them.
+/// Returns the fields of an accessor of floats; `bounds`: with min and max, which glTF requires of positions.
 [[nodiscard]] Json float_fields(const std::vector<float>& values, std::size_t components, bool bounds);
 
-/// A node's mesh as it is to be: its primitives, with the numbers of replacements.
+/// What a node's mesh is to become: its primitives, with the numbers of replacements.
 struct Shape {
     std::size_t node, mesh;
     Json primitives;
 };
 
-/// Where a node's mesh changes, its primitives are given new accessor numbers by `replace` and the lot goes
-/// to `place`; then come settle_accessors, settle_images if the file moves, and finish, in this order. The
-/// document must outlive it.
+/// An edit of a document, which must outlive it. To be called in this order: replace() for each accessor that
+/// changes, whose number goes into the primitives; place() once, with the shapes of all nodes that change;
+/// settle_accessors(); settle_images(), if the file moves; finish().
 class Edit {
 public:
     explicit Edit(const Document& document) : document_(document), json_(document.json) {}
 
-    /// A number for primitives to name the accessor by until all are settled; the same for the same accessor.
+    /// Returns a number by which primitives name the accessor until all are settled; equal replacements share
+    /// one.
     std::size_t replace(Replacement replacement);
 
-    /// All the nodes that show something else than before.
+    /// Gives each node in `shapes` its new primitives.
     void place(std::vector<Shape> shapes);
 
+    /// Puts the replacements into the document and gives them their final numbers.
     void settle_accessors();
 
-    /// Images beside the source are taken in (`embed`) or named from the folder of `file`; those that aren't
-    /// there keep their URI.
+    /// Embeds the images that lie beside the source (`embed`), or names them from the folder of `file`.
+    /// Images that are not there keep their URI.
     void settle_images(const std::filesystem::path& file, bool embed);
 
     [[nodiscard]] Output finish() &&;
@@ -67,8 +70,8 @@ private:
     Json json_;
     std::vector<Replacement> replacements_;
     std::map<std::size_t, std::string> new_views_;  ///< bytes, by the view's number
-    std::map<std::size_t, std::vector<std::size_t>>
-        mesh_entries_;  ///< of each source mesh: entries in use, first its own
+    /// For each mesh of the source, the entries in use for it, its own first.
+    std::map<std::size_t, std::vector<std::size_t>> mesh_entries_;
 };
 
 }  // namespace goffer::mesh::gltf

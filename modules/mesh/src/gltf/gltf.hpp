@@ -18,23 +18,23 @@
 #include <vector>
 
 /// What the parts of glTF's reader and writer share. The document is held as JSON in its own order, since all
-/// of it has to be given back; every look into it is checked here. TinyGLTF is not used for it: its model
-/// loses order, numbers and unknown fields, and in version 2.7 it reads past the end of a GLB whose BIN chunk
-/// is 8 bytes too long and of views of images, overflows the stack on deeply nested extras, and refuses
-/// buffers longer than their byteLength.
+/// of it has to be given back, and every access to it is checked here. TinyGLTF is not used: its model loses
+/// the order, the exact numbers and unknown fields. TinyGLTF 2.7 also reads past the end of a GLB whose BIN
+/// chunk is 8 bytes too long and of image views, overflows the stack on deeply nested extras, and refuses
+/// buffers that are longer than their byteLength.
 
 namespace goffer::mesh::gltf {
 
 using Json = nlohmann::ordered_json;
 
-/// A value of a document and its place, so that each complaint can say where. The document must outlive it.
+/// A value of a document and its path, so that each error can say where. The document must outlive it.
 class Value {
 public:
     explicit Value(const Json& json, std::string path = {}) : json_(&json), path_(std::move(path)) {}
 
     [[nodiscard]] bool has(const char* key) const;
     [[nodiscard]] Value operator[](const char* key) const;      ///< a member, which must be there
-    [[nodiscard]] Value operator[](std::size_t element) const;  ///< of an array, which must be so long
+    [[nodiscard]] Value operator[](std::size_t element) const;  ///< of an array that must be long enough
     [[nodiscard]] std::size_t size() const;                     ///< of an array
     [[nodiscard]] double number() const;
     [[nodiscard]] std::uint64_t whole() const;  ///< a whole number from 0 to 2^53
@@ -49,6 +49,8 @@ public:
 
     /// Throws Error "<path>: <what>".
     [[noreturn]] void fail(const std::string& what) const;
+    /// Throws Error that says which type of JSON this is, and which was expected.
+    [[noreturn]] void fail_type(const char* expected) const;
 
     [[nodiscard]] const Json& json() const { return *json_; }
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -58,10 +60,9 @@ private:
     std::string path_;
 };
 
-/// A file as read: the JSON and the bytes that its buffers name. All buffer views are known to lie in their
-/// buffers.
+/// A file as read: the JSON and the bytes of its buffers. All buffer views are known to lie in their buffers.
 struct Document : Source {
-    Document() {}  // may throw, as the JSON inside may
+    Document() {}  // may throw, since Json's constructor may
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
@@ -75,22 +76,22 @@ struct Document : Source {
     /// `index` as an index into `list` ("meshes", ...), known to be in range.
     [[nodiscard]] std::size_t number(const char* list, const Value& index) const;
 
-    /// The entry of `list` that `index` names. Its path tells where the index stands, too.
+    /// The entry of `list` that `index` names. Its path also says where the index stands.
     [[nodiscard]] Value entry(const char* list, const Value& index) const;
 
     /// The bytes of a buffer view.
     [[nodiscard]] std::string_view view(const Value& buffer_view) const;
 };
 
-/// Takes a .glb or .gltf apart and fetches its buffers. Throws Error without the file's name.
+/// Takes a .glb or .gltf apart and reads its buffers. Throws Error without the file's name.
 [[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
                                                             std::string_view bytes);
 
-/// A whole file made of a document, whose one buffer (set here) has these bytes.
+/// Return the bytes of a file with this document and its one buffer.
 [[nodiscard]] std::string glb_file(Json json, const std::string& buffer);
 [[nodiscard]] std::string gltf_file(Json json, const std::string& buffer);
 
-/// URIs. Data URIs are decoded whether base64 or percent; null where they are malformed.
+/// URIs. Data URIs may be in base64 or percent-encoded; data_of returns null for a malformed one.
 [[nodiscard]] bool is_data_uri(std::string_view uri);
 [[nodiscard]] bool is_relative_uri(std::string_view uri);
 [[nodiscard]] std::optional<std::string> data_of(std::string_view data_uri);
@@ -98,9 +99,9 @@ struct Document : Source {
 [[nodiscard]] std::filesystem::path path_of(std::string_view uri);
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
 
-/// The components of an accessor, `components` for each element, in element order; normalized integers as
-/// numbers in -1..1. `index` is the reference to it. Nothing is allocated before the size is known to be
-/// backed by bytes.
+/// Returns the components of an accessor, `components` for each element, in the order of elements; normalized
+/// integers become numbers in -1..1. `index` is the reference to the accessor. Nothing is allocated before it
+/// is known that there are bytes for that size.
 [[nodiscard]] std::vector<float> read_floats(const Document& document, const Value& index,
                                              std::size_t components);
 
@@ -113,18 +114,17 @@ template <class T>
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// Least and greatest of each component, as the fields `min` and `max` of an accessor of positions.
+/// Sets the fields `min` and `max` of an accessor of positions.
 void set_bounds(Json& accessor, const std::vector<float>& values, std::size_t components);
 
-/// Where a node stands in the scene: the map of its positions, normals and tangents, and back. Normals and
-/// tangents go to unit length unless the place is the origin itself, where everything stays as it is to the
-/// last bit.
+/// Where a node stands in the scene: maps its positions, normals and tangents to world space, and back.
+/// Normals and tangents get unit length, unless the placement is the identity, which changes no bit.
 class Placement {
 public:
     Placement() : Placement(glm::dmat4(1.0)) {}
     explicit Placement(const glm::dmat4& matrix);
 
-    [[nodiscard]] bool mirrored() const { return mirrored_; }  ///< triangles turn round
+    [[nodiscard]] bool mirrored() const { return mirrored_; }  ///< the winding of triangles changes
     [[nodiscard]] bool singular() const { return singular_; }  ///< there is no way back
 
     [[nodiscard]] glm::vec3 point(const glm::vec3& local) const;
@@ -138,8 +138,8 @@ public:
 private:
     glm::dmat4 matrix_;
     glm::dmat4 inverse_{1.0};
-    glm::dmat3 cofactors_{
-        1.0};  ///< of the matrix over its largest entry: the inverse transpose up to a factor
+    /// Cofactors of the matrix over its largest entry: the inverse transpose up to a factor.
+    glm::dmat3 cofactors_{1.0};
     bool identity_ = false, mirrored_ = false, singular_ = false;
 };
 
@@ -160,29 +160,31 @@ struct Block {
     static constexpr std::size_t absent = ~std::size_t{0};
 };
 
-/// A document's scene as a mesh, without its source, and which of its vertices come from where, in vertex
-/// order.
+/// A document's scene as a mesh, without its source. The blocks, in vertex order, say where its vertices come
+/// from.
 struct Scene {
     Mesh mesh;
     std::vector<Block> blocks;
 };
 
-/// The same scene for the same document, always: the writer leans on it.
+/// Reads the scene of a document. The writer relies on getting the same scene for the same document.
 [[nodiscard]] Scene read_scene(const Document& document);
 
-/// The document that `mesh` came from with the streams of `mesh` in it; null where mesh has no such document,
-/// or differs from it in more than these streams. `embed`: outer images are taken in (GLB).
+/// A document to be written.
 struct Output {
     Json json;
     std::string buffer;
 };
+
+/// Returns the document that `mesh` came from, with the streams of `mesh` in it; null if the mesh has no such
+/// document, or differs from it in more than these streams. `embed`: takes images in, for a GLB.
 [[nodiscard]] std::optional<Output> rewritten(const Mesh& mesh, const std::filesystem::path& file,
                                               bool embed);
 
-/// What was written, as a document again. `folder`: where the files lie that it names.
+/// Turns an output into a document again. `folder` is where the files are that it names.
 [[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const std::filesystem::path& folder);
 
-/// A new document for a mesh from elsewhere.
+/// Returns a new document for a mesh that came from no glTF.
 [[nodiscard]] Output made(const Mesh& mesh);
 
 }  // namespace goffer::mesh::gltf

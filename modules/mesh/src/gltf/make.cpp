@@ -17,13 +17,13 @@ namespace {
 constexpr int float_type = 5126, u16_type = 5123, u32_type = 5125, attribute_target = 34962,
               index_target = 34963;
 
-/// Which value of each stream a glTF vertex has: position, normal, tangent, UV sets. `none` where it has
-/// none.
+/// Which value of each stream a glTF vertex has: position, normal, tangent, UV sets; or `none`.
 using Key = std::vector<std::uint32_t>;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
-/// The mesh's vertices as glTF wants them, one index for all streams: in the order of the mesh's vertices,
-/// those that occur with several values in the order of use. A vertex that no face uses is still there.
+/// The mesh's vertices with one index for all streams, as glTF has them. They are in the order of the mesh's
+/// vertices; a vertex that occurs with several values is there once for each, in the order of use. A vertex
+/// that no face uses is kept.
 struct Split {
     std::vector<Key> keys;
     std::vector<std::uint32_t> corners;  ///< of the faces, into keys
@@ -46,8 +46,8 @@ Key unused_key(const Mesh& mesh, std::uint32_t vertex) {
 }
 
 Split split(const Mesh& mesh) {
-    std::vector<std::vector<std::pair<Key, std::uint32_t>>> of_vertex(
-        mesh.positions.size());  // and the number of use
+    // The keys of each vertex, each with its number in the order of use.
+    std::vector<std::vector<std::pair<Key, std::uint32_t>>> of_vertex(mesh.positions.size());
     std::vector<std::uint32_t> use;
     for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
         auto& known = of_vertex[mesh.corners[corner]];
@@ -75,7 +75,7 @@ float finite(float value) {
     return std::isfinite(value) ? value : 0.0f;
 }
 
-/// Of unit length, or null where there is no direction.
+/// The vector at unit length; null if it has no direction.
 std::optional<glm::vec3> unit(const glm::dvec3& v) {
     const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(most > 0.0 && std::isfinite(most))) return std::nullopt;
@@ -104,8 +104,8 @@ private:
     const Mesh& mesh_;
     Split split_;
     Json json_;
-    Json views_ = Json::array(),
-         accessors_ = Json::array();  // not in json_ yet: a new key there moves all others
+    // These are not in json_ yet, because a new key there moves all others.
+    Json views_ = Json::array(), accessors_ = Json::array();
     std::string buffer_;
 };
 
@@ -126,8 +126,7 @@ std::size_t Maker::add_stream(const std::vector<glm::vec<N, float>>& values) {
     return add_accessor(bytes_of(values), float_type, shapes[N - 2], values.size(), attribute_target);
 }
 
-/// For each glTF vertex the sum of its faces' normals, not normalized; only where a normal of the mesh is no
-/// direction.
+/// The normal of each glTF vertex from its faces, for vertices whose own normal has no direction.
 std::vector<glm::vec3> Maker::face_normals() const {
     std::vector<glm::dvec3> sums(split_.keys.size(), glm::dvec3(0.0));
     std::size_t corner = 0;
@@ -156,7 +155,7 @@ std::vector<glm::vec3> Maker::normals() const {
     return result;
 }
 
-/// A tangent that is no direction becomes any one across the normal.
+/// A tangent without a direction becomes some direction orthogonal to the normal.
 std::vector<glm::vec4> Maker::tangents(const std::vector<glm::vec3>& normals) const {
     std::vector<glm::vec4> result;
     for (std::size_t i = 0; i < split_.keys.size(); ++i) {
@@ -203,7 +202,7 @@ Json Maker::attributes() {
     return result;
 }
 
-/// The indices of a part's triangles, polygons as fans. `corner` moves behind the part.
+/// Adds the indices of a part's triangles, polygons as fans. `corner` moves behind the part.
 std::size_t Maker::add_indices(const Part& part, std::size_t& corner) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t f = part.first_face; f < part.first_face + part.face_count; ++f) {
@@ -212,8 +211,8 @@ std::size_t Maker::add_indices(const Part& part, std::size_t& corner) {
             indices.insert(indices.end(), {face[0], face[k], face[k + 1]});
         corner += mesh_.faces[f];
     }
-    if (split_.keys.size() >
-        std::numeric_limits<std::uint16_t>::max()) {  // the largest index itself is reserved
+    // glTF reserves the largest index.
+    if (split_.keys.size() > std::numeric_limits<std::uint16_t>::max()) {
         return add_accessor(bytes_of(indices), u32_type, "SCALAR", indices.size(), index_target);
     }
     const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
@@ -232,8 +231,8 @@ void Maker::add_materials() {
     }
 }
 
-/// All in one node, a primitive for each part: they share their vertices, as the parts do. glTF has no names
-/// for primitives, so parts of different names carry these as extras.
+/// One primitive for each part, all with the same vertices. glTF has no names for primitives: where parts
+/// differ in name, the primitives carry them as extras.
 Json Maker::primitives(const Json& attributes, bool named) {
     const Part whole{"", -1, 0, static_cast<std::uint32_t>(mesh_.faces.size())};
     const std::vector<Part> parts = mesh_.parts.empty() ? std::vector<Part>{whole} : mesh_.parts;

@@ -11,7 +11,7 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-/// A zero vector stays one: it is the file's, and there is no direction to make up.
+/// The vector at unit length. A zero vector stays one, as in the file.
 glm::dvec3 unit(const glm::dvec3& v) {
     const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return most > 0.0 ? glm::normalize(v / most) : v;
@@ -29,7 +29,8 @@ Placement::Placement(const glm::dmat4& matrix) : matrix_(matrix), identity_(matr
     const double volume = glm::dot(x, cofactors_[0]);
     mirrored_ = volume < 0.0;
     if (mirrored_) cofactors_ = cofactors_ * -1.0;
-    // what shear leaves of the box that the columns span, whatever their lengths
+    // The volume that the columns span, compared with that of a box of the same edges: small after much
+    // shear.
     singular_ = !(std::abs(volume) > 1e-10 * glm::length(x) * glm::length(y) * glm::length(z));
     if (!singular_) inverse_ = glm::inverse(matrix);
 }
@@ -42,7 +43,7 @@ glm::vec3 Placement::normal(const glm::vec3& local) const {
     return identity_ ? local : glm::vec3(unit(cofactors_ * glm::dvec3(local)));
 }
 
-// A mirror turns the bitangent's side, since normals keep looking outward.
+// Under a mirror the bitangent changes its side, since normals stay outward.
 glm::vec4 Placement::tangent(const glm::vec4& local) const {
     if (identity_) return local;
     return glm::vec4(glm::vec3(unit(glm::dmat3(matrix_) * glm::dvec3(local))),

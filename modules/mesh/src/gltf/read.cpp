@@ -75,7 +75,7 @@ std::vector<std::size_t> roots(const Document& document) {
     return found;
 }
 
-/// All nodes of the scene, parents before children and these in their order. The graph must be a forest.
+/// All nodes of the scene, parents before children, children in their order. Throws Error if it is no forest.
 std::vector<PlacedNode> walk(const Document& document) {
     std::vector<PlacedNode> order, open;
     for (const std::size_t node : roots(document)) open.push_back({node, glm::dmat4(1.0)});
@@ -152,8 +152,8 @@ private:
     std::size_t budget_;  ///< elements that may still be read
 };
 
-/// Nodes and primitives may repeat an accessor without end. No file that uses its bytes up to four times is
-/// refused, nor any scene of a size that is meant to be bent.
+/// Nodes and primitives may repeat an accessor without end, so what is read is limited. The limit refuses no
+/// file that uses its bytes up to four times, and no scene of up to 16 million elements.
 SceneReader::SceneReader(const Document& document) : document_(document), budget_(std::size_t{1} << 24) {
     std::size_t bytes = 0;
     for (const std::string& buffer : document.buffers) bytes += buffer.size();
@@ -162,7 +162,7 @@ SceneReader::SceneReader(const Document& document) : document_(document), budget
 
 void SceneReader::spend(std::size_t elements, const Value& where) {
     if (elements > budget_)
-        where.fail("the scene repeats its meshes so often that they are too large to read; split it");
+        where.fail("the scene repeats its meshes so often that it is too large to read; split it");
     budget_ -= elements;
 }
 
@@ -213,7 +213,7 @@ Block SceneReader::begin_block(const PlacedNode& placed) const {
     return block;
 }
 
-/// Primitives have no name of their own; our writer, and some others, give them one as extras.
+/// Primitives have no name in glTF. This writer, and some others, give them one as extras.
 std::string name_of(const Value& primitive, const Value& node, const Value& mesh) {
     if (primitive.has("extras")) {
         const Json& extras = primitive["extras"].json();
@@ -232,7 +232,8 @@ void SceneReader::read_node(const PlacedNode& placed) {
     const Placement placement = begin_block(placed).placement;
     if (placement.singular()) {
         warn(node.path() +
-             " is scaled to nothing or flat: it cannot be written back and keeps its shape in glTF output");
+             " is scaled to nothing or flat: bent vertices cannot be written back to it, so it keeps its "
+             "shape in glTF output");
     }
     if (node.has("extensions") && node["extensions"].has("EXT_mesh_gpu_instancing")) {
         warn(node.path() + " is drawn many times: it is bent once, at the node's own place");
@@ -329,7 +330,7 @@ void SceneReader::read_streams(Block& block, const Value& attributes) {
     tangents_.first.push_back(block.first[tangent]);
 }
 
-/// A vertex without a color has the one that glTF gives it: white, which changes nothing.
+/// A vertex without a color is white, which in glTF changes nothing.
 void SceneReader::read_colors(const Block& block, const Value& attributes) {
     if (!attributes.has("COLOR_0")) return;
     const Value accessor = document_.entry("accessors", attributes["COLOR_0"]);

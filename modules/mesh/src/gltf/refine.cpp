@@ -19,15 +19,14 @@ namespace {
 
 constexpr std::uint64_t u8_type = 5121, u16_type = 5123, u32_type = 5125, float_type = 5126;
 
-/// New vertices of a block, in the block's own numbers.
+/// The new vertices of a block.
 struct BlockCut {
-    std::size_t count = 0;  ///< vertices before
-    std::vector<EdgeVertex> vertices;
-    std::vector<std::uint32_t>
-        number;  ///< of the mesh's new vertices, those in this block: their place in it
+    std::size_t count = 0;              ///< vertices before
+    std::vector<EdgeVertex> vertices;   ///< in the block's numbers
+    std::vector<std::uint32_t> number;  ///< the number of each in the mesh of refined_alone()
 };
 
-/// What may stand between two values of an attribute.
+/// How to interpolate two values of an attribute.
 enum class Kind { linear, direction, tangent, nearest };
 
 Kind kind_of(const std::string& name, const Value& accessor) {
@@ -53,10 +52,10 @@ void put_between(const float* a, const float* b, double t, Kind kind, std::size_
     }
 }
 
-/// Joints and weights of one vertex: from the heaviest on.
+/// Joints of one vertex, each with its weight.
 using Influences = std::vector<std::pair<float, double>>;
 
-/// The most important `count` joints of both ends, with the weight that all had.
+/// The `count` heaviest joints of both ends, scaled to the weight that all of them had.
 Influences mixed(const Influences& a, const Influences& b, double t, std::size_t count) {
     std::map<float, double> sums;
     double whole = 0, kept = 0;
@@ -87,7 +86,8 @@ public:
     SceneRefiner(const Document& document, const Cut& cut)
         : document_(document), cut_(cut), scene_(read_scene(document)), edit_(document) {}
 
-    /// The refined document; `order` becomes the number that each of its vertices has in the refined mesh.
+    /// Returns the refined document. `order` becomes the number that each of its vertices has in the mesh of
+    /// refined_alone().
     Output run(std::vector<std::uint32_t>& order) &&;
 
 private:
@@ -136,8 +136,7 @@ std::size_t SceneRefiner::width_of(const Value& reference) const {
     if (type.text() == "SCALAR") return 1;
     for (std::size_t width : {2u, 3u, 4u})
         if (type.text() == "VEC" + std::to_string(width)) return width;
-    type.fail(
-        "is a matrix, and nothing is known to lie between two; leave the attribute out, or don't refine");
+    type.fail("is a matrix, which cannot be interpolated; leave the attribute out, or do not refine");
 }
 
 /// The values of an accessor that has one for each vertex.
@@ -150,7 +149,7 @@ std::vector<float> SceneRefiner::values_of(const BlockCut& cut, const Value& ref
     return values;
 }
 
-/// The number of an accessor with the values of the new vertices behind its own.
+/// Replaces an accessor by one with the values of the new vertices behind its own; returns its number.
 std::size_t SceneRefiner::refined(const BlockCut& cut, const Value& reference, Kind kind, bool bounds) {
     const std::size_t width = width_of(reference);
     std::vector<float> values = values_of(cut, reference, width);
@@ -174,7 +173,7 @@ void SceneRefiner::refine_attributes(const BlockCut& cut, const Value& was, Json
     refine_skin(cut, attributes, primitive);
 }
 
-/// What a target adds to a vertex, it adds between two in proportion.
+/// Morph targets are displacements, which are interpolated linearly.
 void SceneRefiner::refine_targets(const BlockCut& cut, const Value& was, Json& primitive) {
     for (std::size_t i = 0; was.has("targets") && i < was["targets"].size(); ++i) {
         const Value target = was["targets"][i];
@@ -184,7 +183,7 @@ void SceneRefiner::refine_targets(const BlockCut& cut, const Value& was, Json& p
     }
 }
 
-/// A vertex may hang on the joints of both ends: as many are kept as there are places for.
+/// A new vertex may depend on the joints of both ends: as many are kept as there is room for.
 void SceneRefiner::refine_skin(const BlockCut& cut, const Value& attributes, Json& primitive) {
     std::vector<Influences> all(cut.count);
     std::size_t sets = 0;
@@ -287,8 +286,8 @@ Output SceneRefiner::run(std::vector<std::uint32_t>& order) && {
 
 }  // namespace gltf
 
-/// The positions are those of the mesh and what lies between them, to the last bit; a node's transform and
-/// back might round them, and not alike on both sides of a seam between nodes.
+/// The positions are taken from `alone`. Going through a node's transform and back might round them, and not
+/// alike on both sides of a seam between nodes.
 std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone) {
     const auto* source = dynamic_cast<const gltf::Document*>(cut.mesh().source.get());
     if (!source) return std::nullopt;

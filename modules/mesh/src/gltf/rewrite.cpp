@@ -21,8 +21,8 @@ bool same_shape(const Attribute<T>& a, const Attribute<T>& b) {
     return a.values.size() == b.values.size() && same_bits(a.corners, b.corners);
 }
 
-/// Whether `mesh` is the scene of its source but for the values of its streams. Bits are compared: a UV that
-/// is nan must not cost the document. Nothing is ever split here, since glTF's streams have one index.
+/// Whether `mesh` is the scene of its source but for the values of its streams. Bits are compared, since a UV
+/// that is NaN must not make a difference. Nothing is ever split here, since glTF's streams share one index.
 bool same_but_streams(const Mesh& mesh, const Mesh& rest) {
     bool same = mesh.positions.size() == rest.positions.size() && same_shape(mesh.normals, rest.normals) &&
                 same_shape(mesh.tangents, rest.tangents) && same_bits(mesh.colors, rest.colors) &&
@@ -36,7 +36,7 @@ bool same_but_streams(const Mesh& mesh, const Mesh& rest) {
     return same;
 }
 
-/// A value of a stream as floats, and its way back to the node's space.
+/// A value of a stream, taken back to the node's space.
 template <Stream stream>
 auto brought_back(const Mesh& mesh, const Placement& placement, std::size_t i) {
     if constexpr (stream == position) return placement.point_back(mesh.positions[i]);
@@ -51,8 +51,8 @@ const auto& values_of(const Mesh& mesh) {
     if constexpr (stream == tangent) return mesh.tangents.values;
 }
 
-/// What a block's accessor is to hold; empty where it stays. `stored` is what it holds. A value that bending
-/// left alone keeps its stored bits, and one that bending made unusable does, too.
+/// What a block's accessor is to hold; empty if it stays as it is. `stored` is what it holds now. A value
+/// that bending did not change keeps its stored bits, and so does a normal or tangent that became unusable.
 template <Stream stream>
 std::vector<float> changed(const Mesh& mesh, const Mesh& rest, const Block& block,
                            std::vector<float> stored) {
@@ -66,9 +66,8 @@ std::vector<float> changed(const Mesh& mesh, const Mesh& rest, const Block& bloc
         const float* value = glm::value_ptr(local);
         const bool finite = std::all_of(value, value + width, [](float v) { return std::isfinite(v); });
         if (stream == position && !finite) {
-            throw Error(
-                "vertex " + std::to_string(block.first[stream] + i) +
-                " is too far away for its node's scale, nothing is written; bend less or scale the file");
+            throw Error("vertex " + std::to_string(block.first[stream] + i) +
+                        " is too far away for its node's scale; bend less, or scale the file");
         }
         if (!finite || (value[0] == 0.0f && value[1] == 0.0f && value[2] == 0.0f && stream != position))
             continue;
@@ -83,7 +82,7 @@ public:
     Rewriter(const Document& document, const Mesh& mesh)
         : document_(document), mesh_(mesh), edit_(document) {}
 
-    /// Null where the mesh isn't the source's any more.
+    /// Returns null if the mesh differs from the source in more than its streams.
     std::optional<Output> run(const std::filesystem::path& file, bool embed) &&;
 
 private:

@@ -8,8 +8,8 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-constexpr double largest_whole =
-    9007199254740992.0;  // 2^53: beyond it doubles, and so JSON, skip whole numbers
+/// 2^53: beyond it doubles, and so JSON, skip whole numbers.
+constexpr double largest_whole = 9007199254740992.0;
 
 }  // namespace
 
@@ -17,8 +17,13 @@ void Value::fail(const std::string& what) const {
     throw Error((path_.empty() ? "the document" : path_) + ": " + what);
 }
 
+void Value::fail_type(const char* expected) const {
+    fail(std::string("is a JSON ") + json_->type_name() + ", expected " + expected +
+         "; export the file again");
+}
+
 bool Value::has(const char* key) const {
-    if (!json_->is_object()) fail(std::string("is a JSON ") + json_->type_name() + ", expected an object");
+    if (!json_->is_object()) fail_type("an object");
     return json_->contains(key);
 }
 
@@ -28,38 +33,40 @@ Value Value::operator[](const char* key) const {
 }
 
 std::size_t Value::size() const {
-    if (!json_->is_array()) fail(std::string("is a JSON ") + json_->type_name() + ", expected an array");
+    if (!json_->is_array()) fail_type("an array");
     return json_->size();
 }
 
 Value Value::operator[](std::size_t element) const {
     if (element >= size()) {
-        fail("has " + std::to_string(size()) + " elements, number " + std::to_string(element) + " is wanted");
+        fail("has " + std::to_string(size()) + " elements, but number " + std::to_string(element) +
+             " (counted from 0) is needed; export the file again");
     }
     return Value((*json_)[element], path_ + "[" + std::to_string(element) + "]");
 }
 
 double Value::number() const {
-    if (!json_->is_number()) fail(std::string("is a JSON ") + json_->type_name() + ", expected a number");
+    if (!json_->is_number()) fail_type("a number");
     return json_->get<double>();
 }
 
 std::uint64_t Value::whole() const {
     const double value = number();
     if (!(value >= 0.0 && value <= largest_whole) || value != std::floor(value)) {
-        fail("is " + json_->dump() + ", expected a whole number of 0 or more");
+        fail("is " + json_->dump() + ", expected a whole number of 0 or more; export the file again");
     }
     return static_cast<std::uint64_t>(value);
 }
 
 const std::string& Value::text() const {
-    if (!json_->is_string()) fail(std::string("is a JSON ") + json_->type_name() + ", expected a string");
+    if (!json_->is_string()) fail_type("a string");
     return json_->get_ref<const std::string&>();
 }
 
 std::vector<double> Value::numbers(std::size_t count) const {
     if (size() != count) {
-        fail("has " + std::to_string(size()) + " elements, expected " + std::to_string(count) + " numbers");
+        fail("has " + std::to_string(size()) + " elements, expected " + std::to_string(count) +
+             " numbers; export the file again");
     }
     std::vector<double> values(count);
     for (std::size_t i = 0; i < count; ++i) values[i] = (*this)[i].number();
@@ -77,8 +84,7 @@ std::string Value::text_or(const char* key, const char* otherwise) const {
 bool Value::flag(const char* key) const {
     if (!has(key)) return false;
     const Value value = (*this)[key];
-    if (!value.json_->is_boolean())
-        value.fail(std::string("is a JSON ") + value.json_->type_name() + ", expected true or false");
+    if (!value.json_->is_boolean()) value.fail_type("true or false");
     return value.json_->get<bool>();
 }
 

@@ -53,7 +53,7 @@ Mesh ObjReader::read() {
     mesh_.uvs.resize(1);
     Statement statement;
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) total_.add(statement);
-    if (total_.v == 0) fail(file_, "has no vertices (v lines): not an OBJ mesh");
+    if (total_.v == 0) fail(file_, "has no vertices (v lines); give an OBJ file that has a mesh");
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) take(statement);
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
     if (short_faces_ > 0)
@@ -78,7 +78,7 @@ void ObjReader::take(const Statement& statement) {
     seen_.add(statement);
 }
 
-/// x y z, then maybe w (meaningless in a mesh of faces), or a color r g b and maybe its alpha.
+/// x y z, which may be followed by w (ignored), or by a color r g b, with or without alpha.
 void ObjReader::take_vertex(const Statement& statement) {
     const std::size_t count = numbers(statement, 3);
     const auto& n = numbers_;
@@ -86,7 +86,7 @@ void ObjReader::take_vertex(const Statement& statement) {
         if (!std::isfinite(n[i]))
             fail_at(statement.keyword,
                     std::string("vertex ") + "xyz"[i] +
-                        " is not finite (nan, infinite or beyond float); mend or leave out the vertex");
+                        " is not finite (nan, infinite or beyond float); correct or remove the vertex");
     mesh_.positions.emplace_back(n[0], n[1], n[2]);
     constexpr glm::vec4 white(1.0f);
     if (count >= 6) {
@@ -181,16 +181,16 @@ std::uint32_t ObjReader::index(std::string_view token, std::size_t seen, std::si
     if (token.empty()) return none;
     const std::optional<std::int64_t> number = to_integer(token);
     const std::string name = std::string(what) + " index " + quoted(token);
-    if (!number) fail_at(token, name + " is not a whole number");
-    if (*number == 0) fail_at(token, name + " is out of range: OBJ counts from 1");
+    if (!number) fail_at(token, name + " is not a whole number; export the mesh again");
+    if (*number == 0) fail_at(token, name + " is out of range: OBJ counts from 1; export the mesh again");
     const std::int64_t from0 = from_zero(*number, seen);
     if (from0 < 0 || from0 >= static_cast<std::int64_t>(total))
         fail_at(token, name + " is out of range: the file has " + std::to_string(total) + " of them, " +
-                           std::to_string(seen) + " before this line");
+                           std::to_string(seen) + " before this line; export the mesh again");
     return static_cast<std::uint32_t>(from0);
 }
 
-/// vn and vt lines that no face refers to say nothing; without them the writer leaves them as they are.
+/// vn and vt lines that no face refers to are no attributes; the writer leaves them as they are.
 void ObjReader::drop_unused_attributes() {
     const auto unused = [](const auto& attribute) {
         return std::ranges::all_of(attribute.corners, [](auto index) { return index == none; });
@@ -204,7 +204,7 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     try {
         text.str(read_bytes(library));
     } catch (const Error& error) {
-        mesh_.warnings.push_back(std::string("materials keep a gray: ") + error.what());
+        mesh_.warnings.push_back(std::string("materials stay gray: ") + error.what());
     }
     std::map<std::string, int> index;
     std::string warnings, errors;

@@ -20,8 +20,8 @@ public:
     std::vector<std::uint32_t> pieces;
 };
 
-/// The text of a mesh with new values behind the last of each kind, and faces cut up where they stand. All
-/// other lines stay as they are, but for references that count backwards over the new ones.
+/// Edits the text of a mesh: new values follow the last one of each kind, and pieces take the place of their
+/// faces. All other lines stay as they are, but for references that count backward over new values.
 class ObjRefiner {
 public:
     ObjRefiner(std::string_view text, const Cut& cut, const Mesh& refined)
@@ -121,8 +121,8 @@ private:
     const FaceCounts faces_;
     Editor out_;
     Counts total_, seen_;
-    std::size_t face_ = 0;    ///< of the mesh before
-    std::size_t corner_ = 0;  ///< of the mesh now
+    std::size_t face_ = 0;    ///< of the mesh before refining
+    std::size_t corner_ = 0;  ///< of the refined mesh
 };
 
 }  // namespace

@@ -16,8 +16,9 @@ void append_vector(std::string& out, const char* keyword, const glm::vec3& value
     append_all(out, value.x, value.y, value.z);
 }
 
-/// The text that a mesh came from with new positions and normals. Lines whose numbers did not change stay as
-/// they are, to the byte. Copies of split normals follow the last vn line, and faces refer to them.
+/// Edits the text that a mesh came from: puts in new positions and normals. Lines whose numbers did not
+/// change stay as they are, to the byte. Copies of split normals follow the last vn line, and faces refer to
+/// them.
 class ObjEditor {
 public:
     ObjEditor(const ObjSource& source, const Mesh& mesh, const std::filesystem::path& file)
@@ -55,8 +56,7 @@ private:
         seen_.vn += values.size() - count;
     }
 
-    /// Normals that the corners refer to: rewritten where the reference, which may count backwards, now means
-    /// another.
+    /// Rewrites references to normals that, counted from where they are, now mean another one.
     void take_face(const Statement& statement) {
         std::vector<std::string_view> normals;
         std::string_view rest = statement.arguments;
@@ -72,8 +72,8 @@ private:
         }
     }
 
-    /// Material files stay where they are (and the textures that they name): what leads there is rewritten
-    /// where the output goes into another folder.
+    /// Material files, and the textures that they name, stay where they are: the path to them is rewritten if
+    /// the output goes into another folder.
     void take_libraries(const Statement& statement) {
         namespace fs = std::filesystem;
         std::error_code error;
@@ -96,7 +96,7 @@ private:
     std::size_t corner_ = 0;
 };
 
-/// The names by which faces choose materials: one line each, none of them empty or there twice.
+/// The names by which faces choose materials: each is one line, not empty, and unique.
 std::vector<std::string> material_names(const Mesh& mesh) {
     std::vector<std::string> names;
     for (const Material& material : mesh.materials) {
@@ -125,8 +125,8 @@ void append_faces(std::string& out, const Mesh& mesh) {
     for (const Part& part : mesh.parts) {
         if (const std::string name = io::one_line(part.name); name != group)
             out += "g " + (group = name) + '\n';
-        // OBJ cannot take a material back: faces without one, after faces with one, choose one that has no
-        // entry.
+        // OBJ has no way back to no material: faces without one that follow faces with one choose a name that
+        // has no entry.
         if (part.material != material)
             out += "usemtl " + (part.material < 0 ? "none" : names[static_cast<std::size_t>(part.material)]) +
                    '\n';

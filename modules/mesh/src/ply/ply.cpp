@@ -46,7 +46,7 @@ auto with_type(Type type, Use use) {
     return use(double{});
 }
 
-/// Roles in their order; behind them, other names of u and v.
+/// The names are in the order of the roles; other names of u and v follow.
 Role role_in_vertex(std::string_view name) {
     constexpr std::array names{"x",    "y",     "z", "nx", "ny", "nz", "red",       "green",
                                "blue", "alpha", "u", "v",  "s",  "t",  "texture_u", "texture_v"};
@@ -87,7 +87,7 @@ private:
 };
 
 Header HeaderReader::read() {
-    if (next_line(rest_) != "ply") fail(header_.file, "line 1: does not say ply: not a PLY file");
+    if (next_line(rest_) != "ply") fail(header_.file, "line 1: does not say ply; give a PLY file");
     while (true) {
         if (rest_.empty()) fail(header_.file, "the header has no end_header line; is the file cut off?");
         line_ = next_line(rest_);
@@ -106,13 +106,14 @@ void HeaderReader::take(std::string_view keyword, std::string_view arguments) {
     if (keyword == "format") return take_format(arguments);
     if (keyword == "element") return take_element(arguments);
     if (keyword == "property") return take_property(arguments);
-    fail_here(quoted(keyword) + " is no word of a PLY header; is the file damaged?");
+    fail_here(quoted(keyword) + " is not a word of a PLY header; is the file damaged?");
 }
 
 void HeaderReader::take_format(std::string_view arguments) {
     const std::string_view word = next_token(arguments);
     if (word != "ascii" && word != "binary_little_endian" && word != "binary_big_endian")
-        fail_here("format " + quoted(word) + " is not ascii, binary_little_endian or binary_big_endian");
+        fail_here("format " + quoted(word) +
+                  " is not one of PLY's; give ascii, binary_little_endian or binary_big_endian");
     header_.text = word == "ascii";
     header_.order = word == "binary_big_endian" ? std::endian::big : std::endian::little;
     has_format_ = true;
@@ -124,27 +125,30 @@ void HeaderReader::take_element(std::string_view arguments) {
     const std::string_view word = next_token(arguments);
     const std::optional<std::int64_t> count = to_integer(word);
     if (!count || *count < 0)
-        fail_here("element count " + quoted(word) + " is not a whole number of 0 or more");
-    if (header_.find(element.name)) fail_here("element " + quoted(element.name) + " is there twice");
+        fail_here("element count " + quoted(word) +
+                  " is not a whole number of 0 or more; export the mesh again");
+    if (header_.find(element.name))
+        fail_here("element " + quoted(element.name) + " is there twice; remove one of them");
     element.count = static_cast<std::uint64_t>(*count);
     header_.elements.push_back(std::move(element));
 }
 
 void HeaderReader::take_property(std::string_view arguments) {
-    if (header_.elements.empty()) fail_here("a property stands before the first element");
+    if (header_.elements.empty())
+        fail_here("a property stands before the first element; export the mesh again");
     Property property;
     property.type_word = next_token(arguments);
     if (property.type_word == "list") {
         property.count = type(next_token(arguments));
-        if (!is_integer(*property.count)) fail_here("a list's count is not of an integer type");
+        if (!is_integer(*property.count)) fail_here("a list's count is not of an integer type; give uchar");
         property.type_word = next_token(arguments);
     }
     property.type = type(property.type_word);
     property.name = next_token(arguments);
-    if (property.name.empty()) fail_here("a property has no name");
+    if (property.name.empty()) fail_here("a property has no name; give it one");
     Element& element = header_.elements.back();
     property.role = role_of(element, property);
-    if (element.find(property.role)) property.role = Role::other;  // the first of a kind counts
+    if (element.find(property.role)) property.role = Role::other;  // only the first of a role counts
     element.properties.push_back(property);
 }
 
@@ -152,7 +156,7 @@ Type HeaderReader::type(std::string_view word) const {
     for (const TypeWord& known : type_words)
         if (word == known.word || word == known.other_word) return known.type;
     fail_here("type " + quoted(word) +
-              " is not one of PLY's (char, uchar, short, ushort, int, uint, float, double)");
+              " is not one of PLY's; give char, uchar, short, ushort, int, uint, float or double");
 }
 
 }  // namespace
@@ -183,7 +187,8 @@ void Cursor::begin_row(const Element& element, std::uint64_t row) {
 
 std::uint64_t Cursor::count(const Property& property) {
     const double number = next(*property.count).number;
-    if (number < 0) fail_here("list " + quoted(property.name) + " has a negative count");
+    if (number < 0)
+        fail_here("list " + quoted(property.name) + " has a negative count; is the file damaged?");
     return static_cast<std::uint64_t>(number);
 }
 
@@ -199,8 +204,8 @@ Value Cursor::next(Type type) {
 
 Value Cursor::next_text(Type type) {
     const std::string_view token = next_token(line_);
-    if (token.empty()) fail_here("the line has too few numbers");
-    // Floats are read as such: by way of a double they might be rounded twice.
+    if (token.empty()) fail_here("the line has too few numbers; is the file cut off?");
+    // A float is read as a float: read as a double it might be rounded twice.
     const std::optional<double> number =
         type == Type::f32 ? std::optional<double>(to_float(token)) : to_double(token);
     if (!number) fail_here(quoted(token) + " is not a number; write one like -0.25 or 1e-3");
@@ -209,14 +214,17 @@ Value Cursor::next_text(Type type) {
                *number <= static_cast<double>(std::numeric_limits<T>::max()) &&
                *number == std::floor(*number);
     });
-    if (!in_range) fail_here(quoted(token) + " is not a whole number of the property's type");
+    if (!in_range)
+        fail_here(quoted(token) +
+                  " is not a whole number in the range of the property's type; export the mesh again");
     return {*number, token};
 }
 
 void Cursor::end_row() {
     if (!header_.text) return;
     if (const std::string_view token = next_token(line_); !token.empty())
-        fail_here("the line has more numbers than the header says, from " + quoted(token) + " on");
+        fail_here("the line has more numbers than the header says, from " + quoted(token) +
+                  " on; is the file damaged?");
 }
 
 void Cursor::fail_here(const std::string& what) const {

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-/// A PLY file as a sequence of values. Reading and writing both walk over it: the reader takes what a mesh
-/// has, the writer replaces what bending changed, and neither needs to know what the other elements and
-/// properties mean. (No packaged library gives back properties that it does not know.)
+/// A PLY file as a sequence of values. Reader and writer both walk over it: the reader takes what a mesh has,
+/// the writer replaces what bending changed, and neither needs to know what other elements and properties
+/// mean. (No PLY library that Debian 12 packages gives back properties that it does not know.)
 
 namespace goffer::mesh::ply {
 
@@ -28,7 +28,7 @@ constexpr std::size_t vertex_roles = 12;  ///< the roles before `other`: scalars
 struct Property {
     std::string_view name;
     Type type = Type::f32;
-    std::optional<Type> count;  ///< of a list
+    std::optional<Type> count;  ///< type of a list's count; none for a scalar
     std::string_view type_word;
     Role role = Role::other;
 };
@@ -45,28 +45,28 @@ struct Element {
 struct Header {
     std::filesystem::path file;  ///< for messages
     std::string_view bytes;      ///< of the whole file
-    std::size_t size = 0;        ///< of the header
-    bool text = false;
+    std::size_t size = 0;        ///< of the header, in bytes
+    bool text = false;           ///< ASCII
     std::endian order = std::endian::little;
     std::vector<Element> elements;
 
     [[nodiscard]] const Element* find(std::string_view name) const;
 };
 
-/// One value: a list's count is none, its items are.
+/// One value: a scalar, or an item of a list.
 struct Value {
     double number = 0;       ///< exact, whatever its type
     std::string_view bytes;  ///< a view into the file
 };
 
-/// Reads the header. Throws Error with the line.
+/// Reads the header. Throws Error that names the line.
 [[nodiscard]] Header read_header(const std::filesystem::path& file, std::string_view bytes);
 
 [[nodiscard]] inline bool is_integer(Type type) {
     return type < Type::f32;
 }
 
-/// Where a walk is, and how it gets on.
+/// The position of a walk over the values.
 class Cursor {
 public:
     explicit Cursor(const Header& header) : header_(header), rest_(header.bytes.substr(header.size)) {}
@@ -76,7 +76,7 @@ public:
     [[nodiscard]] Value next(Type type);
     void end_row();
 
-    /// What the last element leaves over.
+    /// The bytes that are left after the last row.
     [[nodiscard]] std::string_view rest() const { return rest_; }
     [[noreturn]] void fail_here(const std::string& what) const;
 
@@ -89,9 +89,9 @@ private:
     std::uint64_t row_ = 0;
 };
 
-/// Calls visitor.value(cursor, property, value) for each value, end_row(cursor, element) behind each row, and
-/// end(cursor) behind all.
-/// Throws Error with element and row where the file ends too soon or holds what is no number.
+/// Calls visitor.value(cursor, property, value) for each value, visitor.end_row(cursor, element) after each
+/// row, and visitor.end(cursor) at the end. Throws Error that names element and row if the file ends too soon
+/// or has something that is not a number.
 template <class Visitor>
 void walk(const Header& header, Visitor& visitor) {
     Cursor cursor(header);
@@ -115,7 +115,7 @@ void walk(const Header& header, Visitor& visitor) {
 
 namespace goffer::mesh {
 
-/// Keeps the file that was read, and the mesh that it made, without a source of its own.
+/// Keeps the file that was read, and the mesh that was made of it, which has no source of its own.
 struct PlySource final : Source {
     std::string bytes;
     Mesh read;

@@ -41,10 +41,11 @@ private:
 };
 
 PlyReader::PlyReader(const Header& header) : header_(header), vertex_(header.find("vertex")) {
-    if (!vertex_) fail(header.file, "the header has no element vertex: not a mesh");
+    if (!vertex_) fail(header.file, "the header has no element vertex; give a PLY file that has a mesh");
     for (const Role role : {Role::x, Role::y, Role::z})
         if (!has(role))
-            fail(header.file, std::string("element vertex has no property ") + "xyz"[static_cast<int>(role)]);
+            fail(header.file, std::string("element vertex has no property ") + "xyz"[static_cast<int>(role)] +
+                                  "; export the mesh again");
     const Element* face = header.find("face");
     if (!face || !face->find(Role::indices))
         fail(header.file,
@@ -80,7 +81,7 @@ void PlyReader::value(const Cursor& cursor, const Property& property, const Valu
     if (!in_range || value.number != std::floor(value.number))
         cursor.fail_here("vertex index " + std::to_string(static_cast<std::int64_t>(value.number)) +
                          " is out of range: there are " + std::to_string(vertex_->count) +
-                         " vertices, counted from 0");
+                         " vertices, counted from 0; export the mesh again");
     indices_.push_back(static_cast<std::uint32_t>(value.number));
 }
 
@@ -100,7 +101,7 @@ void PlyReader::end_vertex(const Cursor& cursor) {
             if (!std::isfinite(at(role)))
                 cursor.fail_here(quoted(vertex_->find(role)->name) +
                                  " is not finite (nan, infinite or beyond float); "
-                                 "mend or leave out the vertex");
+                                 "correct or remove the vertex");
     mesh_.positions.emplace_back(at(Role::x), at(Role::y), at(Role::z));
     if (has_normals_) mesh_.normals.values.emplace_back(at(Role::nx), at(Role::ny), at(Role::nz));
     if (has_colors_)
@@ -111,7 +112,7 @@ void PlyReader::end_vertex(const Cursor& cursor) {
                                          finite_or_zero(row_[static_cast<std::size_t>(Role::v)]));
 }
 
-/// A texcoord list has two numbers a corner; a face may have an empty one.
+/// A texcoord list has two numbers for each corner; that of a face may be empty.
 void PlyReader::end_face() {
     const std::size_t size = indices_.size();
     if (size >= 3) {
@@ -130,7 +131,7 @@ void PlyReader::end_face() {
     texcoords_.clear();
 }
 
-/// 0..1, whatever the type.
+/// A color in 0..1, whatever its type in the file.
 float PlyReader::color(Role role) {
     const Type type = vertex_->find(role)->type;
     const double scale = !is_integer(type) ? 1.0 : type == Type::u16 ? 65535.0 : 255.0;

@@ -14,7 +14,7 @@ namespace {
 using namespace ply;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
-/// Whether the header's types can hold what is to be added: coordinates between others, greater indices.
+/// Whether the header's types can hold what is added: interpolated coordinates, larger indices.
 bool has_room(const Header& header, std::size_t vertices) {
     const auto coordinates = [](const Property& p) { return p.role > Role::nz || !is_integer(p.type); };
     const auto scalar = [](const Property& p) { return !p.count; };
@@ -61,8 +61,8 @@ void append_number(std::string& out, const Header& header, Type type, double num
     }
 }
 
-/// The file of a mesh with rows for the new vertices behind the others and rows for the pieces in the place
-/// of their faces. All other rows stay as they are, to the byte.
+/// Edits the file of a mesh: rows for the new vertices follow the others, and rows for the pieces take the
+/// place of their faces. All other rows stay as they are, to the byte.
 class PlyRefiner {
 public:
     PlyRefiner(const Header& header, const Cut& cut, const Mesh& refined)
@@ -142,12 +142,12 @@ private:
         }
     }
 
-    /// A last row may lack its end.
+    /// Ends the last line, which may lack its end in the file.
     void end_line() {
         if (header_.text && !body_.empty() && body_.back() != '\n') body_ += '\n';
     }
 
-    /// Whether pieces took the row's place.
+    /// Returns whether pieces took the place of the row.
     bool end_face() {
         const Property* indices = face_->find(Role::indices);
         const auto size = std::ranges::count(row_, indices, &std::pair<const Property*, double>::first);
@@ -208,13 +208,13 @@ private:
     const Cut& cut_;
     const Mesh& now_;
     const Element *vertex_, *face_;
-    std::vector<std::size_t>
-        first_piece_;  ///< of each face: its pieces' first corner in the refined mesh, or `whole`
+    /// For each face, the first corner of its pieces in the refined mesh, or `whole`.
+    std::vector<std::size_t> first_piece_;
     std::vector<std::uint32_t> rows_;  ///< how many rows each face becomes
     std::size_t refined_corner_ = 0, face_number_ = 0;
     std::uint64_t more_faces_ = 0;
-    std::vector<std::pair<const Property*, double>> row_;  ///< its values
-    std::vector<std::vector<double>> numbers_;             ///< of each vertex, its properties
+    std::vector<std::pair<const Property*, double>> row_;  ///< values of the current row
+    std::vector<std::vector<double>> numbers_;             ///< the properties of each vertex
     const char* row_begin_;
     std::string body_;
 };

@@ -14,9 +14,9 @@ using namespace ply;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 constexpr std::endian order = std::endian::little;  ///< of new files
 
-/// The file that a mesh came from with new positions and normals, in its own format and types; values that
-/// did not change stay as they are, to the byte. Integer coordinates, which could not hold the new values,
-/// become floats.
+/// Edits the file that a mesh came from: puts in new positions and normals, in the file's own format and
+/// types. Values that did not change stay as they are, to the byte. Integer coordinates, which could not hold
+/// the new values, become floats.
 class PlyEditor {
 public:
     PlyEditor(const PlySource& source, const Mesh& mesh)
@@ -64,7 +64,7 @@ private:
     std::size_t vertex_ = 0;
 };
 
-/// PLY knows one normal per vertex: the mean of those at the vertex's corners.
+/// One normal per vertex, as PLY has them: the mean of those at the vertex's corners.
 std::vector<glm::vec3> vertex_normals(const Mesh& mesh) {
     if (mesh.normals.per_vertex()) return mesh.normals.values;
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
@@ -79,7 +79,7 @@ std::vector<glm::vec3> vertex_normals(const Mesh& mesh) {
     return out;
 }
 
-/// Whether colors come from bytes and can go back to bytes.
+/// Whether all colors are values of bytes, and can be written as such.
 bool are_bytes(const std::vector<glm::vec4>& colors) {
     const auto is_byte = [](float c) {
         return c >= 0 && c <= 1 && static_cast<float>(std::round(c * 255.0) / 255.0) == c;
@@ -97,7 +97,7 @@ public:
           byte_colors_(are_bytes(mesh.colors)),
           vertex_uvs_(!mesh.uvs.empty() && mesh.uvs[0].per_vertex()),
           face_uvs_(!mesh.uvs.empty() && !mesh.uvs[0].per_vertex()),
-          // A texcoord list has two numbers a corner, and a byte counts to 255.
+          // A texcoord list has two numbers for each corner, and a byte counts to 255.
           byte_counts_(*std::ranges::max_element(mesh.faces) <= 127) {}
 
     std::string write() {

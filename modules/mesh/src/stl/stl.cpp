@@ -10,9 +10,9 @@
 #include <cmath>
 #include <numeric>
 
-// A reader of our own: a facet is 50 bytes, and the importers at hand drop the header and the attribute
-// bytes, which are to be given back. A facet's normal follows from its corners and is none of a vertex, so it
-// is not an attribute of the mesh: it stays with the source, and is computed again where the facet moves.
+// No library is used: a facet is 50 bytes, and importers drop the header and the attribute bytes, which have
+// to be given back. The normal of a facet follows from its corners and belongs to no vertex. So it is not an
+// attribute of the mesh: it stays with the source, and is computed again if the facet moves.
 
 namespace goffer::mesh {
 namespace {
@@ -28,7 +28,8 @@ std::uint64_t declared_size(std::string_view bytes) {
     return header_size + facet_size * std::uint64_t{from_bytes<std::uint32_t>(bytes.substr(80))};
 }
 
-/// A binary file says how many facets follow its header; that settles it, even where it begins with "solid".
+/// A binary file says how many facets follow its header. If that fits its size it is binary, even if it
+/// begins with "solid".
 bool is_binary(std::string_view bytes) {
     return bytes.size() >= header_size + facet_size && bytes.size() == declared_size(bytes);
 }
@@ -122,7 +123,7 @@ float coordinate(const TextFacets& facets, std::string_view token) {
     const std::optional<float> number = to_float(token);
     if (!number) facets.fail_at(token, quoted(token) + " is not a number; write one like -0.25 or 1e-3");
     if (!std::isfinite(*number))
-        facets.fail_at(token, "vertex coordinate " + quoted(token) + " is not finite; leave out the facet");
+        facets.fail_at(token, "vertex coordinate " + quoted(token) + " is not finite; remove the facet");
     return *number;
 }
 
@@ -150,11 +151,12 @@ Mesh read_text(const std::filesystem::path& file, std::string_view text) {
 Mesh read_binary(const std::filesystem::path& file, std::string_view bytes) {
     if (bytes.size() < header_size)
         fail(file, "has " + std::to_string(bytes.size()) +
-                       " bytes, and an STL file 84 or more: cut off, or no STL");
+                       " bytes, and an STL file has 84 or more; is it cut off, or not an STL file?");
     const std::size_t facets = from_bytes<std::uint32_t>(bytes.substr(80));
     if (declared_size(bytes) > bytes.size())
-        fail(file, "byte 80 says " + std::to_string(facets) + " facets, and there are bytes for " +
-                       std::to_string((bytes.size() - header_size) / facet_size) + ": cut off, or no STL");
+        fail(file, "byte 80 says " + std::to_string(facets) + " facets, but there are bytes for " +
+                       std::to_string((bytes.size() - header_size) / facet_size) +
+                       "; is the file cut off, or not an STL file?");
     Mesh mesh;
     for (std::size_t f = 0; f < facets; ++f) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -165,7 +167,7 @@ Mesh read_binary(const std::filesystem::path& file, std::string_view bytes) {
                 if (!std::isfinite(position[axis]))
                     fail(file, "facet " + std::to_string(f) +
                                    " (counted from 0): a vertex coordinate is not finite; "
-                                   "leave out the facet");
+                                   "remove the facet");
             }
             add_vertex(mesh, position);
         }
@@ -178,7 +180,7 @@ Mesh read_binary(const std::filesystem::path& file, std::string_view bytes) {
     return mesh;
 }
 
-/// Of unit length; zero for a facet without area.
+/// The normal at unit length; zero for a facet without area.
 glm::vec3 facet_normal(const std::array<glm::vec3, 3>& p) {
     const glm::dvec3 normal =
         glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0]));
@@ -197,7 +199,7 @@ void append_facet(std::string& out, const std::array<glm::vec3, 3>& corners) {
 }
 
 std::string edit_text(const StlSource& source, const Mesh& mesh) {
-    const std::filesystem::path nowhere;  // the text was read before: nothing is left to complain about
+    const std::filesystem::path nowhere;  // for messages; there are none, since the text was read before
     Editor out(source.bytes);
     TextFacets facets(nowhere, source.bytes);
     for (std::size_t f = 0; facets.next(); ++f) {

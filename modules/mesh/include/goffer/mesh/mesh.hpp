@@ -14,24 +14,24 @@
 #include <vector>
 
 /// A mesh as files carry it: vertices in file order, attributes with or without indices of their own,
-/// polygons, materials. Nothing is merged, split or reordered on the way in.
+/// polygons, materials. Nothing is merged, split or reordered on the way in. All functions are thread-safe.
 
 namespace goffer::mesh {
 
-/// A file that cannot be read, or a mesh that cannot be written. what() is one line: what is wrong, where,
-/// how to mend it.
+/// Thrown for a file that cannot be read, and for a mesh that does not fit together or cannot be written.
+/// what() is one line: what is wrong, where, and how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// An attribute: one value per vertex (`corners` empty) or values with an index of their own per face corner
-/// (OBJ).
+/// An attribute: one value per vertex, or values with an index for each corner of a face, as in OBJ.
 template <class T>
 struct Attribute {
     std::vector<T> values;
-    std::vector<std::uint32_t>
-        corners;  ///< empty, or one index into `values` per face corner (`none` where absent)
+    /// Empty: one value per vertex. Else one index into `values` per face corner, `none` where it has no
+    /// value.
+    std::vector<std::uint32_t> corners;
 
     static constexpr std::uint32_t none = 0xffffffffu;
     [[nodiscard]] bool empty() const { return values.empty(); }
@@ -39,22 +39,24 @@ struct Attribute {
     bool operator==(const Attribute&) const = default;
 };
 
+/// What is read of a material. Textures and the rest stay with Mesh::source.
 struct Material {
     std::string name;
     glm::vec4 base_color{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGBA
     bool operator==(const Material&) const = default;
 };
 
-/// A run of faces that belong together: a glTF primitive, an OBJ group with one material.
+/// A run of faces that belong together: a glTF primitive, an OBJ group with one material, an STL solid.
 struct Part {
     std::string name;
-    std::int32_t material = -1;  ///< index into materials, or -1
+    std::int32_t material = -1;  ///< index into Mesh::materials, or -1 for none
     std::uint32_t first_face = 0;
     std::uint32_t face_count = 0;
     bool operator==(const Part&) const = default;
 };
 
-/// What a format's writer needs of the file a mesh came from, to give back all that bending does not touch.
+/// What a writer needs of the file that a mesh came from, to give back all that bending does not change.
+/// Opaque to callers.
 class Source {
 public:
     virtual ~Source() = default;
@@ -63,58 +65,67 @@ public:
 /// A mesh. A plain value: copies are deep but for `source`, which is shared and immutable.
 struct Mesh {
     std::vector<glm::vec3> positions;       ///< model space (glTF: world space of the scene), file order
-    Attribute<glm::vec3> normals;           ///< as in the file; never made up
+    Attribute<glm::vec3> normals;           ///< as in the file; none are made
     Attribute<glm::vec4> tangents;          ///< w: sign of the bitangent
-    std::vector<Attribute<glm::vec2>> uvs;  ///< sets 0, 1, ..; v points up, as in OBJ (glTF's is turned)
-    std::vector<glm::vec4> colors;          ///< empty, or RGBA per vertex, 0..1, values as in the file
+    std::vector<Attribute<glm::vec2>> uvs;  ///< sets 0, 1, ...; v points up, as in OBJ (glTF's is flipped)
+    std::vector<glm::vec4> colors;          ///< empty, or RGBA per vertex; white is 1
     std::vector<std::uint32_t> corners;     ///< the faces' vertex indices, face after face
-    std::vector<std::uint32_t> faces;       ///< corners per face (3 or more)
-    std::vector<Part> parts;                ///< cover all faces, in order
+    std::vector<std::uint32_t> faces;       ///< how many corners each face has, 3 or more
+    std::vector<Part> parts;                ///< empty, or covering all faces, in order
     std::vector<Material> materials;
-    std::vector<std::string> warnings;     ///< what was tolerated: a missing material file, a skin, ...
-    std::shared_ptr<const Source> source;  ///< null for meshes made in memory
+    std::vector<std::string> warnings;     ///< what load() tolerated: a missing material file, a skin, ...
+    std::shared_ptr<const Source> source;  ///< null for a mesh made in memory
 };
 
-/// Reads OBJ, PLY, STL, glTF or GLB, told by content first and by the file name's ending second.
-/// Throws Error on anything that is not a readable mesh with finite positions and indices in range.
+/// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the
+/// ending of the name. Other files that an OBJ or a glTF names are read too. Faces of fewer than 3 corners
+/// are left out, with a warning.
+///
+/// Throws Error if the file cannot be read or is not of these formats, a position or normal is not finite, an
+/// index is out of range, there is no vertex or no face, or a glTF is compressed.
 [[nodiscard]] Mesh load(const std::filesystem::path& file);
 
-/// Writes `mesh` in the format of the file name's ending (.obj .ply .stl .glb .gltf). Into the format it came
-/// from, everything that `mesh` does not change is kept (`source`); into another, whatever that can carry.
-/// Written beside and renamed: on failure an existing file is left as it was. An OBJ that was none before
-/// gets its materials in a file beside it, of the same name with the ending .mtl. Throws Error for an unknown
-/// ending or a mesh that does not fit together, and io::Error where a file cannot be written.
+/// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
+///
+/// A mesh that differs from the file that it came from in positions, normals and tangents only is given back
+/// as that file with these replaced, if the format is the same (.glb and .gltf are one). Any other mesh is
+/// written anew, with what the format can carry; an OBJ then gets its materials in a file of the same name
+/// with the ending .mtl. Files are written beside their place and renamed: on failure an existing file stays
+/// as it was.
+///
+/// Throws Error if the ending is unknown, the mesh does not fit together (see load), or a value cannot be
+/// written into its glTF node; and io::Error if a file cannot be written.
 void save(const Mesh& mesh, const std::filesystem::path& file);
 
-/// The endings `save` knows, for error messages and for refusing an output before any work is done.
+/// Whether save() knows the ending of `file`: to refuse an output before any work is done.
 [[nodiscard]] bool can_save(const std::filesystem::path& file);
 
-/// A mesh as a deformer wants it: every record is one position with one normal and one tangent, and triangles
-/// index records. Record i < positions.size() of the mesh is vertex i; vertices that occur with several
-/// normals or tangents (OBJ) have further records behind those. A vertex that has no normal or tangent in the
-/// file has a zero one.
+/// A mesh as a deformer wants it: arrays with one position, one normal and one tangent per entry, and
+/// triangles that index these. Entry i of the first Mesh::positions.size() is vertex i of the mesh. A vertex
+/// that occurs with several normals or tangents, as in OBJ, has further entries behind all of these. A normal
+/// or tangent that the mesh lacks for a vertex is zero.
 struct VertexArrays {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;        ///< empty where the mesh has none
-    std::vector<glm::vec4> tangents;       ///< empty where the mesh has none
-    std::vector<std::uint32_t> triangles;  ///< 3 records each; polygons are cut up into fans
-    std::vector<std::uint32_t> vertex;     ///< of each record
+    std::vector<glm::vec3> normals;        ///< empty if the mesh has none
+    std::vector<glm::vec4> tangents;       ///< empty if the mesh has none
+    std::vector<std::uint32_t> triangles;  ///< 3 entries each; a polygon is a fan of triangles
+    std::vector<std::uint32_t> vertex;     ///< for each entry, which vertex of the mesh it is
 };
 
-/// The records of `mesh`. Pure; may be called from any thread.
+/// Makes the arrays of `mesh`, which must fit together as a loaded one does.
 [[nodiscard]] VertexArrays vertex_arrays(const Mesh& mesh);
 
-/// The number of triangles once polygons are cut up into fans.
+/// Returns the number of triangles, a face of n corners being n - 2.
 [[nodiscard]] std::size_t triangle_count(const Mesh& mesh);
 
-/// The vertices of these triangles, 3 each: face after face, each cut up into a fan. Pure; may be called from
-/// any thread.
+/// Returns the vertices of the triangles, 3 each: face after face, each a fan around its first corner.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
 
-/// `mesh` with the positions, normals and tangents of `bent`, which holds as many records as
-/// `vertex_arrays(mesh)` in the same order. Streams that the mesh does not have are ignored. Keeps `source`.
-/// Attribute values keep their places; one that several vertices share and that is no longer the same for all
-/// is split, its copies behind the others. Throws Error where `bent` holds too few records.
+/// Returns `mesh` with the positions, normals and tangents of `bent`, whose entries are those of
+/// vertex_arrays(mesh), in the same order. Of several entries of one vertex, the first one's position counts.
+/// Streams that the mesh does not have are ignored. Values of attributes keep their places; one that several
+/// entries share and that is no longer the same for all is split, its copies behind the others. Keeps
+/// `source`, so that save() gives the file back. Throws Error if `bent` has too few entries.
 [[nodiscard]] Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent);
 
 }  // namespace goffer::mesh
