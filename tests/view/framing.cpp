@@ -7,7 +7,7 @@ using namespace goffer;
 
 namespace {
 
-// What the red channel tells from the gray background: where a model is.
+// Where a model is: what the red channel tells from the gray background.
 struct Silhouette {
     double area = 0, x = 0, y = 0;  // pixels; the center is that of the picture's coordinates
     int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
@@ -56,7 +56,8 @@ TEST_CASE("two spheres side by side are the ellipses of the perspective") {
         test::render({red_sphere({-c, 0, 0}, r), red_sphere({c, 0, 0}, r)}, settings, camera);
     const auto left = silhouette(picture, 0, 480), right = silhouette(picture, 480);
 
-    // The outer edge lies at tan(theta + delta); it tells how far away the camera is, and that all the rest.
+    // The outer edge lies at tan(theta + delta), which gives the distance of the camera, and this all the
+    // rest.
     const double focal = 240 / std::tan(0.6);  // pixels
     const double outer = std::atan((right.right - left.left) / 2.0 / focal);
     const auto edge = [&](double z) { return std::atan2(c, z) + std::asin(r / std::hypot(c, z)); };

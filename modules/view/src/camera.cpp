@@ -9,8 +9,8 @@
 namespace goffer::view {
 namespace {
 
-constexpr float margin = 0.92f;   // of the picture's half width or height, at the outermost point
-constexpr float nearest = 0.02f;  // from the eye to the first point; the scene measures 2
+constexpr float margin = 0.92f;   // where the outermost point is, as a share of half the width or height
+constexpr float nearest = 0.02f;  // least distance from the eye to a point; the scene is 2 long
 
 glm::vec3 unit(const glm::vec3& v) {
     const glm::dvec3 d(v);  // in double, no length is too small or too large
@@ -50,11 +50,11 @@ Ray View::ray(const glm::vec2& place) const {
 View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {
     const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); };
     if (!(length(camera.toward) > 0) || !std::isfinite(length(camera.toward)))
-        throw Error("the camera looks nowhere: toward must be a finite vector other than 0");
+        throw Error("the camera looks nowhere; give a finite vector other than 0 as toward");
     if (!(length(camera.up) > 0) || !std::isfinite(length(camera.up)))
-        throw Error("the camera has no up: give a finite vector other than 0");
+        throw Error("the camera has no up; give a finite vector other than 0");
     if (!(camera.field_of_view >= 0.01f && camera.field_of_view <= 3.0f))
-        throw Error("the camera's field of view must be from 0.01 to 3 rad");
+        throw Error("the camera's field of view is out of range; give 0.01 to 3 rad");
 
     View view{};
     view.forward = unit(camera.toward);

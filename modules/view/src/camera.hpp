@@ -7,18 +7,17 @@
 
 namespace goffer::view {
 
-/// A camera in its place. The axes are unit and at right angles; `tangent` is that of half the field of view,
-/// per axis.
+/// A camera in its place. The axes are orthonormal; `tangent` is that of half the field of view, per axis.
 struct View {
     glm::vec3 eye, right, up, forward;
     glm::vec2 tangent;
 
-    /// The ray through a place of the picture, in -1..1 to the right and upward.
+    /// Returns the ray through a place of the picture, in -1..1 to the right and upward.
     [[nodiscard]] Ray ray(const glm::vec2& place) const;
 };
 
-/// The nearest place from which all `points` are seen with a margin, the picture's `aspect` being width over
-/// height. Throws Error where the camera has no direction or no field of view.
+/// Puts the camera in the nearest place from which all `points` are seen with a margin. `aspect` is the
+/// picture's width over its height. Throws Error if the camera has no direction, no up or no field of view.
 [[nodiscard]] View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect);
 
 }  // namespace goffer::view

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The one place that knows which Embree this is: 3 and 4 differ in the header and in how a ray's arguments
-// travel.
+// The one place that knows the version of Embree: 3 and 4 differ in the header and in how queries take their
+// arguments.
 #if GOFFER_EMBREE >= 4
 #include <embree4/rtcore.h>
 #else
@@ -21,7 +21,7 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease>;
 
-/// Nearest hit along `ray`, written into it.
+/// Finds the nearest hit along `ray` and writes it into `ray`.
 inline void embree_intersect(RTCScene scene, RTCRayHit& ray) {
 #if GOFFER_EMBREE >= 4
     rtcIntersect1(scene, &ray);
@@ -32,7 +32,7 @@ inline void embree_intersect(RTCScene scene, RTCRayHit& ray) {
 #endif
 }
 
-/// Any hit along `ray`: its tfar becomes negative.
+/// Looks for any hit along `ray`; if there is one, tfar becomes negative.
 inline void embree_occluded(RTCScene scene, RTCRay& ray) {
 #if GOFFER_EMBREE >= 4
     rtcOccluded1(scene, &ray);

@@ -18,14 +18,15 @@ constexpr int tile = 16;
 
 void check(const Settings& settings) {
     if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
-        throw Error("a picture cannot measure " + std::to_string(settings.width) + " x " +
-                    std::to_string(settings.height) + "; give 1 to " + std::to_string(largest) + " each");
+        throw Error("a picture cannot be " + std::to_string(settings.width) + " x " +
+                    std::to_string(settings.height) + " pixels; give 1 to " + std::to_string(largest) +
+                    " each");
     if (settings.samples < 1 || settings.samples > largest)
         throw Error("a pixel cannot have " + std::to_string(settings.samples) + " samples; give 1 to " +
                     std::to_string(largest));
 }
 
-// `dither`, 0..1, is where to round up: it hides the steps of the faint gradient.
+// `dither`, 0..1, decides where to round up, which hides the steps of faint gradients.
 std::uint8_t to_srgb(float linear, float dither) {
     const float c = std::isfinite(linear) ? std::clamp(linear, 0.0f, 1.0f) : 0.0f;
     const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;

@@ -17,8 +17,8 @@ public:
     /// The next pair of numbers in [0, 1)^2.
     [[nodiscard]] glm::vec2 next() { return point(sample_); }
 
-    /// The next pair where every sample takes `count` of them: the `i`-th, all being spread evenly as one
-    /// set.
+    /// The `i`-th of the next `count` pairs, for samples that take as many each: those of all samples are
+    /// spread evenly as one set.
     [[nodiscard]] glm::vec2 next(std::uint32_t i, std::uint32_t count) {
         if (i > 0) --pair_;
         return point(sample_ * count + i);

@@ -11,7 +11,7 @@
 namespace goffer::view {
 namespace {
 
-constexpr float clearance = 2e-5f;  // between a surface and the rays that leave it; the scene measures 2
+constexpr float clearance = 2e-5f;  // between a surface and the rays that leave it; the scene is 2 long
 
 bool finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -21,7 +21,7 @@ void check_sizes(const Model& model, const std::string& name) {
     const auto vertices = std::to_string(model.positions.size());
     if (model.triangles.size() % 3 != 0)
         throw Error(name + ": " + std::to_string(model.triangles.size()) +
-                    " indices are not whole triangles; give 3 each");
+                    " indices are not a multiple of 3; give three per triangle");
     if (!model.normals.empty() && model.normals.size() != model.positions.size())
         throw Error(name + ": " + std::to_string(model.normals.size()) + " normals for " + vertices +
                     " vertices; give one each or none");
@@ -36,9 +36,9 @@ void check(const Model& model, std::size_t index) {
     for (const std::uint32_t vertex : model.triangles) {
         if (vertex >= model.positions.size())
             throw Error(name + ": a triangle uses vertex " + std::to_string(vertex) + ", but there are " +
-                        std::to_string(model.positions.size()));
+                        std::to_string(model.positions.size()) + "; correct the index or add the vertex");
         if (!finite(model.positions[vertex]))
-            throw Error(name + ": vertex " + std::to_string(vertex) + " is not finite; mend the mesh first");
+            throw Error(name + ": vertex " + std::to_string(vertex) + " is not finite; correct or remove it");
     }
 }
 
@@ -81,12 +81,13 @@ template <class T>
 T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
     void* memory = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count);
     if (memory == nullptr)
-        throw Error("not enough memory for a picture of " + std::to_string(count) + " elements");
+        throw Error("there is not enough memory for a mesh of " + std::to_string(count) +
+                    " vertices or triangles; give a smaller one");
     return static_cast<T*>(memory);
 }
 
 // Which of two surfaces in the same place is hit depends on the order in the tree, and Embree does not
-// promise the same tree from any number of threads. One is quick enough.
+// promise the same tree for every number of threads. So one thread builds it, which is fast enough.
 void commit(RTCScene scene) {
     tbb::task_arena(1).execute([scene] { rtcJoinCommitScene(scene); });
 }
@@ -101,10 +102,12 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
 Scene::Scene(std::span<const Model> models) {
     for (std::size_t i = 0; i < models.size(); ++i) check(models[i], i);
     const auto [low, high] = bounds(models);
-    if (!(low.x <= high.x)) throw Error("nothing to see: the models have no triangles");
+    if (!(low.x <= high.x))
+        throw Error("nothing to see: the models have no triangles; give one that has some");
     const glm::dvec3 size = high - low;
     const double extent = std::max({size.x, size.y, size.z});
-    if (!(extent > 0)) throw Error("nothing to see: all vertices are in one point");
+    if (!(extent > 0))
+        throw Error("nothing to see: all vertices are in one point; give a mesh with an extent");
 
     device_.reset(rtcNewDevice(nullptr));
     if (!device_)
@@ -191,8 +194,8 @@ Surface Scene::surface(const Hit& hit, const Ray& ray) const {
         s.normal = unit_or(mean, s.face);
         const float side = glm::dot(s.normal, s.face) < 0 ? -1.0f : 1.0f;
         s.normal *= side;
-        // Shadow rays start on the curved surface that the normals stand for (Hanika 2021), or coarse
-        // triangles would show where the light grazes them.
+        // Shadow rays start on the curved surface that the normals stand for (Hanika 2021). Otherwise coarse
+        // triangles would show where light grazes them.
         for (int i = 0; i < 3; ++i) {
             const glm::vec3 n = side * unit_or(model.normals[corners[i]], side * s.face);
             s.outside += weights[i] * std::max(0.0f, -glm::dot(s.position - points[corners[i]], n)) * n;

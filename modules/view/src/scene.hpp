@@ -18,31 +18,32 @@ struct Ray {
 struct Hit {
     std::uint32_t model;
     std::uint32_t triangle;
-    float u, v;  ///< barycentric, of the triangle's second and third corner
+    float u, v;  ///< barycentric coordinates of the triangle's second and third corner
     float distance;
 };
 
-/// What is to be shaded. Normals are unit and look to where the ray came from.
+/// What is to be shaded. Normals have unit length and point to where the ray came from.
 struct Surface {
     glm::vec3 position;
     glm::vec3 outside;  ///< a little off the surface: where shadow rays start
     glm::vec3 face;     ///< normal of the triangle
-    glm::vec3 normal;   ///< normal to shade with
+    glm::vec3 normal;   ///< interpolated normal, for shading
     glm::vec4 color;
 };
 
-/// The models, moved and scaled into [-1, 1]^3, so that every tolerance below is a plain number.
-/// Throws Error where the models are not fit to be seen. Ray queries may run in any number of threads.
+/// The models, moved and scaled into [-1, 1]^3, so that tolerances are plain numbers. The constructor throws
+/// Error as render() does for models. All const functions are thread-safe.
 class Scene {
 public:
     explicit Scene(std::span<const Model> models);
 
-    [[nodiscard]] std::span<const glm::vec3> points() const { return points_; }  ///< those that triangles use
+    /// The vertices that triangles use.
+    [[nodiscard]] std::span<const glm::vec3> points() const { return points_; }
     [[nodiscard]] std::optional<Hit> solid(const Ray& ray) const { return nearest(solids_.get(), ray); }
     [[nodiscard]] bool occluded(const Ray& ray) const;
     [[nodiscard]] Surface surface(const Hit& hit, const Ray& ray) const;
 
-    /// The first surface of every translucent model along `ray`, from far to near.
+    /// Puts the first surface of every translucent model along `ray` into `hits`, from far to near.
     void ghosts(const Ray& ray, std::vector<Hit>& hits) const;
 
 private:

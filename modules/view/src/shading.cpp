@@ -12,15 +12,15 @@
 namespace goffer::view {
 namespace {
 
-// Light is in units of the reflection of a white wall; lengths are of a scene that measures 2.
+// Light is in units of what a white wall reflects. The scene is 2 long.
 constexpr glm::vec3 key_color{0.94f, 0.90f, 0.83f};
 constexpr float key_spread = 0.20f;  // tangent of the light's angular radius: how soft shadows are
 constexpr std::uint32_t key_rays = 2;
 constexpr glm::vec3 zenith{0.34f, 0.37f, 0.42f};
 constexpr glm::vec3 nadir{0.16f, 0.13f, 0.12f};
-constexpr float sky_reach = 1.0f;  // what is further away does not darken
+constexpr float sky_reach = 1.0f;  // what is farther away does not darken
 constexpr std::uint32_t sky_rays = 2;
-constexpr float bounce = 0.45f;     // of its own color that a crease gets back where it does not see the sky
+constexpr float bounce = 0.45f;     // share of its own color that a surface gets where the sky is hidden
 constexpr float glow = 0.30f;       // light that comes through the material rather than off it
 constexpr float ghost_fade = 0.5f;  // how far a ghost must be in front of a solid to be seen over it
 
@@ -56,13 +56,13 @@ glm::vec3 sky(const glm::vec3& direction, const View& view) {
     return glm::mix(nadir, zenith, 0.5f + 0.5f * glm::dot(direction, view.up));
 }
 
-// The shading normal, leaned toward the eye where interpolation has turned it away.
+// The shading normal, tilted toward the eye where interpolation has turned it away.
 glm::vec3 toward_eye(const Surface& s, const glm::vec3& to_eye) {
     const float cosine = glm::dot(s.normal, to_eye);
     return cosine > 0.01f ? s.normal : glm::normalize(s.normal + (0.01f - cosine) * to_eye);
 }
 
-// Share of the key light, seen as a disc, that reaches the surface.
+// Share of the key light, which is a disc, that reaches the surface.
 float key_light(const Scene& scene, const View& view, const Surface& s, const glm::vec3& normal,
                 Sampler& sampler) {
     const glm::vec3 axis = key_direction(view);
@@ -94,17 +94,18 @@ glm::vec3 sky_light(const Scene& scene, const View& view, const Surface& s, cons
     return sum / static_cast<float>(sky_rays);
 }
 
-// A broad, dull highlight (Blinn-Phong) and a brighter edge, as on clay or soft rubber.
+// A broad, dull highlight (Blinn-Phong), as on clay or soft rubber.
 float sheen(const glm::vec3& normal, const glm::vec3& to_eye, const glm::vec3& key) {
     return 0.16f * std::pow(std::max(0.0f, glm::dot(normal, glm::normalize(to_eye + key))), 22.0f);
 }
 
+// A brighter edge.
 float rim(const glm::vec3& normal, const glm::vec3& to_eye, const View& view) {
     const float edge = 1 - std::max(0.0f, glm::dot(normal, to_eye));
     return 0.22f * edge * edge * edge * (0.6f + 0.4f * glm::dot(normal, view.up));
 }
 
-// Light that enters where the key light is, lit face or not, and leaves with more of the material's own
+// Light that enters on the side of the key light, in shadow or not, and leaves with more of the material's
 // color.
 glm::vec3 through(const glm::vec3& color, const glm::vec3& normal, const glm::vec3& key) {
     const float wrapped = std::max(0.0f, 0.4f + 0.6f * glm::dot(normal, key));
@@ -123,7 +124,7 @@ glm::vec3 solid(const Scene& scene, const View& view, const Surface& s, const gl
            through(color, normal, key_direction(view)) + highlight * key_color + edge * ambient;
 }
 
-// A ghost neither casts nor catches shadows; its outline is denser than its middle, as with a bubble.
+// A ghost neither casts nor catches shadows. Its outline is denser than its middle, as that of a bubble.
 glm::vec4 ghost(const View& view, const Surface& s, const glm::vec3& to_eye) {
     const glm::vec3 normal = toward_eye(s, to_eye);
     const float lit = 0.5f + 0.5f * glm::dot(normal, key_direction(view));
@@ -132,8 +133,8 @@ glm::vec4 ghost(const View& view, const Surface& s, const glm::vec3& to_eye) {
             glm::mix(0.75f, 1.5f, edge) * s.color.a};
 }
 
-// Leaves most of the range as it is and bends what is too bright to white: half by the brightest channel,
-// which keeps the hue, and half by each channel alone, which lets it fade.
+// Tone mapping: keeps most of the range as it is and compresses what is too bright, half by the brightest
+// channel, which keeps the hue, and half by each channel alone, which lets it fade to white.
 glm::vec3 exposed(const glm::vec3& light) {
     constexpr float knee = 0.75f;
     const glm::vec3 above = glm::max(light - knee, glm::vec3(0)) / (1 - knee);

@@ -6,8 +6,8 @@
 
 namespace goffer::view {
 
-/// Linear color of what `place` of the picture shows (-1..1 to the right and upward), 0..1. `hits` is
-/// scratch.
+/// Returns the linear color, 0..1, of what the picture shows at `place` (-1..1 to the right and upward).
+/// `hits` is scratch memory.
 [[nodiscard]] glm::vec3 shade(const Scene& scene, const View& view, const glm::vec2& place, Sampler& sampler,
                               std::vector<Hit>& hits);
 

@@ -15,53 +15,59 @@
 
 namespace goffer::view {
 
-/// A picture that cannot be made. what() is one line: what is wrong, where, how to mend it.
+/// Thrown for a picture that cannot be made. what() is one line: what is wrong, where, and how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// One mesh of the scene. The caller owns the memory for the time of the call.
+/// One mesh of the scene. The caller owns the memory, which must last for the call.
 struct Model {
-    std::span<const glm::vec3> positions;      ///< world space
-    std::span<const std::uint32_t> triangles;  ///< 3 per triangle, each < positions.size()
-    std::span<const glm::vec3> normals = {};   ///< empty (flat shading), or one per vertex
-    std::span<const glm::vec4> colors = {};    ///< empty, or linear RGBA per vertex, times `color`
-    glm::vec4 color{0.72f, 0.33f, 0.20f, 1};   ///< linear RGBA; alpha < 1: a ghost, see render()
+    std::span<const glm::vec3> positions;      ///< world space; those that triangles use must be finite
+    std::span<const std::uint32_t> triangles;  ///< 3 vertex indices each, every one < positions.size()
+    std::span<const glm::vec3> normals = {};   ///< empty (flat shading), or one per vertex, of any length
+    std::span<const glm::vec4> colors = {};    ///< empty, or linear RGBA per vertex, multiplied by `color`
+    glm::vec4 color{0.72f, 0.33f, 0.20f, 1};  ///< linear RGBA. An alpha below 1 anywhere: a ghost, see render
 };
 
-/// Where the camera looks from. It is framed on all models' bounds.
+/// How the camera looks at the scene. Its place follows: the nearest from which all models are seen.
 struct Camera {
-    glm::vec3 toward{-0.4f, -1.0f, -0.35f};  ///< viewing direction, world space, any length
-    glm::vec3 up{0, 0, 1};                   ///< up in the picture, world space; not parallel to `toward`
-    float field_of_view = 0.5f;              ///< vertical, rad
+    glm::vec3 toward{-0.4f, -1.0f, -0.35f};  ///< viewing direction, world space, of any length but 0
+    glm::vec3 up{0, 0, 1};       ///< up in the picture, world space, of any length but 0; where it
+                                 ///< is parallel to `toward`, another direction is taken
+    float field_of_view = 0.5f;  ///< vertical, radians, 0.01..3
 };
 
+/// The size and quality of a picture.
 struct Settings {
-    int width = 1280;
-    int height = 960;
-    int samples = 16;  ///< per pixel; more is smoother and slower
+    int width = 1280;  ///< pixels, 1..16384
+    int height = 960;  ///< pixels, 1..16384
+    int samples = 16;  ///< per pixel, 1..16384; more are smoother and slower
 };
 
-/// 8-bit sRGB, rows from top to bottom, 3 bytes a pixel.
+/// A picture in 8-bit sRGB: rows from top to bottom, 3 bytes a pixel.
 struct Picture {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgb;
 };
 
-/// Renders the models on a light ground-less background, lit by a key light from above the camera and by the
-/// sky, with soft shadows, so that wrinkles are readable. Both sides of a surface look the same. A ghost is
-/// translucent, casts no shadow, shows its front alone, and fades where it is close in front of a solid, so
-/// that it hides nothing. Deterministic: the same input gives the same bytes on the same machine, whatever
-/// the threads. Runs in the caller's oneTBB arena. Throws Error where nothing can be seen (no triangles,
-/// sizes below 1) or a model is broken (an index out of range, a vertex that is not finite, an attribute of
-/// another length), named by its place in `models`.
+/// Renders the models on a light background without a ground, lit by a key light from above the camera and by
+/// the sky, with soft shadows, so that wrinkles show. Both sides of a surface look the same. A ghost is
+/// translucent, casts no shadow, shows only its front, and fades where it is close in front of a solid, so
+/// that it hides nothing. Runs in parallel in the caller's oneTBB arena; the same input gives the same bytes
+/// on one machine, whatever the number of threads. Thread-safe.
+///
+/// Throws Error if there is nothing to see (no triangles, or all vertices in one point), a setting is out of
+/// range, the camera has no direction, or a model is broken (an index out of range or not 3 per triangle, a
+/// vertex that is not finite, normals or colors that are not one per vertex). It is then named by its index
+/// in `models`.
 [[nodiscard]] Picture render(std::span<const Model> models, const Camera& camera,
                              const Settings& settings = {});
 
-/// Writes a PNG, beside and renamed: on failure an existing file is left as it was. Throws Error where the
-/// picture is empty or its bytes are not width x height x 3, and io::Error where the file cannot be written.
+/// Writes a PNG. The file is written beside its place and renamed: on failure an existing file stays as it
+/// was. Throws Error if the picture is empty or `rgb` is not width x height x 3 bytes, and io::Error if the
+/// file cannot be written. Thread-safe.
 void save_png(const Picture& picture, const std::filesystem::path& file);
 
 }  // namespace goffer::view
