@@ -54,9 +54,9 @@ struct Plush {
     std::array<std::vector<std::uint32_t>, paints> corners;
 };
 
-/// A closed skin: `rings` rings of `columns` vertices between two poles. `point(u, v)` is a place on it, u
-/// once around and v from pole to pole, and looks outward where u turns right-handed about the way from pole
-/// to pole. The texture runs up one side and down the other, so there is no seam.
+/// Adds a closed skin: `rings` rings of `columns` vertices between two poles. `point(u, v)` is a place on it,
+/// where u goes once around and v from pole to pole. Faces look outward if u goes counterclockwise, seen from
+/// the last pole. The texture runs up one side and down the other, so there is no seam.
 template <class Point, class PaintAt>
 void add_skin(Plush& plush, int columns, int rings, const Point& point, const PaintAt& paint_at) {
     Mesh& mesh = plush.mesh;
@@ -86,7 +86,8 @@ void add_skin(Plush& plush, int columns, int rings, const Point& point, const Pa
         }
 }
 
-/// An ellipsoid; the columns of `axes` are its half-axes, right-handed, the last from pole to pole.
+/// Adds an ellipsoid. The columns of `axes` are its half-axes, right-handed; the last one points from pole to
+/// pole.
 void add_ball(Plush& plush, int columns, int rings, const vec3& center, const glm::mat3& axes, Paint paint) {
     const auto point = [&](float u, float v) {
         return center + axes * vec3(std::sin(pi * v) * std::cos(2 * pi * u),
@@ -95,13 +96,13 @@ void add_ball(Plush& plush, int columns, int rings, const vec3& center, const gl
     add_skin(plush, columns, rings, point, [&](float) { return paint; });
 }
 
-/// Half-axes of a round button that looks along `normal`.
+/// Half-axes of a round button that faces along `normal`.
 glm::mat3 button(const vec3& normal, float width, float height) {
     const vec3 across = glm::normalize(glm::cross(vec3(0, 1, 0.1f), normal));
     return {width * across, width * glm::cross(normal, across), height * normal};
 }
 
-/// A round rod along `curve(t)`, t in 0..1, with round ends. `side` is never along the rod.
+/// Adds a round rod along `curve(t)`, t in 0..1, with round ends. `side` must never be along the rod.
 template <class Curve>
 void add_rod(Plush& plush, int columns, int rings, const Curve& curve, const vec3& side, float thickness,
              Paint paint) {
@@ -161,7 +162,7 @@ void add_trunk(Plush& plush) {
     add_skin(plush, columns, rings, point, paint);
 }
 
-/// What every segment but the tail carries left and right: feet below, spots above.
+/// Adds feet and spots on both sides of every segment but the tail.
 void add_feet_and_spots(Plush& plush) {
     for (int i = 1; i < segments; ++i)
         for (const float side : {-1.0f, 1.0f}) {

@@ -27,7 +27,7 @@ using namespace goffer;
 constexpr std::size_t columns = 6;
 constexpr std::size_t rows = 4;
 
-/// What an engine keeps of an instance; it sets both in every frame.
+/// What an engine keeps for an instance, and sets in every frame.
 struct Worm {
     bend::Pose pose;
     glm::mat4x3 model{1};
@@ -60,7 +60,7 @@ std::vector<Vertex> deform(const bend::Body& body, std::span<const Worm> worms) 
     batch.normals = interleaved<3>(&vertices[0].normal.x, vertices.size(), sizeof(Vertex));
     batch.vertex_step = body.vertex_count();  // from one instance's first vertex to the next one's
     const bend::CrowdJob crowd{.batches = {&batch, 1}};
-    if (const bend::Fault fault = bend::validate(crowd); !fault.none())  // once: a frame only runs
+    if (const bend::Fault fault = bend::validate(crowd); !fault.none())  // once; later frames only run
         throw std::invalid_argument(bend::describe(fault).c_str());
     bend::run_parallel(crowd);
     return vertices;
