@@ -61,7 +61,7 @@ std::vector<bend::Pose> rest_poses(const bend::Body& body) {
     return poses;
 }
 
-/// Of 1 to 32 regions, some of them without vertices; at least one vertex in all.
+/// A body of 1 to 32 regions, some of them without vertices, with at least one vertex in all.
 bend::Body any_body(Random& random) {
     std::vector<std::size_t> counts(1 + random() % bend::max_regions);
     if (random() % 3 == 0) counts.resize(1);

@@ -184,7 +184,7 @@ TEST_CASE("P7: columns that end too soon are named") {
           "previous_transform count, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.bounds = b.bounds.first(9); })) == "bounds count, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.indices = b.indices.first(9); })) == "indices count, batch 1");
-    // Of a batch without indices.
+    // The first batch has no indices.
     CHECK(told(after([](Crowd& c, Batch&) { c.batches[0].poses.count = 9; })) == "poses count, batch 0");
 }
 

@@ -47,7 +47,7 @@ public:
         make_batches();
     }
 
-    /// Of `jobs` as they are now.
+    /// Makes batches of `jobs` as they are now.
     void make_batches() {
         batches.clear();
         for (const bend::DeformJob& job : jobs) batches.push_back(bend::batch_of(job));
@@ -197,7 +197,7 @@ TEST_CASE("pieces share the work out by vertices") {
     for (const bend::DeformJob& job : crowd.jobs) all += job.body->vertex_count();
     crowd.clear();
     const std::uint64_t before = crowd.hash();
-    // Of two pieces neither is empty, though the first instances are most of the crowd's work.
+    // Neither of two pieces is empty, though the first instances are most of the crowd's work.
     std::ranges::stable_sort(crowd.jobs, std::ranges::greater{},
                              [](const bend::DeformJob& job) { return job.body->vertex_count(); });
     crowd.make_batches();

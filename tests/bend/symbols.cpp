@@ -59,7 +59,7 @@ std::vector<std::string> wanted_names(const std::string& object) {
     return names;
 }
 
-/// Of the C library: arithmetic, copying and comparing.
+/// Functions of the C library that only compute, copy or compare.
 bool is_harmless(const std::string& name) {
     constexpr std::string_view functions[] = {
         "memcpy", "memmove", "memset", "memcmp", "sinf",       "cosf",      "sincosf",

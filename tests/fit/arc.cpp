@@ -50,8 +50,8 @@ struct Miss {
     double angle, direction, axis, origin, length, radius;
 };
 
-/// The truth may have been found from its other end. There, what bends in the plane of theta to theta bends
-/// so too, so that the direction is compared in space: where the body bends to, at the base that was found.
+/// The fit may have exchanged base and tip. Directions are therefore compared in space: as the direction that
+/// the body bends toward at the base that was found.
 Miss miss(const Cylinder& fitted, const Recipe& recipe, const paper::Pose& rest, const Placing& placing) {
     const paper::ClosedForm map({.length = recipe.length, .radius = 1}, rest);
     const glm::dvec3 theta(std::cos(rest.direction), std::sin(rest.direction), 0), up(0, 0, 1);
@@ -245,11 +245,11 @@ TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body ro
         CHECK(std::abs(wrapped(there.rest_direction + 0.5)) < 2e-8);
         CHECK(glm::length(back.origin - chord) < 1e-6);
     }
-    // Across the body there is no arc; what is left is the straight fit along that axis.
+    // For an axis across the body no arc is taken; the result is the straight fit along that axis.
     const glm::dvec3 across(-std::sin(-0.5), std::cos(-0.5), 0);
     CHECK(fit_to(solid, across).rest_angle == 0);
     CHECK(glm::length(fit_to(solid, across).axis - across) < 1e-15);
-    // Nor has a straight body one, however far off the axis is that was given.
+    // A straight body has no arc, however far off the given axis is.
     const Solid straight = test::cylinder(recipe, random);
     const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.2, 0.1, 1));
     CHECK(fit_to(straight, tilted).rest_angle == 0);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Sanitizers make minutes of the largest meshes.
+// With sanitizers the largest meshes would take minutes.
 constexpr std::size_t most_vertices = test::sanitized ? 10'000 : 1'000'000;
 
 struct Soup {
@@ -35,7 +35,7 @@ struct Soup {
     [[nodiscard]] fit::Geometry geometry() const { return {positions, triangles}; }
 };
 
-/// With rows enough for as many folds as suit it.
+/// Refined, so that it carries as many folds as suit it.
 Soup refined(Soup soup, const fit::Cylinder& cylinder) {
     const int folds = fit::sensible_folds(cylinder, fit::BindOptions::max_folds);
     const fit::Refinement refinement = fit::refine(soup.geometry(), cylinder, folds);
@@ -77,7 +77,7 @@ Change change_of(const fit::Binding& binding, const Soup& soup) {
 }
 
 /// Bound for its own area, a model that carries its folds keeps it within `most`. Bodies that are bent at
-/// rest are bound as straight: straightening stretches them, which no wrinkle mends.
+/// rest are bound as straight: straightening stretches them, which no wrinkle can make up for.
 void check_area(const char* name, double most, std::optional<glm::dvec3> axis = std::nullopt) {
     const std::filesystem::path path = test::model(name);
     if (path.empty()) return;

@@ -22,7 +22,7 @@ fit::Cylinder base(double length, double radius) {
     return cylinder;
 }
 
-/// Every corner a vertex of its own, as STL has it.
+/// The same surface with a vertex for every corner, as in an STL.
 Solid soup(const Solid& solid) {
     Solid loose;
     for (const std::uint32_t i : solid.triangles) {

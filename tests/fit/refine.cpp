@@ -28,8 +28,8 @@ Place place(const glm::vec3& p) {
             std::bit_cast<std::uint32_t>(q.z)};
 }
 
-/// How much of the edges has no triangle running the other way: 0 where the surface is closed, its seams
-/// welded by the bits of their positions; else the length of its borders.
+/// The length of the borders: of edges that no other triangle runs along the other way, with vertices of the
+/// same position, bit for bit, taken as one. 0 for a closed surface.
 double border(const Solid& solid) {
     std::map<std::pair<Place, Place>, int> runs;
     double length = 0;
@@ -180,7 +180,7 @@ TEST_CASE("refine: any body carries the folds asked for, closed where it was, it
 }
 
 TEST_CASE("refine: both sides of a seam get the same bits, whichever way their triangles name the edge") {
-    // Positions whose midpoints round: no two orders of the same sum need agree.
+    // The midpoints of these positions round, so that different orders of the same sum may differ.
     std::mt19937 random(32);
     std::uniform_real_distribution<float> uniform(0.1f, 1.9f);
     for (int run = 0; run < 200; ++run) {

@@ -109,8 +109,8 @@ inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
 }
 
-/// The same surface of vertices that no two triangles share, in another order, some triangles turned round,
-/// with one vertex that none uses.
+/// The same surface with no vertex shared by two triangles, in another order, with some triangles flipped and
+/// one vertex that none uses.
 inline Solid scrambled(const Solid& solid) {
     Solid other;
     other.positions.emplace_back(1e30f, -1e30f, 1e30f);

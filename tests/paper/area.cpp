@@ -52,7 +52,7 @@ TEST_CASE("the bare bend loses exactly kappa of its area") {
     for (const double angle : {0.0, 0.3, 1.5, 3.0, 4.9}) {
         const double kappa = angle * radius / length;
         CHECK(std::abs(lateral_area(Profile::damped, 3, length, radius, angle, 0) - (1 - kappa)) < 1e-15);
-        // By quadrature: a wrinkle too low to matter.
+        // A factor other than 0 goes through the quadrature; this wrinkle is too shallow to matter.
         CHECK(std::abs(lateral_area(Profile::damped, 3, length, radius, angle, 1e-13) - (1 - kappa)) < 1e-15);
     }
 }

@@ -17,8 +17,8 @@ namespace {
 glm::dvec3 eq_2_to_5(const Parameters& body, const Pose& pose, const Cylindrical& vertex, double wrinkle) {
     using Real = long double;
     const Real alpha = pose.angle, theta = pose.direction;
-    const Real to_axis =
-        body.length / alpha - body.radius;  // R0 to the center line: the outer column keeps L
+    // From R0 to the center line; the outer column keeps L.
+    const Real to_axis = body.length / alpha - body.radius;
     const Real phi = alpha * vertex.z / body.length;
     const Real rho = Real{vertex.rho} + wrinkle;
     const Real x = rho * std::cos(Real{vertex.beta}), y = rho * std::sin(Real{vertex.beta});

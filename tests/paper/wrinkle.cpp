@@ -85,8 +85,8 @@ TEST_CASE("shapes: values at the ends, slope, mean displacement") {
     };
     const double w = 2 * std::numbers::pi * 3;
     CHECK(std::abs(mean(Profile::damped, 3)) < 1e-13);
-    CHECK(mean(Profile::smooth, 3) ==
-          doctest::Approx(-24 / (w * w * w * w)).epsilon(1e-6));  // small, not zero
+    // Small, but not zero.
+    CHECK(mean(Profile::smooth, 3) == doctest::Approx(-24 / (w * w * w * w)).epsilon(1e-6));
     CHECK(shape_slope(Profile::smooth, 3, 0) == doctest::Approx(0));
     CHECK(std::abs(shape_slope(Profile::smooth, 3, 1)) < 1e-14);
 }

@@ -55,8 +55,8 @@ inline void add_vertex(TestMesh& test_mesh, Random& random, const glm::dmat3& ax
                        double rho) {
     const glm::dvec3 local(rho * std::cos(beta), rho * std::sin(beta), z);
     test_mesh.positions.emplace_back(test_mesh.cylinder.origin + axes * local);
-    const glm::dmat3 frame =
-        random_rotation(random);  // any normal will do: the map does not ask where it comes from
+    // Any normal will do: the map does not ask where it comes from.
+    const glm::dmat3 frame = random_rotation(random);
     test_mesh.normals.emplace_back(frame[0]);
     test_mesh.tangents.emplace_back(glm::vec3(frame[1]), random() % 2 == 0 ? 1.0f : -1.0f);
 }

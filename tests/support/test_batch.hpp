@@ -90,7 +90,7 @@ public:
         batch.poses = column<bend::Pose>(&Worm::poses, regions);
         batch.previous_poses = column<bend::Pose>(&Worm::previous_poses, regions);
         if (style_.defaults) {
-            // Of whatever layout nothing is given.
+            // Nothing is given, in whatever layout.
             batch.transforms = batch.previous_transforms = {StridedView<float>{}, style_.transforms};
         } else {
             batch.transforms = transforms(&Worm::model, &Worm::model4, &Worm::rows);
