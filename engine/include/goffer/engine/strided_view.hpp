@@ -14,9 +14,9 @@
 /// A read-only column of values, wherever the caller keeps them: in an array, in a member of an array of
 /// structs, or in either of these cut into pages, like the pools of ECS libraries.
 ///
-///     strided(std::span(poses))                                    // an array
-///     strided(std::span(worms), &Worm::pose)                       // a member of each struct
-///     paged(registry.storage<Worm>().raw(), 1024, n, &Worm::pose)  // the same in pages of 1024
+///     auto array = strided(std::span(poses));
+///     auto member = strided(std::span(worms), &Worm::pose);                      // of each struct
+///     auto pages = paged(registry.storage<Worm>().raw(), 1024, n, &Worm::pose);  // the same, in pages
 
 namespace goffer {
 

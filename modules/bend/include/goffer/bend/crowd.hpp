@@ -13,7 +13,8 @@
 
 /// The crowd: a frame's worth of instances in one call, as columns that the engine keeps anyway.
 ///
-///     struct Worm { bend::Pose pose; glm::mat4 model; };  // components, in whatever pools
+///     struct Worm { bend::Pose pose; glm::mat4 model; };
+///     std::vector<Worm> worms;  // or components, in whatever pools
 ///     bend::Batch batch{.body = &body, .count = worms.size()};
 ///     batch.poses = strided(std::span(worms), &Worm::pose);
 ///     batch.transforms = strided(std::span(worms), &Worm::model);

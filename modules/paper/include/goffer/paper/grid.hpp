@@ -13,8 +13,10 @@
 /// difference per vertex (the detail). The base grid is bent (eq 2-5) and wrinkled (eq 6-10, solved once per
 /// column), and the detail is put back by trilinear interpolation from the grid.
 ///
-///     initialize   Grid grid(body, columns, rows);  GridVertex at = grid.bind(vertex);
-///     deform       BentGrid bent = grid.bend(pose);  bent.position(at);
+///     const Grid grid(body, columns, rows);  // initialization part
+///     const GridVertex at = grid.bind(vertex);
+///     const BentGrid bent = grid.bend(pose);  // deformation part
+///     const glm::dvec3 position = bent.position(at);
 ///
 /// As the grid is refined, the result converges to ClosedForm: with the square of the cell size if a column
 /// lies on the outer line and, for Profile::damped, a row on mid-height, where the wrinkle has its creases;
