@@ -336,8 +336,8 @@ TEST_CASE("refine: bad input is named") {
     CHECK(told({}).starts_with("stretches: there are none"));
     CHECK(told({{0, 3}}).starts_with("length is 0; give"));
     CHECK(told({{5, 3}, {nan, 3}}).starts_with("length of stretch 1 is nan"));
-    CHECK(told({{5, -1}}).starts_with("folds are -1; give 0 to 1048576"));
-    CHECK(told({{5, 3}, {5, (1 << 20) + 1}}).starts_with("folds of stretch 1 are 1048577"));
+    CHECK(told({{5, -1}}).starts_with("folds: -1; give 0 to 1048576"));
+    CHECK(told({{5, 3}, {5, (1 << 20) + 1}}).starts_with("folds of stretch 1: 1048577"));
     heights[7] = nan;
     CHECK(told({{10, 3}}).starts_with("height of vertex 7 is NaN"));
     heights.pop_back();

@@ -302,7 +302,7 @@ TEST_CASE("gltf: outer buffers are found beside the document, by their decoded n
     folder.write("a b.bin", document.buffer.substr(1));
     CHECK(tells(error_of([&] { (void)load(file); }), "copy it again"));
     document.json["buffers"][0]["uri"] = "https://example.com/a.bin";
-    CHECK(tells(load_error("d.gltf", document.gltf()), "only files beside the document are read"));
+    CHECK(tells(load_error("d.gltf", document.gltf()), "only relative paths are read"));
 }
 
 TEST_CASE("gltf: what is broken is named with its place and the way out") {

@@ -222,12 +222,12 @@ TEST_CASE("ply: what cannot be read is told with its line, element and row") {
     CHECK(error("property uint8 label", "property long label", "line 6: type 'long'"));
     CHECK(error("list uchar short", "list float short", "line 10: a list's count"));
     CHECK(error("ascii", "utf8", "line 2: format 'utf8'"));
-    CHECK(error("obj_info", "obj_data", "line 4: 'obj_data' is no word"));
+    CHECK(error("obj_info", "obj_data", "line 4: 'obj_data' is not a word"));
     CHECK(error("float x", "float xx", "no property x"));
     CHECK(error("element vertex", "element point", "no element vertex"));
     CHECK(error("vertex_indices", "edges", "there are no faces"));
     CHECK(error("element face 2", "element face 0", "there are no faces"));
-    CHECK(error("end_header", "end", "'end' is no word"));
+    CHECK(error("end_header", "end", "'end' is not a word"));
     CHECK(tells(load_error("a.ply", header.substr(0, header.find("end_header"))), "end_header"));
     CHECK(tells(load_error("a.ply", "ply\nelement vertex 1\nend_header\n"), "format"));
 }

@@ -126,7 +126,7 @@ TEST_CASE("stl: what cannot be read in binary is told with its facet") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(bytes.data() + 84 + 50 + 20, &nan, 4);
     CHECK(tells(load_error("a.stl", bytes), "facet 1 (counted from 0): a vertex coordinate is not finite"));
-    CHECK(tells(load_error("a.stl", binary("x").substr(0, 180)), "says 2 facets, and there are bytes for 1"));
+    CHECK(tells(load_error("a.stl", binary("x").substr(0, 180)), "says 2 facets, but there are bytes for 1"));
     CHECK(tells(load_error("a.stl", binary("solid").substr(0, 180)), "says 2 facets"));
     CHECK(tells(load_error("a.stl", binary("x").substr(0, 50)), "50 bytes"));
     CHECK(tells(load_error("a.stl", std::string(84, '\0')), "no facets"));

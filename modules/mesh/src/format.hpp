@@ -8,8 +8,9 @@
 #include <string_view>
 
 /// What each format provides for load() and save(). Readers take the bytes of a file, and its path for
-/// messages and for the files that it names. Writers return the whole file as bytes, so that one place writes
-/// beside and renames. All throw Error that begins with the path, and are thread-safe.
+/// messages and for the files that it names; they throw Error that begins with the path. Writers return the
+/// whole file as bytes, so that one place writes beside and renames; glTF's throw Error likewise.
+/// Thread-safe.
 
 namespace goffer::mesh {
 
