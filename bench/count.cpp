@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "fixture.hpp"
-#include "layout.hpp"
 #include "model.hpp"
 
-#include <goffer/bend/crowd.hpp>
+#include <goffer/measure/allocations.hpp>
+#include <goffer/measure/crowd_scene.hpp>
 
-#include <allocations.hpp>
-
-#include <cstdint>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 /// goffer_count: what bench/gate counts instead of timing, the same in every run.
 
@@ -31,27 +27,15 @@ struct Size {
 };
 
 /// Instances in poses of their own, in the fixture's memory.
-class Crowd {
-public:
-    Crowd(Fixture& fixture, const StreamLayout& layout, Isa isa, const Size& size) : isa_(isa) {
-        const std::size_t capacity = capacity_for(layout, size.instances * size.vertices);
-        for (std::size_t i = 0; i < size.instances; ++i) poses_.push_back({1.0f, static_cast<float>(i)});
-        batch_.body = &fixture.body(size.vertices);
-        batch_.count = size.instances;
-        batch_.poses = strided(std::span(std::as_const(poses_)));
-        batch_.vertex_step = size.vertices;
-        set_streams(batch_, layout, {fixture.memory(capacity * layout.footprint()).data(), capacity});
-    }
-    Crowd(const Crowd&) = delete;
-    Crowd& operator=(const Crowd&) = delete;
-
-    [[nodiscard]] bend::CrowdJob job() const { return {.batches = {&batch_, 1}, .isa = isa_}; }
-
-private:
-    Isa isa_;
-    std::vector<bend::Pose> poses_;
-    bend::Batch batch_;
-};
+measure::CrowdScene make_crowd(Fixture& fixture, const char* streams, const Size& size) {
+    const measure::StreamLayout& layout = measure::stream_layout(streams);
+    measure::CrowdScene crowd({{&fixture.body(size.vertices), size.instances, size.vertices}}, layout,
+                              fixture.memory(layout.memory_floats(size.instances * size.vertices)));
+    crowd.set_poses([](std::size_t instance, std::span<bend::Pose> poses) {
+        poses[0] = {1.0f, static_cast<float>(instance)};
+    });
+    return crowd;
+}
 
 /// Two sizes that differ in vertices alone and two that differ in instances alone, so that a difference
 /// leaves out what any frame costs. Whole blocks of vertices, whole groups of instances.
@@ -68,9 +52,9 @@ void count_work() {
         if (!runs_here(isa)) continue;
         for (const char* name : counted_layouts) {
             for (const Size& size : sizes) {
-                const Crowd crowd(fixture, layout(name), isa, size);
-                bend::run(crowd.job());  // what only a first frame does
-                goffer_counted_frame(crowd.job());
+                const measure::CrowdScene crowd = make_crowd(fixture, name, size);
+                bend::run(crowd.job(isa));  // what only a first frame does
+                goffer_counted_frame(crowd.job(isa));
                 std::printf("%s %s %zu %zu\n", std::string(goffer::name(isa)).c_str(), name, size.instances,
                             size.vertices);
             }
@@ -83,10 +67,10 @@ template <class Frame>
 double allocations_of(const Frame& frame) {
     constexpr int frames = 100;
     for (int i = 0; i < 5; ++i) frame();
-    const auto before = cli::allocations();
+    const auto before = measure::allocations();
     if (!before) return -1;
     for (int i = 0; i < frames; ++i) frame();
-    return static_cast<double>(*cli::allocations() - *before) / frames;
+    return static_cast<double>(*measure::allocations() - *before) / frames;
 }
 
 /// Bytes that each vertex adds to a body.
@@ -108,12 +92,12 @@ void print(const char* name, double value) {
 void count_memory() {
     Fixture fixture;
     const Size size{50, 200};
-    const Crowd planes(fixture, layout("positions+normals"), Isa::automatic, size);
+    const measure::CrowdScene planes = make_crowd(fixture, "positions+normals", size);
     print("allocations/run", allocations_of([&] { bend::run(planes.job()); }));
     fixture.with_threads(1, [&] {
         print("allocations/run_parallel", allocations_of([&] { bend::run_parallel(planes.job()); }));
     });
-    const Crowd packed(fixture, layout("packed"), Isa::automatic, size);
+    const measure::CrowdScene packed = make_crowd(fixture, "packed", size);
     print("allocations/run/packed", allocations_of([&] { bend::run(packed.job()); }));
     print("bytes_per_vertex/without_tangents", bytes_per_vertex(false));
     print("bytes_per_vertex/with_tangents", bytes_per_vertex(true));

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "cases.hpp"
 #include "floor.hpp"
-#include "layout.hpp"
 #include "measure.hpp"
 
-#include <goffer/bend/crowd.hpp>
+#include <goffer/measure/crowd_scene.hpp>
 
 #include <cmath>
-#include <cstdint>
-#include <initializer_list>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace goffer::bench {
 namespace {
+
+using measure::StreamLayout, measure::stream_layout;
 
 /// How many instances of how large a body.
 struct Size {
@@ -33,32 +33,40 @@ struct DeformCase {
     float wrinkle_weight = 1;
 };
 
-/// Instances whose poses change from sample to sample. Each begins on a cache line of every plane: what a
-/// user is advised to do.
+/// Each instance begins on a cache line of every plane: what a user is advised to do.
+std::size_t padded_vertices(const Size& size) {
+    constexpr std::size_t line = column_alignment / sizeof(float);
+    return (size.vertices + line - 1) / line * line;
+}
+
+std::size_t memory_floats(const StreamLayout& layout, const Size& size) {
+    return layout.memory_floats(size.instances * padded_vertices(size));
+}
+
+/// Instances whose poses change from sample to sample.
 class Crowd {
 public:
     Crowd(Fixture& fixture, const DeformCase& what)
-        : what_(what), body_(fixture.body(what.size.vertices, what.shape)) {
-        poses_.resize(what.size.instances * body_.region_count());
-        previous_poses_.resize(poses_.size());
-        weights_.resize(what.size.instances, what.wrinkle_weight);
-        memory_ = {fixture.memory(memory_floats(what.layout, what.size)).data(),
-                   capacity(what.layout, what.size)};
-        set_batch();
-        set_single();
+        : what_(what),
+          scene_({{&fixture.body(what.size.vertices, what.shape), what.size.instances,
+                   padded_vertices(what.size)}},
+                 what.layout, fixture.memory(memory_floats(what.layout, what.size))),
+          weights_(what.size.instances, what.wrinkle_weight) {
+        if (what.wrinkle_weight != 1) scene_.batches()[0].wrinkle_weights = strided(std::span(weights_));
+        single_ = scene_.instance(0);
+        single_.isa = what.isa;
         next_poses();
     }
-    Crowd(const Crowd&) = delete;
-    Crowd& operator=(const Crowd&) = delete;
 
     void next_poses() {
         phase_ += 0.01f;
-        previous_poses_ = poses_;
-        const std::size_t regions = body_.region_count();
-        for (std::size_t i = 0; i < poses_.size(); ++i) {
-            const auto at = static_cast<float>(i);
-            poses_[i] = {(1.0f + 0.5f * std::sin(phase_ + at)) / static_cast<float>(regions), at};
-        }
+        scene_.set_poses([&](std::size_t instance, std::span<bend::Pose> poses) {
+            auto at = static_cast<float>(instance * poses.size());
+            for (bend::Pose& pose : poses) {
+                pose = {(1.0f + 0.5f * std::sin(phase_ + at)) / static_cast<float>(poses.size()), at};
+                ++at;
+            }
+        });
     }
 
     /// One instance is validated and run as a job, more as a crowd.
@@ -71,57 +79,15 @@ public:
         }
     }
 
-    [[nodiscard]] static std::size_t memory_floats(const StreamLayout& layout, const Size& size) {
-        return capacity(layout, size) * layout.footprint();
-    }
-
 private:
-    [[nodiscard]] static std::size_t capacity(const StreamLayout& layout, const Size& size) {
-        return capacity_for(layout, size.instances * padded_vertices(size));
-    }
-
-    [[nodiscard]] static std::size_t padded_vertices(const Size& size) {
-        constexpr std::size_t line = column_alignment / sizeof(float);
-        return (size.vertices + line - 1) / line * line;
-    }
-
-    void set_batch() {
-        batch_.body = &body_;
-        batch_.count = what_.size.instances;
-        batch_.poses = by_instance(poses_);
-        if (what_.layout.previous) batch_.previous_poses = by_instance(previous_poses_);
-        if (what_.wrinkle_weight != 1) batch_.wrinkle_weights = strided(std::span(weights_));
-        batch_.vertex_step = padded_vertices(what_.size);
-        set_streams(batch_, what_.layout, memory_);
-    }
-
-    void set_single() {
-        single_.body = &body_;
-        single_.poses = std::span(poses_).first(body_.region_count());
-        single_.previous_poses = std::span(previous_poses_).first(body_.region_count());
-        single_.wrinkle_weight = what_.wrinkle_weight;
-        single_.isa = what_.isa;
-        set_streams(single_, what_.layout, memory_, 0);
-    }
-
-    /// The poses of all regions of each instance.
-    [[nodiscard]] StridedView<bend::Pose> by_instance(std::span<const bend::Pose> poses) const {
-        return {.data = poses.data(),
-                .count = what_.size.instances,
-                .stride = static_cast<std::uint32_t>(body_.region_count() * sizeof(bend::Pose))};
-    }
-
     [[nodiscard]] bool is_single() const { return what_.size.instances == 1; }
-    [[nodiscard]] bend::CrowdJob job() const { return {.batches = {&batch_, 1}, .isa = what_.isa}; }
+    [[nodiscard]] bend::CrowdJob job() const { return scene_.job(what_.isa); }
 
     DeformCase what_;
-    const bend::Body& body_;
-    CrowdMemory memory_;
-    std::vector<bend::Pose> poses_, previous_poses_;  // of one instance after the other
+    measure::CrowdScene scene_;
+    bend::DeformJob single_;
     std::vector<float> weights_;
     float phase_ = 0;
-    bend::Batch batch_;
-    bend::DeformJob single_;
 };
 
 void deform(benchmark::State& state, Fixture& fixture, const DeformCase& what) {
@@ -171,7 +137,7 @@ void register_deform(Fixture& fixture) {
     };
     const Like others[] = {
         {"-regions8", Shape::regions, 1}, {"-arc", Shape::arc, 1}, {"-bare", Shape::plain, 0}};
-    for (const StreamLayout& layout : layouts()) {
+    for (const StreamLayout& layout : measure::stream_layouts()) {
         for (const Named& size : sizes) {
             for (const Isa isa : built_isas()) {
                 if (!runs_here(isa)) continue;
@@ -192,11 +158,11 @@ void register_sweep(Fixture& fixture) {
         for (const std::size_t vertices : {200, 500, 2'000, 10'000, 50'000, 200'000, 1'000'000}) {
             for (const std::size_t instances : {1, 10, 100, 1'000, 10'000}) {
                 const Size size{instances, vertices};
-                if (Crowd::memory_floats(layout(streams), size) * sizeof(float) > most_bytes) continue;
+                if (memory_floats(stream_layout(streams), size) * sizeof(float) > most_bytes) continue;
                 const std::string name = std::to_string(instances) + "x" + std::to_string(vertices);
                 for (const int threads : Fixture::thread_counts())
                     register_case(fixture, "sweep", name,
-                                  {layout(streams), size, resolve(Isa::automatic), threads});
+                                  {stream_layout(streams), size, resolve(Isa::automatic), threads});
             }
         }
     }

@@ -5,10 +5,8 @@
 #include "measure.hpp"
 
 #include <goffer/bend/crowd.hpp>
-#include <goffer/engine/fill.hpp>
-#include <goffer/engine/parallel.hpp>
+#include <goffer/measure/fill.hpp>
 
-#include <algorithm>
 #include <string>
 
 namespace goffer::bench {
@@ -18,38 +16,10 @@ constexpr std::size_t crowd_vertices = 1000 * 10'000;
 constexpr std::size_t cache_vertices = 10'000;
 constexpr std::size_t floats = 3;
 
-/// Calls `part` for all of [0, count): at once, or in ranges of whole lines for the threads to share.
-template <class Part>
-void share(std::size_t count, int threads, const Part& part) {
-    if (threads == 1) {
-        part(0, count);
-        return;
-    }
-    constexpr std::size_t line = column_alignment / sizeof(float);
-    constexpr std::size_t most = 16384;  // lines of a range: a megabyte
-    const std::size_t lines = (count + line - 1) / line;
-    const std::size_t grain = std::clamp<std::size_t>(lines / static_cast<std::size_t>(threads), 1, most);
-    parallel_ranges(lines, grain, [&](std::size_t first, std::size_t last) {
-        part(first * line, std::min(last * line, count));
-    });
-}
-
-void fill_shared(std::span<float> to, float seed, bool non_temporal, int threads) {
-    share(to.size(), threads, [&](std::size_t first, std::size_t last) {
-        fill(to.subspan(first, last - first), seed, non_temporal);
-    });
-}
-
-void copy_shared(std::span<const float> from, std::span<float> to, bool non_temporal, int threads) {
-    share(from.size(), threads, [&](std::size_t first, std::size_t last) {
-        copy_floats(from.subspan(first, last - first), to.subspan(first, last - first), non_temporal);
-    });
-}
-
 std::function<void(std::size_t)> filling(std::span<float> to, bool non_temporal, int threads) {
     return [=](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            fill_shared(to, static_cast<float>(i), non_temporal, threads);
+            measure::fill(to, static_cast<float>(i), non_temporal, threads);
             benchmark::ClobberMemory();
         }
     };
@@ -59,7 +29,7 @@ std::function<void(std::size_t)> copying(std::span<const float> from, std::span<
                                          int threads) {
     return [=](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            copy_shared(from, to, non_temporal, threads);
+            measure::copy(from, to, non_temporal, threads);
             benchmark::ClobberMemory();
         }
     };
@@ -70,8 +40,8 @@ std::function<void(std::size_t)> swapping(std::span<float> memory, bool non_temp
     const std::span<float> low = memory.first(memory.size() / 2), high = memory.subspan(low.size());
     return [=](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            copy_shared(low, high, non_temporal, threads);
-            copy_shared(high.first(low.size()), low, non_temporal, threads);
+            measure::copy(low, high, non_temporal, threads);
+            measure::copy(high.first(low.size()), low, non_temporal, threads);
             benchmark::ClobberMemory();
         }
     };
@@ -111,8 +81,8 @@ void run_case(benchmark::State& state, Fixture& fixture, Kind kind, int threads)
 
 }  // namespace
 
-std::function<void(std::size_t)> floor_of(Fixture& fixture, const StreamLayout& layout, std::size_t vertices,
-                                          int threads) {
+std::function<void(std::size_t)> floor_of(Fixture& fixture, const measure::StreamLayout& layout,
+                                          std::size_t vertices, int threads) {
     const std::span<float> memory = fixture.memory(vertices * layout.footprint());
     const bool non_temporal = memory.size_bytes() >= bend::non_temporal_threshold;
     return layout.keeps_gaps() ? swapping(memory, non_temporal, threads)

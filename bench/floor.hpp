@@ -2,7 +2,8 @@
 #pragma once
 
 #include "fixture.hpp"
-#include "layout.hpp"
+
+#include <goffer/measure/stream_layout.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -16,7 +17,7 @@ namespace goffer::bench {
 /// The floor of a case: a function of how many times it is run, in the arena that it is called from where
 /// `threads` > 1. Into `vertices` vertices of the fixture's memory, in `layout`; past the cache where
 /// bend::Stores::automatic goes there.
-[[nodiscard]] std::function<void(std::size_t)> floor_of(Fixture& fixture, const StreamLayout& layout,
+[[nodiscard]] std::function<void(std::size_t)> floor_of(Fixture& fixture, const measure::StreamLayout& layout,
                                                         std::size_t vertices, int threads);
 
 }  // namespace goffer::bench

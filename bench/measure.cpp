@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "measure.hpp"
 
-#include <time.h>
+#include <goffer/measure/timer.hpp>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace goffer::bench {
 namespace {
 
-double now(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
-}
-
 /// Nanoseconds of one call.
 double timed(const std::function<void(std::size_t)>& work, const Task& task) {
-    const clockid_t clock = task.threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
-    const double start = now(clock);
-    work(task.batch);
-    return (now(clock) - start) / static_cast<double>(task.batch);
-}
-
-double median(std::vector<double>& values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return measure::nanoseconds_of(task.threads, [&] { work(task.batch); }) / static_cast<double>(task.batch);
 }
 
 }  // namespace
@@ -45,7 +30,7 @@ Medians measure(benchmark::State& state, const Task& task) {
         if (task.floor) ratios.push_back(timed(task.floor, task) / time);
         state.ResumeTiming();
     }
-    return {median(times), median(ratios)};
+    return {measure::median(std::move(times)), measure::median(std::move(ratios))};
 }
 
 std::size_t batch_for(std::size_t vertices) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ratios.hpp"
 
-#include <algorithm>
+#include <goffer/measure/timer.hpp>
+
 #include <cstdio>
 
 namespace goffer::bench {
@@ -10,12 +11,6 @@ namespace {
 void add(const benchmark::BenchmarkReporter::Run& run, const char* counter, std::vector<double>& to) {
     const auto found = run.counters.find(counter);
     if (found != run.counters.end()) to.push_back(found->second.value);
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 // The naive case that belongs to deform/<streams>/...: layouts of the same streams share one.
@@ -44,17 +39,17 @@ void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
 
 double RatioReporter::naive_time(const std::string& name) const {
     const auto found = cases_.find(naive_name(name));
-    return found == cases_.end() ? 0 : median(found->second.times);
+    return found == cases_.end() ? 0 : measure::median(found->second.times);
 }
 
 void RatioReporter::Finalize() {
     std::printf("\n%-60s %12s %12s %12s\n", "medians of this run", "ns/vertex", "naive / it", "of floor");
     for (const auto& [name, seen] : cases_) {
-        const double time = median(seen.times);
+        const double time = measure::median(seen.times);
         std::printf("%-60s", name.c_str());
         print_ratio(time);
         print_ratio(naive_time(name) / time);
-        print_ratio(median(seen.of_floor));
+        print_ratio(measure::median(seen.of_floor));
         std::printf("\n");
     }
 }

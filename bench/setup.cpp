@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cases.hpp"
-#include "layout.hpp"
 #include "measure.hpp"
 
 #include <goffer/bend/bounds.hpp>
-#include <goffer/bend/crowd.hpp>
 #include <goffer/bend/path.hpp>
+#include <goffer/measure/crowd_scene.hpp>
 
 #include <glm/vec3.hpp>
 
@@ -19,13 +18,10 @@ namespace {
 constexpr std::size_t vertices = 10'000;
 constexpr std::size_t instances = 1000;
 
-std::vector<bend::Pose> make_poses(std::size_t count) {
-    std::vector<bend::Pose> poses(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto at = static_cast<float>(i);
-        poses[i] = {1.0f + 0.5f * std::sin(at), at};
-    }
-    return poses;
+/// Of instance `index`: each has its own.
+bend::Pose pose_of(std::size_t index) {
+    const auto at = static_cast<float>(index);
+    return {1.0f + 0.5f * std::sin(at), at};
 }
 
 /// Sets ns_per_instance: `call(i)` for i from 0 to `count` - 1, again and again.
@@ -42,14 +38,13 @@ void time_each(benchmark::State& state, std::size_t count, const Call& call) {
 
 /// Instances in poses of their own.
 std::vector<bend::DeformJob> make_jobs(Fixture& fixture) {
-    const StreamLayout& streams = layout("positions+normals");
-    const CrowdMemory memory{fixture.memory(vertices * streams.footprint()).data(), vertices};
-    const std::vector<bend::Pose> poses = make_poses(instances);
+    const measure::StreamLayout& layout = measure::stream_layout("positions+normals");
+    const std::span<float> memory = fixture.memory(layout.memory_floats(vertices));
     std::vector<bend::DeformJob> jobs(instances);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         jobs[i].body = &fixture.body(vertices);
-        jobs[i].pose = poses[i];
-        set_streams(jobs[i], streams, memory, 0);  // the same for all: nothing is written
+        jobs[i].pose = pose_of(i);
+        measure::set_streams(jobs[i], layout, memory, 0, vertices);  // the same for all: nothing is written
     }
     return jobs;
 }
@@ -65,7 +60,8 @@ void bounds(benchmark::State& state, Fixture& fixture) {
 }
 
 void bounds_batch(benchmark::State& state, Fixture& fixture) {
-    const std::vector<bend::Pose> poses = make_poses(instances);
+    std::vector<bend::Pose> poses(instances);
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i);
     std::vector<bend::Bounds> result(instances);
     bend::Batch batch{.body = &fixture.body(vertices), .count = instances};
     batch.poses = strided(std::span(poses));
@@ -78,36 +74,27 @@ void bounds_batch(benchmark::State& state, Fixture& fixture) {
     state.counters["ns_per_instance"] = measure(state, task).nanoseconds / instances;
 }
 
-/// Instances of a small body.
-class SmallCrowd {
-public:
-    SmallCrowd(const bend::Body& body, const std::vector<bend::Pose>& poses, std::span<float> memory) {
-        const StreamLayout& streams = layout("positions+normals");
-        batch_.body = &body;
-        batch_.count = poses.size();
-        batch_.poses = strided(std::span(poses));
-        batch_.vertex_step = body.vertex_count();
-        set_streams(batch_, streams, {memory.data(), memory.size() / streams.floats});
-    }
-
-    [[nodiscard]] bend::CrowdJob job() const { return {.batches = {&batch_, 1}}; }
-
-private:
-    bend::Batch batch_;
-};
+/// A crowd of instances without a vertex between them, in poses of their own, on `memory`.
+measure::CrowdScene make_crowd(const bend::Body& body, std::size_t count, const measure::StreamLayout& layout,
+                               std::span<float> memory) {
+    measure::CrowdScene crowd({{&body, count, body.vertex_count()}}, layout, memory);
+    crowd.set_poses([](std::size_t instance, std::span<bend::Pose> poses) { poses[0] = pose_of(instance); });
+    return crowd;
+}
 
 /// What an instance in a batch costs beside its vertices: what would be left of a small body without any,
 /// from one of twice as many, which is run next to it in the floor's place.
 void batch(benchmark::State& state, Fixture& fixture) {
     constexpr std::size_t few = 64, count = 256;
-    const std::span<float> memory = fixture.memory(2 * few * count * layout("positions+normals").floats);
-    const std::vector<bend::Pose> poses = make_poses(count);
-    const SmallCrowd once(fixture.body(few), poses, memory), twice(fixture.body(2 * few), poses, memory);
+    const measure::StreamLayout& layout = measure::stream_layout("positions+normals");
+    const std::span<float> memory = fixture.memory(layout.memory_floats(2 * few * count));
+    const measure::CrowdScene once = make_crowd(fixture.body(few), count, layout, memory);
+    const measure::CrowdScene twice = make_crowd(fixture.body(2 * few), count, layout, memory);
     if (const bend::Fault fault = bend::validate(twice.job()); !fault.none()) {
         state.SkipWithError(bend::describe(fault).c_str());
         return;
     }
-    const auto running = [](const SmallCrowd& crowd) {
+    const auto running = [](const measure::CrowdScene& crowd) {
         return [&crowd](std::size_t times) {
             for (std::size_t i = 0; i < times; ++i) {
                 bend::run(crowd.job());

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "allocations.hpp"
-
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
 #include "support/locks.hpp"
@@ -9,6 +7,7 @@
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
+#include <goffer/measure/allocations.hpp>
 
 #include <doctest/doctest.h>
 
@@ -107,20 +106,20 @@ private:
 
 /// A hundred; but where nothing is counted, enough to see that they run.
 int frame_count() {
-    return cli::allocations() ? 100 : 3;
+    return measure::allocations() ? 100 : 3;
 }
 
 }  // namespace
 
 TEST_CASE("P6: the counters count") {
-    if (cli::allocations()) {
+    if (measure::allocations()) {
         // Through pointers that the compiler cannot see through, so that no pair of calls is left out.
         void* (*volatile allocate)(std::size_t) = std::malloc;
         void* (*volatile make)(std::size_t) = ::operator new;
-        const std::uint64_t before = *cli::allocations();
+        const std::uint64_t before = *measure::allocations();
         std::free(allocate(24));
         ::operator delete(make(24));
-        CHECK(*cli::allocations() == before + 2);
+        CHECK(*measure::allocations() == before + 2);
     }
     if (locks()) {
         const std::uint64_t before = *locks();
@@ -133,10 +132,10 @@ TEST_CASE("P6: the counters count") {
 TEST_CASE("P6: a hundred frames allocate nothing and take no lock") {
     Frames frames;
     frames.single(0);
-    const auto allocated = cli::allocations(), locked = locks();
+    const auto allocated = measure::allocations(), locked = locks();
     if (!allocated || !locked) MESSAGE("not counted here");
     for (int frame = 0; frame < frame_count(); ++frame) frames.single(frame);
-    const auto allocated_now = cli::allocations(), locked_now = locks();
+    const auto allocated_now = measure::allocations(), locked_now = locks();
     CHECK(allocated == allocated_now);
     CHECK(locked == locked_now);
     CHECK(frames.faults() == 0);
@@ -147,9 +146,9 @@ TEST_CASE("P6: a hundred frames on the scheduler allocate nothing once it is war
     Frames frames;
     in_arena(1, [&] {
         for (int frame = 0; frame < 5; ++frame) frames.parallel(frame);
-        const auto allocated = cli::allocations();
+        const auto allocated = measure::allocations();
         for (int frame = 0; frame < frame_count(); ++frame) frames.parallel(frame);
-        const auto allocated_now = cli::allocations();
+        const auto allocated_now = measure::allocations();
         CHECK(allocated == allocated_now);
     });
 }

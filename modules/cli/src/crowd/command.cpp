@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "crowd_measure.hpp"
-#include "crowd_picture.hpp"
-#include "crowd_scene.hpp"
+#include "crowd/crowd.hpp"
+#include "crowd/render.hpp"
+#include "crowd/timing.hpp"
 #include "model.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
@@ -31,9 +31,10 @@ struct CrowdOptions {
     std::filesystem::path json;
 };
 
-StreamLayout parse_layout(const std::string& text) {
-    if (text == "packed") return StreamLayout::packed;
-    return text == "interleaved" ? StreamLayout::interleaved : StreamLayout::planar;
+const measure::StreamLayout& parse_layout(const std::string& text, bool normals) {
+    if (text == "packed") return measure::stream_layout(text);
+    const std::string order = text == "interleaved" ? "interleaved-" : "";
+    return measure::stream_layout(order + (normals ? "positions+normals" : "positions"));
 }
 
 bend::Stores parse_stores(const std::string& text) {
@@ -53,8 +54,7 @@ struct CrowdRequest {
           bind(options.bind, pose.regions),
           plan{.instances = options.instances,
                .poses = pose.poses,
-               .layout = parse_layout(options.streams),
-               .normals = options.normals || options.streams == "packed",
+               .layout = parse_layout(options.streams, options.normals),
                .isa = parse_isa_option(options.isa),
                .stores = parse_stores(options.stores)},
           threads(usable_threads(options.threads)) {
@@ -125,23 +125,24 @@ std::string percentage(double fraction) {
 
 void report_crowd(Report& report, const CrowdOptions& options, const CrowdRequest& request,
                   const Crowd& crowd, const Timing& timing) {
-    const auto bytes = static_cast<double>(crowd.memory().bytes());
+    const auto bytes = static_cast<double>(crowd.scene().bytes());
     const double rate = bytes / timing.frame_median * 1e-6;
     const double floor = bytes / timing.fill_median * 1e-6;
-    const double per_vertex = timing.frame_median * 1e6 / static_cast<double>(crowd.vertices());
+    const double per_vertex = timing.frame_median * 1e6 / static_cast<double>(crowd.scene().vertices());
+    const bool normals = request.plan.layout.normals || request.plan.layout.packed;
     const std::string isa(name(resolve(request.plan.isa)));
     char hash[17];
-    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(crowd.memory().hash()));
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(crowd.scene().hash()));
 
     nlohmann::ordered_json& json = report.json;
     json["instances"] = options.instances;
-    json["vertices_per_frame"] = crowd.vertices();
-    json["bytes_per_frame"] = crowd.memory().bytes();
+    json["vertices_per_frame"] = crowd.scene().vertices();
+    json["bytes_per_frame"] = crowd.scene().bytes();
     json["frames"] = options.frames;
     json["threads"] = request.threads;
     json["isa"] = isa;
     json["streams"] = options.streams;
-    json["normals"] = request.plan.normals;
+    json["normals"] = normals;
     json["stores"] = options.stores;
     json["angles"] = request.pose.angles;
     json["ms_median"] = timing.frame_median;
@@ -155,10 +156,10 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
     json["clamped"] = timing.clamped;
     json["hash"] = hash;
 
-    report.line("crowd", counted(options.instances, "instance") + ", " + std::to_string(crowd.vertices()) +
-                             " vertices a frame");
-    report.line("output", options.streams + ", positions" + (request.plan.normals ? " and normals" : "") +
-                              ", " + number(bytes * 1e-6) + " MB a frame");
+    report.line("crowd", counted(options.instances, "instance") + ", " +
+                             std::to_string(crowd.scene().vertices()) + " vertices a frame");
+    report.line("output", options.streams + ", positions" + (normals ? " and normals" : "") + ", " +
+                              number(bytes * 1e-6) + " MB a frame");
     report.line("kernels", isa + ", threads: " + std::to_string(request.threads));
     report.line("frames", number(1000 / timing.frame_median) + " per second");
     report.line("frame",

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <goffer/engine/columns.hpp>
-#include <goffer/engine/fill.hpp>
+#include <goffer/engine/parallel.hpp>
+#include <goffer/measure/fill.hpp>
+#include <goffer/simd/fence.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -13,7 +16,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace goffer {
+namespace goffer::measure {
 namespace {
 
 constexpr std::size_t line_floats = column_alignment / sizeof(float);
@@ -56,13 +59,6 @@ void stream_line(const float* from, float* to) noexcept {
 #endif
 }
 
-/// Orders streamed lines before what tells another thread that all is done.
-void fence() noexcept {
-#ifdef GOFFER_STREAMS
-    _mm_sfence();
-#endif
-}
-
 /// Sets each float of `to` to *from(its address): alone, or by `line` where a whole line begins.
 template <class From, class Line>
 void write(std::span<float> to, const From& from, const Line& line) noexcept {
@@ -77,7 +73,22 @@ template <class From>
 void write(std::span<float> to, bool non_temporal, const From& from) noexcept {
     if (!non_temporal) return write(to, from, [](const float* a, float* b) { store_line(a, b); });
     write(to, from, [](const float* a, float* b) { stream_line(a, b); });
-    fence();
+    simd::fence();
+}
+
+/// Calls `part` for all of [0, count): at once, or in ranges of whole lines for the threads to share.
+template <class Part>
+void share(std::size_t count, int threads, const Part& part) {
+    if (threads == 1) {
+        part(0, count);
+        return;
+    }
+    constexpr std::size_t most = 16384;  // lines of a range: a megabyte
+    const std::size_t lines = (count + line_floats - 1) / line_floats;
+    const std::size_t grain = std::clamp<std::size_t>(lines / static_cast<std::size_t>(threads), 1, most);
+    parallel_ranges(lines, grain, [&](std::size_t first, std::size_t last) {
+        part(first * line_floats, std::min(last * line_floats, count));
+    });
 }
 
 }  // namespace
@@ -87,7 +98,7 @@ void fill(std::span<float> to, float seed, bool non_temporal) noexcept {
     write(to, non_temporal, [&](const float* place) { return pattern.at(place); });
 }
 
-void copy_floats(std::span<const float> from, std::span<float> to, bool non_temporal) noexcept {
+void copy(std::span<const float> from, std::span<float> to, bool non_temporal) noexcept {
     assert(from.size() <= to.size());
     if (!non_temporal) {
         if (!from.empty()) std::memcpy(to.data(), from.data(), from.size_bytes());
@@ -97,4 +108,16 @@ void copy_floats(std::span<const float> from, std::span<float> to, bool non_temp
     write(to.first(from.size()), true, [&](const float* place) { return from.data() + (place - begin); });
 }
 
-}  // namespace goffer
+void fill(std::span<float> to, float seed, bool non_temporal, int threads) {
+    share(to.size(), threads, [&](std::size_t first, std::size_t last) {
+        fill(to.subspan(first, last - first), seed, non_temporal);
+    });
+}
+
+void copy(std::span<const float> from, std::span<float> to, bool non_temporal, int threads) {
+    share(from.size(), threads, [&](std::size_t first, std::size_t last) {
+        copy(from.subspan(first, last - first), to.subspan(first, last - first), non_temporal);
+    });
+}
+
+}  // namespace goffer::measure

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "crowd_scene.hpp"
+#include "crowd/crowd.hpp"
 
 #include "memory.hpp"
+
+#include <goffer/measure/fill.hpp>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -43,12 +45,14 @@ std::size_t instances_of(std::size_t model, std::size_t models, std::size_t inst
     return (instances + models - 1 - model) / models;
 }
 
-std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instances) {
-    std::size_t vertices = 0;
+/// Of each model, about as many.
+std::vector<measure::CrowdGroup> groups_of(std::span<const BoundModel> models, std::size_t instances) {
+    std::vector<measure::CrowdGroup> groups;
     for (std::size_t i = 0; i < models.size(); ++i) {
-        vertices += instances_of(i, models.size(), instances) * models[i].binding.body.vertex_count();
+        const bend::Body& body = models[i].binding.body;
+        groups.push_back({&body, instances_of(i, models.size(), instances), body.vertex_count()});
     }
-    return vertices;
+    return groups;
 }
 
 [[noreturn]] void refuse(std::size_t instances, std::uint64_t bytes, const std::string& reason) {
@@ -58,15 +62,16 @@ std::size_t vertices_for(std::span<const BoundModel> models, std::size_t instanc
 }
 
 /// Looks first: a system that hands out more than it has ends the program later, without a word.
-CrowdMemory memory_for(const CrowdPlan& plan, std::size_t vertices) {
+Columns memory_for(std::span<const BoundModel> models, const CrowdPlan& plan) {
+    const std::size_t vertices = measure::vertex_count(groups_of(models, plan.instances));
     const std::uint64_t bytes =
-        vertices * CrowdMemory::vertex_bytes(plan.layout, plan.normals) +
+        vertices * plan.layout.footprint() * sizeof(float) +
         plan.instances * (sizeof(glm::mat4x3) + plan.poses.size() * sizeof(bend::Pose));
     if (const auto free = free_memory(); free && bytes > *free) {
         refuse(plan.instances, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
     }
     try {
-        return {plan.layout, plan.normals, vertices};
+        return {1, plan.layout.memory_floats(vertices)};
     } catch (const std::bad_alloc&) {
         refuse(plan.instances, bytes, ", which cannot be had");
     }
@@ -82,41 +87,22 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
-/// `count` vertices of a stream from vertex `first` on.
-Stream3 part(Stream3 stream, std::size_t first, std::size_t count) {
-    if (stream.empty()) return {};
-    for (float*& component : stream.component) component += first * stream.stride / sizeof(float);
-    stream.count = count;
-    return stream;
-}
-
-bend::PackedStream part(bend::PackedStream stream, std::size_t first, std::size_t count) {
-    if (stream.empty()) return {};
-    stream.first += first * stream.stride / sizeof(bend::PackedVertex);
-    stream.count = count;
-    return stream;
-}
-
 }  // namespace
 
 Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
     : columns_(columns_for(plan.instances, models.size())),
       spacing_(spacing_for(models)),
-      vertices_(vertices_for(models, plan.instances)),
-      memory_(memory_for(plan, vertices_)),
       farthest_(plan.poses),
-      poses_(plan.instances * plan.poses.size()) {
+      memory_(memory_for(models, plan)),
+      scene_(groups_of(models, plan.instances), plan.layout, memory_[0]) {
     members_.reserve(plan.instances);
     transforms_.reserve(plan.instances);
-    batches_.reserve(models.size());
-    std::size_t first_vertex = 0;
     for (std::size_t m = 0; m < models.size(); ++m) {
         const std::size_t begin = members_.size();
         for (std::size_t place = m; place < plan.instances; place += models.size()) add(models[m], m, place);
-        add_batch(models[m].binding.body, begin, first_vertex);
-        first_vertex += batches_.back().count * batches_.back().vertex_step;
+        scene_.batches()[m].transforms = strided(std::span(transforms_).subspan(begin));
     }
-    job_ = {.batches = batches_, .stores = plan.stores, .isa = plan.isa};
+    job_ = scene_.job(plan.isa, plan.stores);
     set_poses(0);
     if (const bend::Fault fault = bend::validate(job_); !fault.none())
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
@@ -135,51 +121,27 @@ void Crowd::add(const BoundModel& model, std::size_t index, std::size_t place) {
     transforms_.push_back(transform_to(model.binding.body, x, y, yaw));
 }
 
-/// Of the instances from `begin` on.
-void Crowd::add_batch(const bend::Body& body, std::size_t begin, std::size_t first_vertex) {
-    bend::Batch& batch = batches_.emplace_back();
-    batch.body = &body;
-    batch.count = members_.size() - begin;
-    batch.poses = {.data = &poses_[begin * farthest_.size()],
-                   .count = batch.count,
-                   .stride = static_cast<std::uint32_t>(farthest_.size() * sizeof(bend::Pose))};
-    batch.transforms = strided(std::span(transforms_).subspan(begin));
-    memory_.point(batch, first_vertex);
-}
-
-bend::DeformJob Crowd::instance(std::size_t index) const noexcept {
-    const Member& member = members_[index];
-    const bend::Batch& batch = batches_[member.model];
-    const std::size_t count = batch.body->vertex_count();
-    const std::size_t first =
-        member.place / batches_.size() * batch.vertex_step;  // models take turns on the grid
-    bend::DeformJob job{.body = batch.body};
-    job.poses = std::span(poses_).subspan(index * farthest_.size(), farthest_.size());
-    job.transform = transforms_[index];
-    job.positions = part(batch.positions, first, count);
-    job.normals = part(batch.normals, first, count);
-    job.packed = part(batch.packed, first, count);
-    job.isa = job_.isa;
-    return job;
-}
-
 void Crowd::set_poses(std::size_t frame) noexcept {
     const auto time = static_cast<double>(frame);
-    auto pose = poses_.begin();
-    for (const Member& member : members_) {
-        const bend::Body& body = *batches_[member.model].body;
+    scene_.set_poses([&](std::size_t index, std::span<bend::Pose> poses) {
+        const Member& member = members_[index];
+        const bend::Body& body = *job_.batches[member.model].body;
         const auto direction = static_cast<float>(turn * (time / frames_per_turn + member.direction));
         double start = 0;
-        for (std::size_t r = 0; r < farthest_.size(); ++r, ++pose) {
+        for (std::size_t r = 0; r < poses.size(); ++r) {
             const double phase =
                 time / frames_per_swing + member.phase - lag_per_length * start / body.length();
             const double swing = 0.5 - 0.5 * std::cos(turn * phase);
             const float limit = body.max_angle(r);
             const float angle = std::clamp(farthest_[r].angle, -limit, limit);
-            *pose = {static_cast<float>(static_cast<double>(angle) * swing), direction};
+            poses[r] = {static_cast<float>(static_cast<double>(angle) * swing), direction};
             start += static_cast<double>(body.regions()[r].length);
         }
-    }
+    });
+}
+
+void Crowd::fill(float seed, int threads) {
+    measure::fill(memory_[0].first(scene_.bytes() / sizeof(float)), seed, true, threads);
 }
 
 Spot Crowd::spot(std::size_t index) const noexcept {

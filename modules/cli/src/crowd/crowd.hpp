@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "crowd_memory.hpp"
 #include "model.hpp"
 
-#include <goffer/bend/crowd.hpp>
+#include <goffer/engine/columns.hpp>
+#include <goffer/measure/crowd_scene.hpp>
 
 #include <glm/mat4x3.hpp>
 
@@ -19,8 +19,7 @@ struct CrowdPlan {
     std::size_t instances = 0;
     /// The farthest, one per region; a region that cannot be bent so far goes as far as it can.
     std::vector<bend::Pose> poses;
-    StreamLayout layout = StreamLayout::planar;
-    bool normals = false;
+    measure::StreamLayout layout;
     Isa isa = Isa::automatic;
     bend::Stores stores = bend::Stores::automatic;
 };
@@ -45,14 +44,12 @@ public:
     /// Sets the poses of `frame`, which depend on nothing else. Does not allocate.
     void set_poses(std::size_t frame) noexcept;
 
-    /// All instances: a batch for each model.
+    /// All instances: a group for each model.
+    [[nodiscard]] const measure::CrowdScene& scene() const noexcept { return scene_; }
     [[nodiscard]] const bend::CrowdJob& job() const noexcept { return job_; }
     [[nodiscard]] std::size_t instances() const noexcept { return members_.size(); }
-    /// Instance `index`, counted from batch to batch, as a job: with the streams that it has in the crowd.
-    [[nodiscard]] bend::DeformJob instance(std::size_t index) const noexcept;
-    [[nodiscard]] CrowdMemory& memory() noexcept { return memory_; }
-    [[nodiscard]] const CrowdMemory& memory() const noexcept { return memory_; }
-    [[nodiscard]] std::size_t vertices() const noexcept { return vertices_; }
+    /// Fills as much memory as a frame writes past the cache (measure::fill): the least that it can cost.
+    void fill(float seed, int threads);
 
     /// Of instance `index`: which of the models it is, and where it stands.
     [[nodiscard]] std::size_t model(std::size_t index) const noexcept { return members_[index].model; }
@@ -69,18 +66,15 @@ private:
     };
 
     void add(const BoundModel& model, std::size_t index, std::size_t place);
-    void add_batch(const bend::Body& body, std::size_t begin, std::size_t first_vertex);
     [[nodiscard]] Spot spot_of(std::size_t place) const noexcept;
 
     std::size_t columns_;
     double spacing_;
-    std::size_t vertices_;
-    CrowdMemory memory_;
+    std::vector<bend::Pose> farthest_;  // of a body's regions
+    Columns memory_;
+    measure::CrowdScene scene_;
     std::vector<Member> members_;
-    std::vector<bend::Pose> farthest_;     // of a body's regions
-    std::vector<bend::Pose> poses_;        // of this frame, of each instance's regions
     std::vector<glm::mat4x3> transforms_;  // of each instance
-    std::vector<bend::Batch> batches_;     // of each model
     bend::CrowdJob job_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "crowd_scene.hpp"
+#include "crowd/crowd.hpp"
 
 #include <cstddef>
 #include <optional>

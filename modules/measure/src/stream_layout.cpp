@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "layout.hpp"
+#include <goffer/measure/stream_layout.hpp>
 
 #include <algorithm>
 
-namespace goffer::bench {
+namespace goffer::measure {
 namespace {
 
 constexpr StreamLayout all[] = {
@@ -33,11 +33,11 @@ constexpr StreamLayout all[] = {
 /// Hands out the streams of an instance, one after the other: planes, or places in a record.
 class Cursor {
 public:
-    Cursor(const StreamLayout& layout, const CrowdMemory& memory, std::size_t first, std::size_t count)
-        : step_(layout.record == 0 ? memory.capacity : 1),
+    Cursor(const StreamLayout& layout, std::span<float> memory, std::size_t first, std::size_t count)
+        : step_(layout.record == 0 ? memory.size() / layout.floats : 1),
           stride_(layout.record == 0 ? sizeof(float) : layout.record * sizeof(float)),
           count_(count),
-          next_(memory.values + first * std::max<std::size_t>(layout.record, 1)) {}
+          next_(memory.data() + first * std::max<std::size_t>(layout.record, 1)) {}
 
     template <std::size_t N>
     [[nodiscard]] Stream<N> take() {
@@ -58,33 +58,13 @@ private:
     float* next_;
 };
 
-}  // namespace
-
-std::span<const StreamLayout> layouts() {
-    return all;
-}
-
-const StreamLayout& layout(std::string_view name) {
-    return *std::ranges::find(all, name, &StreamLayout::name);
-}
-
-std::size_t capacity_for(const StreamLayout& layout, std::size_t vertices) {
-    if (layout.record != 0) return vertices;
-    constexpr std::size_t page = 4096 / sizeof(float);
-    const std::size_t past =
-        layout.paged ? 0 : page * 3 / 32;  // ten planes so far apart are all over the page
-    return vertices + (past + page - vertices % page) % page;
-}
-
-namespace {
-
 /// `to`: a job or a batch.
 template <class To>
-void set_all(To& to, const StreamLayout& layout, const CrowdMemory& memory, std::size_t first) {
+void set_all(To& to, const StreamLayout& layout, std::span<float> memory, std::size_t first,
+             std::size_t count) noexcept {
     to.scratch_gaps = layout.scratch;
-    const std::size_t count = memory.capacity - first;
     if (layout.packed) {
-        float* const record = memory.values + first * layout.record;
+        float* const record = memory.data() + first * layout.record;
         to.packed = {reinterpret_cast<bend::PackedVertex*>(record), layout.record * sizeof(float), count};
         return;
     }
@@ -97,13 +77,29 @@ void set_all(To& to, const StreamLayout& layout, const CrowdMemory& memory, std:
 
 }  // namespace
 
-void set_streams(bend::DeformJob& job, const StreamLayout& layout, const CrowdMemory& memory,
-                 std::size_t first) {
-    set_all(job, layout, memory, first);
+std::size_t StreamLayout::memory_floats(std::size_t vertices) const noexcept {
+    if (record != 0) return vertices * record;
+    constexpr std::size_t page = 4096 / sizeof(float);
+    const std::size_t past = paged ? 0 : page * 3 / 32;  // ten planes so far apart are all over the page
+    return (vertices + (past + page - vertices % page) % page) * floats;
 }
 
-void set_streams(bend::Batch& batch, const StreamLayout& layout, const CrowdMemory& memory) {
-    set_all(batch, layout, memory, 0);
+std::span<const StreamLayout> stream_layouts() noexcept {
+    return all;
 }
 
-}  // namespace goffer::bench
+const StreamLayout& stream_layout(std::string_view name) noexcept {
+    return *std::ranges::find(all, name, &StreamLayout::name);
+}
+
+void set_streams(bend::DeformJob& job, const StreamLayout& layout, std::span<float> memory, std::size_t first,
+                 std::size_t count) noexcept {
+    set_all(job, layout, memory, first, count);
+}
+
+void set_streams(bend::Batch& batch, const StreamLayout& layout, std::span<float> memory, std::size_t first,
+                 std::size_t count) noexcept {
+    set_all(batch, layout, memory, first, count);
+}
+
+}  // namespace goffer::measure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crowd_picture.hpp"
+#include "crowd/render.hpp"
 
 #include "picture.hpp"
 
@@ -118,7 +118,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     vertices.reserve(chosen.size());
     for (const std::size_t i : chosen) {
         const BoundModel& model = models[crowd.model(i)];
-        Vertices& own = vertices.emplace_back(vertices_of(crowd.instance(i)));
+        Vertices& own = vertices.emplace_back(vertices_of(crowd.scene().instance(i)));
         put_in_model_order(own.positions, model.binding);
         put_in_model_order(own.normals, model.binding);
         const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "allocations.hpp"
+#include <goffer/measure/allocations.hpp>
 
 #include <atomic>
 #include <cerrno>
@@ -82,7 +82,7 @@ void free(void* memory) noexcept {
 }  // extern "C"
 // NOLINTEND(bugprone-reserved-identifier)
 
-namespace goffer::cli {
+namespace goffer::measure {
 
 std::optional<std::uint64_t> allocations() noexcept {
     const std::uint64_t so_far = calls.load(std::memory_order_relaxed);
@@ -90,16 +90,16 @@ std::optional<std::uint64_t> allocations() noexcept {
     return so_far;
 }
 
-}  // namespace goffer::cli
+}  // namespace goffer::measure
 
 #else
 
-namespace goffer::cli {
+namespace goffer::measure {
 
 std::optional<std::uint64_t> allocations() noexcept {
     return std::nullopt;
 }
 
-}  // namespace goffer::cli
+}  // namespace goffer::measure
 
 #endif

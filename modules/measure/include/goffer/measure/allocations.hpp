@@ -6,7 +6,7 @@
 
 /// Counts allocations: shows that a frame makes none.
 
-namespace goffer::cli {
+namespace goffer::measure {
 
 /// How often this process has called malloc, calloc, realloc, aligned_alloc, memalign, posix_memalign, valloc
 /// or pvalloc so far, and thereby operator new: from any thread and any library, the C ones included. Nothing
@@ -14,8 +14,8 @@ namespace goffer::cli {
 /// there. What a library gets from the system past these (mmap) is not counted. Does not allocate.
 /// Thread-safe.
 ///
-/// A program counts by having allocations.cpp compiled into it: its functions stand before glibc's, and pass
+/// A program counts by calling this: the call links functions into it that stand before glibc's, and pass
 /// everything on.
 [[nodiscard]] std::optional<std::uint64_t> allocations() noexcept;
 
-}  // namespace goffer::cli
+}  // namespace goffer::measure
