@@ -282,7 +282,8 @@ TEST_CASE("bodies without a long axis are refused, with what was measured and th
         const std::string message = fault(test::placed(solid, placing));
         CHECK(has(message, "no long axis"));
         CHECK(has(message, "times as far"));
-        CHECK(has(message, "--axis x|y|z|X,Y,Z"));
+        CHECK(has(message, "give an axis"));
+        CHECK_THROWS_AS((void)fit_to(test::placed(solid, placing)), fit::AxisError);
         CHECK(fault(test::placed(solid, placing), placing.turn[2]) == "");
     }
 }
@@ -392,6 +393,7 @@ TEST_CASE("plates across the given axis have no surface around it") {
     const Solid plates{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}},
                        {0, 1, 2, 3, 4, 5}};
     CHECK(has(fault(plates, glm::dvec3(0, 0, 1)), "no surface around the axis"));
+    CHECK_THROWS_AS((void)fit::fit_cylinder(plates.geometry(), glm::dvec3(0, 0, 1)), fit::AxisError);
 }
 
 TEST_CASE("hostile but valid meshes end in an error or in finite numbers") {

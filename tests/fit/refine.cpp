@@ -296,6 +296,23 @@ TEST_CASE("refine: every stretch gets rows of its own, one without folds none") 
     CHECK(inside == 0);
 }
 
+TEST_CASE("refine: a body's stretches are its regions, with the folds asked for or those that suit") {
+    fit::Cylinder cylinder;
+    cylinder.length = 20;
+    cylinder.radius = 1;
+    const auto folds_of = [&](const fit::BindOptions& options) {
+        std::vector<std::pair<double, int>> folds;
+        for (const auto& [length, count] : fit::stretches_of(cylinder, options))
+            folds.emplace_back(length, count);
+        return folds;
+    };
+    using Folds = std::vector<std::pair<double, int>>;
+    CHECK(folds_of({}) == Folds{{20, 10}});
+    CHECK(folds_of({.folds = 3}) == Folds{{20, 3}});
+    CHECK(folds_of({.regions = {{0.25, 0}, {0.75, std::nullopt}}}) == Folds{{5, 0}, {15, 8}});
+    CHECK(folds_of({.folds = 4, .regions = {{0.25, 2}, {0.75, std::nullopt}}}) == Folds{{5, 2}, {15, 4}});
+}
+
 TEST_CASE("refine: triangles without an area, and with three at an edge, do not tear") {
     std::mt19937 random(38);
     Solid solid = test::cylinder({.columns = 12, .rows = 2, .length = 10}, random);

@@ -72,11 +72,14 @@ struct NamedFile {
 /// Refuses (UsageError) an output in the place of an input or of another output.
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// What `work` returns; an error of fit, which knows of no files, gets the name of the one at fault.
+/// What `work` returns; an error of fit, which knows of no files and options, gets the name of the file at
+/// fault, and of the option that mends it.
 template <class Work>
 auto in_file(const std::filesystem::path& file, Work&& work) {
     try {
         return work();
+    } catch (const fit::AxisError& error) {
+        throw InputError(file.string() + ": " + error.what() + " with --axis x|y|z|X,Y,Z");
     } catch (const fit::Error& error) {
         throw InputError(file.string() + ": " + error.what());
     }

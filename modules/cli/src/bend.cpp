@@ -7,13 +7,13 @@
 #include "report.hpp"
 
 #include <goffer/bend/job.hpp>
-#include <goffer/fit/bind.hpp>
+#include <goffer/fit/base.hpp>
+#include <goffer/measure/timer.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -66,20 +66,6 @@ struct Deformed {
     double microseconds = 0;
 };
 
-/// Median of a few runs: the first one also pays for memory that was never touched.
-template <class Run>
-double median_microseconds(Run&& run) {
-    std::vector<double> times;
-    for (int i = 0; i < 9; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        run();
-        times.push_back(
-            std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
-    }
-    std::nth_element(times.begin(), times.begin() + 4, times.end());
-    return times[4];
-}
-
 Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, const Request& request) {
     Deformed result;
     const bend::Body& body = binding.body;
@@ -96,35 +82,16 @@ Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, con
     if (const bend::Fault fault = bend::validate(job); !fault.none())
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
     tbb::task_arena arena(request.threads);
-    result.microseconds = median_microseconds([&] { arena.execute([&] { bend::run_parallel(job); }); });
+    std::vector<double> times;  // of a few runs: the first one also pays for memory that was never touched
+    for (int i = 0; i < 9; ++i) {
+        times.push_back(measure::nanoseconds_of(request.threads,
+                                                [&] { arena.execute([&] { bend::run_parallel(job); }); }));
+    }
+    result.microseconds = 1e-3 * measure::median(times);
     put_in_model_order(result.records.positions, binding);
     put_in_model_order(result.records.normals, binding);
     put_in_model_order(result.records.tangents, binding);
     return result;
-}
-
-/// Area of the bent, wrinkled base as a fraction of the straight one's, less 1.
-double base_area_change(const fit::Cylinder& cylinder, const fit::BindOptions& options, int folds,
-                        double angle) {
-    const double kappa = angle * cylinder.radius / cylinder.length;
-    if (folds == 0 || angle == 0) return -kappa;
-    const double factor =
-        options.amplitude == fit::Amplitude::area
-            ? paper::area_factor(options.profile, folds, cylinder.length, cylinder.radius, angle)
-            : 1.0;
-    return paper::lateral_area(options.profile, folds, cylinder.length, cylinder.radius, angle, factor) - 1;
-}
-
-/// The same of all regions together, bent by `angles`.
-double base_area_change(const BoundModel& model, const fit::BindOptions& options,
-                        std::span<const double> angles) {
-    double change = 0;
-    for (std::size_t r = 0; r < angles.size(); ++r) {
-        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, model.binding.regions[r].length);
-        change += stretch.length / model.cylinder.length *
-                  base_area_change(stretch, options, model.binding.folds(r), angles[r]);
-    }
-    return change;
 }
 
 /// A fit of another model can hold this one in a corner of itself.
@@ -146,23 +113,21 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
     for (std::size_t r = 0; r < binding.regions.size(); ++r)
         used.push_back(used_angle(binding.body, r, request.pose.poses[r]));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
-    // Of the base of a body that is bent at rest, or has an onset, no closed form is known.
-    const bool known = model.cylinder.rest_angle == 0 && request.bind.options.onset.value_or(0) == 0;
-    const double base_change = known ? base_area_change(model, request.bind.options, used) : 0;
+    const std::optional<double> base_change = fit::base_area_change(binding, used);
     nlohmann::ordered_json& json = report.json;
     report_poses(report, request.pose, binding);
     json["amplitude"] = options.bind.amplitude;
     json["profile"] = options.bind.profile;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
-    json["base_area_change"] = known ? nlohmann::ordered_json(base_change) : nullptr;
+    json["base_area_change"] = base_change ? nlohmann::ordered_json(*base_change) : nullptr;
     json["bind_ms"] = binding.milliseconds;
     json["deform_us"] = bent.microseconds;
     json["isa"] = name(resolve(request.isa));
     json["threads"] = request.threads;
 
     report.line("area change", percent(area_after / area_before - 1) + " of the mesh" +
-                                   (known ? ", " + percent(base_change) + " of its base" : ""));
+                                   (base_change ? ", " + percent(*base_change) + " of its base" : ""));
     report.line("time", number(binding.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");

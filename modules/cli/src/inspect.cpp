@@ -29,10 +29,9 @@ void report_rest(Report& report, const InspectOptions& options, const BindReques
         });
     };
     const double straight = bent ? straight_residual() : fitted.residual;
-    const double outer = bent ? fitted.length / fitted.rest_angle : 0;
     nlohmann::ordered_json& rest = report.json["rest"];
     rest["bent"] = bent;
-    rest["arc_radius"] = bent ? nlohmann::ordered_json(outer - fitted.radius) : nullptr;
+    rest["arc_radius"] = bent ? nlohmann::ordered_json(fit::rest_radius(fitted)) : nullptr;
     rest["residual_straight"] = straight;
     rest["residual"] = fitted.residual;
     if (!bent) return report.line("at rest", "straight");

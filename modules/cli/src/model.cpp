@@ -4,6 +4,8 @@
 #include "poses.hpp"
 #include "progress.hpp"
 
+#include <goffer/fit/base.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -96,10 +98,7 @@ void warn_of_folds(Report& report, const BindWords& words, const BoundModel& mod
                         " would suit its length; use a finer mesh, which goffer refine makes, or --folds K "
                         "to insist");
         }
-        if (binding.folds(r) == 0) continue;
-        const double squeeze = std::min(2 * angles[r] * stretch.radius / stretch.length, 0.999);
-        if (paper::amplitude(parse_profile(words.profile), binding.folds(r), stretch.length, squeeze) >
-            stretch.radius) {
+        if (fit::wrinkle_depth(binding, r, angles[r]) > stretch.radius) {
             report.warn(which +
                         "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "
                         "axis; use more folds");

@@ -53,22 +53,11 @@ void run_refine(const RefineOptions& options) {
     report.finish();
 }
 
-/// The folds that are asked for, or suit the body.
-std::vector<fit::Stretch> stretches(const fit::Cylinder& cylinder, const fit::BindOptions& options) {
-    std::vector<fit::Stretch> result;
-    for (const fit::RegionOptions& region : fit::regions_of(options)) {
-        const fit::Cylinder own = fit::stretch_of(cylinder, region.share * cylinder.length);
-        const int sensible = fit::sensible_folds(own, fit::BindOptions::max_folds);
-        result.push_back({own.length, region.folds.value_or(sensible)});
-    }
-    return result;
-}
-
 }  // namespace
 
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options) {
     Growth growth;
-    const std::vector<fit::Stretch> wanted = stretches(cylinder, options);
+    const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
     for (const fit::Stretch& stretch : wanted) growth.folds = std::max(growth.folds, stretch.folds);
     growth.vertices_before = mesh.positions.size();
     growth.triangles_before = mesh::triangle_count(mesh);

@@ -164,8 +164,8 @@ Binding bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptio
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
         body = make(cylinder, regions, mesh);
     }
-    return {std::move(body), std::move(found), std::move(mesh.order),
-            cylinder,        options.profile,  milliseconds_since(start)};
+    return {std::move(body), std::move(found),  std::move(mesh.order),    cylinder,
+            options.profile, options.amplitude, milliseconds_since(start)};
 }
 
 Binding bind_level(const Geometry& level, const Binding& rig) {
@@ -183,8 +183,8 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
         found[i].folds_capacity = rows.folds(found[i].length);
     }
     bend::Body body = make(rig.cylinder, regions, mesh);
-    return {std::move(body), std::move(found), std::move(mesh.order),
-            rig.cylinder,    rig.profile,      milliseconds_since(start)};
+    return {std::move(body), std::move(found), std::move(mesh.order),    rig.cylinder,
+            rig.profile,     rig.amplitude,    milliseconds_since(start)};
 }
 
 }  // namespace goffer::fit

@@ -29,9 +29,9 @@ constexpr double nearly_round = 0.1;
 /// The long axis, signed so that its largest component is positive.
 Vector3d long_axis(const Principal& principal) {
     if (principal.distinct < long_enough) {
-        throw Error("the mesh has no long axis: its surface spreads " + text(principal.distinct) +
-                    " times as far along its longest direction as along the next, and " + text(long_enough) +
-                    " is needed; give an axis (on the command line: --axis x|y|z|X,Y,Z)");
+        throw AxisError("the mesh has no long axis: its surface spreads " + text(principal.distinct) +
+                        " times as far along its longest direction as along the next, and " +
+                        text(long_enough) + " is needed; give an axis");
     }
     return principal.axis;
 }
@@ -107,11 +107,10 @@ void check_size(const Cylinder& cylinder, const Body& body) {
     const double least = std::max<double>(4 * double{Float::epsilon()} * reach, Float::min());
     const bool thin = cylinder.radius < least;
     if (!thin && cylinder.length >= least) return;
-    throw Error(
-        "the mesh's " + std::string(thin ? "radius " : "length ") +
-        text(thin ? cylinder.radius : cylinder.length) + " about the axis " + text(eigen(cylinder.axis)) +
-        " is too small for floats at coordinates up to " + text(reach) +
-        "; move the mesh to the origin, scale it up or give another axis (on the command line: --axis)");
+    throw AxisError("the mesh's " + std::string(thin ? "radius " : "length ") +
+                    text(thin ? cylinder.radius : cylinder.length) + " about the axis " +
+                    text(eigen(cylinder.axis)) + " is too small for floats at coordinates up to " +
+                    text(reach) + "; move the mesh to the origin, scale it up or give another axis");
 }
 
 void check_unit(const glm::dvec3& v, std::string_view name) {

@@ -276,6 +276,16 @@ Refinement refined(const Geometry& geometry, std::span<const double> heights,
 
 }  // namespace
 
+std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options) {
+    std::vector<Stretch> stretches;
+    for (const RegionOptions& region : regions_of(options)) {
+        const Cylinder own = stretch_of(cylinder, region.share * cylinder.length);
+        const int sensible = sensible_folds(own, BindOptions::max_folds);
+        stretches.push_back({own.length, region.folds.value_or(sensible)});
+    }
+    return stretches;
+}
+
 Refinement refine(const Geometry& geometry, std::span<const double> heights,
                   std::span<const Stretch> stretches, const RefineOptions& options) {
     check(geometry);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sections.hpp"
 
+#include <goffer/fit/cylinder.hpp>
+
 #include <Eigen/Dense>
 #include <limits>
 
@@ -108,8 +110,8 @@ Section section(const Body& body, const Line& line) {
     });
     constexpr double no_flux = 1e-14;
     if (flux < no_flux) {
-        throw Error("the mesh has no surface around the axis " + text(line.axis()) +
-                    "; give another axis (on the command line: --axis)");
+        throw AxisError("the mesh has no surface around the axis " + text(line.axis()) +
+                        "; give another axis");
     }
     const double r = std::sqrt(flux / unrolled);
     return {r, std::sqrt(std::max(0.0, (moment - 2 * r * flux) / area + r * r)) / r};

@@ -26,25 +26,25 @@ using Profile = paper::Profile;
 
 /// What can be chosen for one region: a stretch of the body that bends along an arc of its own.
 struct RegionOptions {
-    double share = 1;          ///< of the body's length, > 0; all regions' shares add up to 1, within 1e-6
-    std::optional<int> folds;  ///< as BindOptions::folds, for this region
+    double share = 1;  ///< of the body's length, > 0; all regions' shares add up to 1, within 1e-6
+    std::optional<int> folds = {};  ///< as BindOptions::folds, for this region
 };
 
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
 struct BindOptions {
     /// Folds k per half length of a region, 0..max_folds. More than the mesh has vertices for are allowed.
     /// Unset: sensible_folds() of each region, with a capacity of at most max_folds.
-    std::optional<int> folds;
+    std::optional<int> folds = {};
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::damped;
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
-    std::vector<RegionOptions> regions;
+    std::vector<RegionOptions> regions = {};
     /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
     /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,
     /// whose wrinkles would begin with a step otherwise; 0 for a straight one.
     /// See modules/paper/README.md, "Onset".
-    std::optional<double> onset;
+    std::optional<double> onset = {};
 
     static constexpr int max_folds = 64;
     static constexpr int default_table_rows = 256;
@@ -78,6 +78,7 @@ struct Binding {
     std::vector<std::uint32_t> order;
     Cylinder cylinder;  ///< the base cylinder that the mesh was bound to
     Profile profile = Profile::damped;
+    Amplitude amplitude = Amplitude::paper;
     double milliseconds = 0;  ///< what bind or bind_level took, by the wall clock
 
     /// `region` must be in range.

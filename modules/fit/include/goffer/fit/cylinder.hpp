@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +34,12 @@ enum class Rest {
     straight    ///< a straight line, whatever the body
 };
 
+/// An Error of fit_cylinder() that another axis mends, or one at all where none is given.
+class AxisError : public Error {
+public:
+    using Error::Error;
+};
+
 /// Fits a base cylinder to a triangle mesh.
 ///
 /// `axis` is the direction from base to tip, of any length; nothing: the mesh's long axis is found, and
@@ -51,9 +58,9 @@ enum class Rest {
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
-/// Throws Error as check(geometry) does, and if no axis is given and the mesh has no long one, an axis is
-/// zero or not finite, the mesh has no surface around the axis or no extent along it, or the body is too thin
-/// for float at its coordinates. Thread-safe.
+/// Throws Error as check(geometry) does, and if an axis is zero or not finite. Throws AxisError if no axis is
+/// given and the mesh has no long one, the mesh has no surface around the axis or no extent along it, or the
+/// body is too thin for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     Rest rest = Rest::automatic);
 
@@ -66,6 +73,13 @@ void check(const Cylinder& cylinder);
 [[nodiscard]] inline Cylinder stretch_of(Cylinder cylinder, double length) {
     cylinder.length = length;
     return cylinder;
+}
+
+/// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one;
+/// model units. `cylinder` must pass check(). Thread-safe.
+[[nodiscard]] inline double rest_radius(const Cylinder& cylinder) {
+    if (cylinder.rest_angle == 0) return std::numeric_limits<double>::infinity();
+    return cylinder.length / cylinder.rest_angle - cylinder.radius;
 }
 
 /// Returns z of each position (model space): its height along the axis, or along the rest arc where there is

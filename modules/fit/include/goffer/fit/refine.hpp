@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
 
@@ -49,6 +50,10 @@ struct Stretch {
     double length = 0;  ///< along z, model units, > 0
     int folds = 0;      ///< 0..2^20
 };
+
+/// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
+/// or else those that suit a region of that length whose mesh is fine enough. Thread-safe.
+[[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Limits of a refinement.
 struct RefineOptions {

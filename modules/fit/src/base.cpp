@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/fit/base.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace goffer::fit {
+namespace {
+
+double region_change(const Binding& binding, std::size_t region, double angle) {
+    const double length = binding.regions[region].length, radius = binding.cylinder.radius;
+    const int folds = binding.folds(region);
+    if (folds == 0 || angle == 0) return -angle * radius / length;
+    const double factor = binding.amplitude == Amplitude::area
+                              ? paper::area_factor(binding.profile, folds, length, radius, angle)
+                              : 1.0;
+    return paper::lateral_area(binding.profile, folds, length, radius, angle, factor) - 1;
+}
+
+}  // namespace
+
+std::optional<double> base_area_change(const Binding& binding, std::span<const double> angles) {
+    const std::span<const bend::Region> regions = binding.body.regions();
+    if (angles.size() != regions.size()) {
+        throw Error("angles: " + std::to_string(angles.size()) + " for " + std::to_string(regions.size()) +
+                    " regions; give one for each");
+    }
+    const bool gentle = std::ranges::any_of(regions, [](const bend::Region& r) { return r.onset != 0; });
+    if (gentle || binding.cylinder.rest_angle != 0) return std::nullopt;
+    double change = 0;
+    for (std::size_t r = 0; r < angles.size(); ++r) {
+        change += binding.regions[r].length / binding.cylinder.length *
+                  region_change(binding, r, std::fabs(angles[r]));
+    }
+    return change;
+}
+
+double wrinkle_depth(const Binding& binding, std::size_t region, double angle) {
+    const double length = binding.regions[region].length;
+    const int folds = binding.folds(region);
+    if (folds == 0) return 0;
+    constexpr double most = 0.999;  // of eq 7's domain; the largest angle is below it
+    const double squeeze = std::min(2 * std::fabs(angle) * binding.cylinder.radius / length, most);
+    return paper::amplitude(binding.profile, folds, length, squeeze);
+}
+
+}  // namespace goffer::fit
