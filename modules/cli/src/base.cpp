@@ -58,16 +58,20 @@ void add_base(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand(
         "base", "Write the base model: a bare cylinder along z, its base end at the origin");
     const CLI::Validator size = number_within(1e-30, 1e30, "a size");  // what floats carry
-    command->add_option("--length", options->length, "Length")->check(size)->capture_default_str();
-    command->add_option("--radius", options->radius, "Radius")->check(size)->capture_default_str();
-    command->add_option("--columns", options->columns, "Vertices around")
+    command->add_option("--length", options->length, "Make it this long")->check(size)->capture_default_str();
+    command->add_option("--radius", options->radius, "Give it this radius")
+        ->check(size)
+        ->capture_default_str();
+    command->add_option("--columns", options->columns, "Put this many vertices around it")
         ->check(CLI::Range(3u, 1000000u))
         ->capture_default_str();
-    command->add_option("--rows", options->rows, "Rings of vertices, both ends included")
+    command
+        ->add_option("--rows", options->rows, "Put this many rings of vertices along it, both ends included")
         ->check(CLI::Range(2u, 10000000u))
         ->capture_default_str();
     command->add_flag("--caps", options->caps, "Close both ends");
-    command->add_option("-o,--output", options->output, "Model to write: .glb, .gltf, .obj, .ply or .stl")
+    command
+        ->add_option("-o,--output", options->output, "Write the model here: .glb, .gltf, .obj, .ply or .stl")
         ->required();
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_base(*options); }; });

@@ -163,18 +163,23 @@ void run_bend(const BendOptions& options) {
 
 void add_bend(CLI::App& app, Action& action) {
     const auto options = std::make_shared<BendOptions>();
-    CLI::App* command = app.add_subcommand("bend", "Bend a model and write it, and a picture of it");
+    CLI::App* command = app.add_subcommand("bend", "Bend a model, and write it and a picture of it");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
-    command->add_option("-o,--output", options->output, "Model to write, with one of these endings")
+    command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
         ->required();
+    command->footer(
+        "Angles are absolute: 0 is straight, whatever shape the model has in its file. One that is\n"
+        "bent there gets that shape back from the angle and direction that 'goffer inspect' reports.");
     add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
-    command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();
-    command->add_option("--threads", options->threads, "Threads, at most the machine's; 0 for all of them")
+    command
+        ->add_option("--threads", options->threads,
+                     "Use this many threads, at most the machine's; 0: all of them")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command->add_option("--png", options->png, "Write a picture, 1280 x 960");

@@ -12,30 +12,31 @@
 namespace goffer::cli {
 
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
-    command.add_option("--axis", axis, "Axis from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+    command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
-    command.add_option("--rest", rest, "Shape at rest: auto (an arc where that fits better), straight")
+    command.add_option("--rest", rest, "Fit the center line: auto (an arc where that fits better), straight")
         ->check(CLI::IsMember({"auto", "straight"}))
         ->capture_default_str();
 }
 
 void add_bind_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
-                       "Folds per half length of a region, or a list of one number for each "
+                       "Make this many folds per half length of a region, or a list of one number for each "
                        "(default: what suits the body and its mesh)");
     command
-        .add_option(
-            "--amplitude", words.amplitude,
-            "Wrinkle: paper (keeps lengths), area (keeps the base's area), mesh (keeps the mesh's own "
-            "area), none")
+        .add_option("--amplitude", words.amplitude,
+                    "Choose wrinkles' depth: paper (keeps lengths), area (keeps the base's area), mesh "
+                    "(keeps the mesh's own area), none")
         ->check(CLI::IsMember({"paper", "area", "mesh", "none"}))
         ->capture_default_str();
-    command.add_option("--profile", words.profile, "Wrinkle's shape: damped, smooth")
+    command
+        .add_option("--profile", words.profile,
+                    "Choose wrinkles' shape: damped (the paper's, with creases), smooth")
         ->check(CLI::IsMember({"damped", "smooth"}))
         ->capture_default_str();
     command
         .add_option("--onset", words.onset,
-                    "Squeeze below which wrinkles begin gently, 0..1 (default: 0; 0.001 if bent at rest)")
+                    "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
 }

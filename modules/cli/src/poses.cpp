@@ -47,26 +47,25 @@ CLI::Validator angle_in_degrees() {
 
 void add_angle_words(CLI::App& command, PoseWords& words, const std::string& angle) {
     CLI::Option* const one =
-        command
-            .add_option("--angle", words.angle,
-                        angle + ". Of several regions: all together, each by its share of the length")
+        command.add_option("--angle", words.angle, angle + ". Several regions share it by their lengths")
             ->check(angle_in_degrees())
             ->capture_default_str();
-    CLI::Option* const regions =
-        command.add_option("--regions", words.regions,
-                           "Regions that bend on their own: their shares of the length, as 0.3,0.4,0.3");
-    command.add_option("--angles", words.angles, "How far each region turns, as 40,-60,20")
+    CLI::Option* const regions = command.add_option(
+        "--regions", words.regions, "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3");
+    command.add_option("--angles", words.angles, "Turn each region by an angle of its own, as 40,-60,20")
         ->needs(regions)
         ->excludes(one);
 }
 
 void add_pose_words(CLI::App& command, PoseWords& words) {
-    add_angle_words(command, words, "How far the tip turns, degrees; negative: the other way");
+    add_angle_words(command, words,
+                    "Turn the tip by this many degrees from straight; negative: the other way");
     CLI::Option* const toward =
-        command.add_option("--direction", words.direction, "Toward where, degrees about the axis")
+        command.add_option("--direction", words.direction, "Bend in this direction, degrees about the axis")
             ->check(angle_in_degrees())
             ->capture_default_str();
-    command.add_option("--directions", words.directions, "Toward where each region turns, as 0,0,90")
+    command
+        .add_option("--directions", words.directions, "Bend each region in a direction of its own, as 0,0,90")
         ->needs("--regions")
         ->excludes(toward);
 }

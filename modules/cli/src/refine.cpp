@@ -93,9 +93,11 @@ void add_refine(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand(
         "refine", "Give a model the rows of vertices that its folds need, its shape unchanged");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
-    command->add_option("-o,--output", options->output, "Model to write, with one of these endings")
+    command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
         ->required();
-    command->add_option("--folds", options->folds, "Folds per half length (default: what suits the body)")
+    command
+        ->add_option("--folds", options->folds,
+                     "Make room for this many folds per half length (default: what suits the body)")
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
     add_fit_words(*command, options->axis, options->rest);
     command->add_option("--fit", options->fit,

@@ -199,33 +199,37 @@ void add_crowd(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand(
         "crowd",
         "Bend a crowd of models, frame after frame, and say how fast that is, next to a fill of memory");
-    command->add_option("models", options->models, "Models, as many of each: .glb, .gltf, .obj, .ply or .stl")
+    command
+        ->add_option("models", options->models,
+                     "Models, about as many of each: .glb, .gltf, .obj, .ply or .stl")
         ->required();
-    command->add_option("--instances", options->instances, "Instances of all models together")
+    command->add_option("--instances", options->instances, "Bend this many instances, of all models together")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command->add_option("--frames", options->frames, "Frames to measure")
+    command->add_option("--frames", options->frames, "Measure this many frames")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     add_angle_words(*command, options->pose,
-                    "Instances swing between straight and this, degrees; negative: the other way");
+                    "Swing between straight and this many degrees; negative: the other way");
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind);
     command
         ->add_option(
             "--streams", options->streams,
-            "Output: planar (x[] y[] z[]), interleaved (records of floats), packed (12 bytes a vertex)")
+            "Write: planar (x[] y[] z[]), interleaved (records of floats), packed (12 bytes a vertex)")
         ->check(CLI::IsMember({"planar", "interleaved", "packed"}))
         ->capture_default_str();
-    command->add_flag("--normals", options->normals, "Normals too; packed has them anyway");
+    command->add_flag("--normals", options->normals, "Write normals too; packed has them anyway");
     command
-        ->add_option("--stores", options->stores, "Past the cache or into it: automatic, cached, streaming")
+        ->add_option("--stores", options->stores,
+                     "Write past the cache or into it: automatic, cached, streaming")
         ->check(CLI::IsMember({"automatic", "cached", "streaming"}))
         ->capture_default_str();
-    command->add_option("--isa", options->isa, "Kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();
     command
-        ->add_option("--threads", options->threads, "Threads, at most the machine's (default: all of them)")
+        ->add_option("--threads", options->threads,
+                     "Use this many threads, at most the machine's (default: all of them)")
         ->check(CLI::Range(1, 1024));
     command->add_option("--png", options->png, "Write a picture of the last frame, 1280 x 960");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
