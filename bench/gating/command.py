@@ -12,14 +12,14 @@ import re
 import sys
 
 from . import baseline, cases, counts, history, machine, ratios, report
-from .outcome import Part, Unmeasured, exit_code
+from .outcome import Broken, Part, Unmeasured, exit_code
 from .trees import Repository, Tree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = ("counts", "ratios", "pairs")
 EPILOG = """
-Exit code 0: no regression; 1: a regression; 2: it could not be measured, and one line says why. bench/README.md says
-how to read the report, and how noise is handled.
+Exit code 0: no regression; 1: a regression, or the files do not build; 2: it could not be measured, and one line says
+why. bench/README.md says how to read the report, and how noise is handled.
 """
 
 
@@ -98,6 +98,8 @@ class Gate:
 
     def measure(self) -> list[Part]:
         """All parts that are wanted. A part that cannot be measured says so, and the others go on."""
+        if not self._given.programs:
+            self.head()  # first: Broken, whatever else is missing
         parts = []
         for name in PARTS:
             if name in self._given.only:
@@ -160,7 +162,12 @@ def run(given: argparse.Namespace) -> int:
     if given.update:
         gate.update()
         return 0
-    parts = gate.measure()
+    try:
+        parts = gate.measure()
+    except Broken as reason:
+        write(given.markdown, report.broken_markdown(str(reason)))
+        write(given.json, json.dumps(report.broken_document(str(reason)), indent=2) + "\n")
+        raise
     progress("")
     facts = gate.facts()
     write(given.markdown, report.markdown(parts, facts))
@@ -180,10 +187,10 @@ def main(words: list[str] | None = None) -> int:
     """bench/gate."""
     try:
         return run(parse(words))
-    except (Unmeasured, OSError) as reason:
+    except (Broken, Unmeasured, OSError) as reason:
         progress("")
         print(f"bench/gate: {reason}", file=sys.stderr)
-        return 2
+        return 1 if isinstance(reason, Broken) else 2
     except KeyboardInterrupt:
         print("\nbench/gate: interrupted", file=sys.stderr)
         return 2

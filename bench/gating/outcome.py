@@ -12,6 +12,10 @@ class Unmeasured(Exception):
     """Nothing can be said; the text is the reason, in one line."""
 
 
+class Broken(Exception):
+    """The files as they are do not build; the text says what failed, in one line."""
+
+
 class Verdict(enum.Enum):
     """Of a row or of a part. The value is the word in reports."""
 

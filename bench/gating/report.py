@@ -94,6 +94,16 @@ def markdown(parts: list[Part], facts: dict[str, Any]) -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
+def broken_markdown(reason: str) -> str:
+    """The whole report where head does not build."""
+    return f"# Benchmark gate: does not build\n\n{reason}\n"
+
+
+def broken_document(reason: str) -> dict[str, Any]:
+    """The same for programs."""
+    return {"exit_code": 1, "broken": reason, "parts": []}
+
+
 def document(parts: list[Part], facts: dict[str, Any]) -> dict[str, Any]:
     """The same for programs."""
     def plain(row: Row) -> dict[str, Any]:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The source trees that are compared, and their builds, all in one folder and kept from run to run.
+"""The source trees that are compared, and their builds, which are kept from run to run.
 
-Base and head are configured alike. Functions begin on cache lines in both, so that what is changed in one does not move
-the others about in their lines, which alone can change a loop's time by some per cent.
+Base and head are compiled alike, as the preset `release` says: head's build is that preset's. Functions begin on cache
+lines in both, so that what is changed in one does not move the others about in their lines, which alone can change a
+loop's time by some per cent.
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ import re
 import shutil
 import subprocess
 
-from .outcome import Unmeasured
+from .outcome import Broken, Unmeasured
 
-OPTIONS = ("-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-falign-functions=64", "-DGOFFER_TOOLS=OFF",
-           "-DGOFFER_TESTS=OFF", "-DGOFFER_SAMPLES=OFF", "-DGOFFER_INSTALL=OFF", "-DGOFFER_BENCH=ON")
+OPTIONS = ("-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG -falign-functions=64")
+BENCH_ALONE = ("-DGOFFER_TOOLS=OFF", "-DGOFFER_TESTS=OFF", "-DGOFFER_SAMPLES=OFF", "-DGOFFER_INSTALL=OFF",
+               "-DGOFFER_BENCH=ON")
 MOST_TREES = 4  # that are kept
 FOLDER = pathlib.Path("build/gate")
-BUILD = FOLDER / "made"  # in every source tree alike, so that ccache sees the same paths
+BUILD = pathlib.Path("build/release")  # in every source tree alike, so that ccache sees the same paths
 
 
 @dataclasses.dataclass
@@ -45,6 +47,10 @@ class Tree:
             found = dict(re.findall(r'set\(CMAKE_CXX_COMPILER_(ID|VERSION) "(.*?)"\)', file.read_text()))
             return f"{found.get('ID', 'unknown')} {found.get('VERSION', '')} {platform.machine()}"
         return "unknown"
+
+
+class BuildFailure(Unmeasured):
+    """A tree does not build. There is nothing to compare with where that is a base."""
 
 
 class Repository:
@@ -93,8 +99,11 @@ class Repository:
         return self.commit("HEAD")[:12] + ("+" if self.is_changed() else "")
 
     def head(self, targets: list[str]) -> Tree:
-        """Builds the files as they are."""
-        return Tree(self.label(), self._build(self.root, "head", targets))
+        """Builds the files as they are; Broken where that fails."""
+        try:
+            return Tree(self.label(), self._build(self.root, "head", targets))
+        except BuildFailure as reason:
+            raise Broken(str(reason)) from reason
 
     def base(self, reference: str, targets: list[str]) -> Tree:
         """Builds a commit, in a tree of its own."""
@@ -104,7 +113,7 @@ class Repository:
             self._forget_old()
             self._unpack(commit, source)
         os.utime(source)
-        return Tree(commit[:12], self._build(source, f"base {commit[:12]}", targets))
+        return Tree(commit[:12], self._build(source, f"base {commit[:12]}", targets, BENCH_ALONE))
 
     def _unpack(self, commit: str, source: pathlib.Path) -> None:
         partial = self.folder / "partial"
@@ -122,7 +131,8 @@ class Repository:
         for tree in trees[MOST_TREES - 1:]:
             shutil.rmtree(tree, ignore_errors=True)
 
-    def _build(self, source: pathlib.Path, what: str, targets: list[str]) -> pathlib.Path:
+    def _build(self, source: pathlib.Path, what: str, targets: list[str],
+               options: tuple[str, ...] = ()) -> pathlib.Path:
         environment = dict(os.environ)
         if shutil.which("ccache"):
             # Paths below the source count as relative, so that one tree finds what another compiled.
@@ -130,7 +140,7 @@ class Repository:
                             "CCACHE_NOHASHDIR": "1"}
         build = source / BUILD
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-        commands = [["cmake", "-S", str(source), "-B", str(build), *generator, *OPTIONS],
+        commands = [["cmake", "-S", str(source), "-B", str(build), *generator, *OPTIONS, *options],
                     ["cmake", "--build", str(build), "--parallel", str(os.cpu_count()), "--target", *targets]]
         build.mkdir(parents=True, exist_ok=True)
         log = build / "gate.log"
@@ -141,7 +151,7 @@ class Repository:
                 except OSError as error:
                     raise Unmeasured(f"{command[0]} does not run: {error}") from error
                 if done.returncode != 0:
-                    raise Unmeasured(f"{what} does not build {' and '.join(targets)}: {_first_error(log)} (see {log})")
+                    raise BuildFailure(f"{what} does not build {' and '.join(targets)}: {_first_error(log)} (see {log})")
         return build
 
 

@@ -4,7 +4,9 @@
 import contextlib
 import io
 import json
+import subprocess
 import unittest
+import unittest.mock
 
 import support
 from support import CASES
@@ -115,6 +117,19 @@ class Gate(support.Case):
         for words in (["--only", "paris"], ["--only", ""], ["--cases", "("]):
             self.assertEqual(self.gate("a", "b", *words), 2)
             self.assertIn("usage: bench/gate", self.err)
+
+    def test_a_head_that_does_not_build_fails(self):
+        (self.folder / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES NONE)\n")
+        for words in (["init", "-q"], ["add", "-A"], ["commit", "-qm", "x"]):
+            subprocess.run(["git", "-C", self.folder, "-c", "user.name=x", "-c", "user.email=x", *words], check=True)
+        report = [f"--{kind}={self.folder / 'build/gate/report'}.{kind}" for kind in ("json", "markdown")]
+        for parts in ("counts", "ratios", "pairs", "counts,ratios,pairs"):
+            with self.subTest(parts), unittest.mock.patch.object(command, "ROOT", self.folder), \
+                    contextlib.redirect_stderr(io.StringIO()) as err:
+                self.assertEqual(command.main(["--only", parts, "--base", "HEAD", *report]), 1)
+                self.assertRegex(err.getvalue(), "^bench/gate: head does not build goffer_bench and goffer_count: .+\n$")
+            self.assertEqual(json.loads((self.folder / "build/gate/report.json").read_text())["exit_code"], 1)
+            self.assertIn("head does not build", (self.folder / "build/gate/report.markdown").read_text())
 
     def test_a_report_that_cannot_be_written(self):
         (self.folder / "file").write_text("")

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Bases: which commit it is, and what is said of one that cannot be built."""
+"""Trees: which commit the base is, and what is said of those that cannot be built."""
 
 import subprocess
 import unittest
 
 import support
-from gating.outcome import Unmeasured
+from gating.outcome import Broken, Unmeasured
 from gating.trees import Repository
 
 GOOD = """cmake_minimum_required(VERSION 3.25)
@@ -50,7 +50,7 @@ class Trees(support.Case):
         made = tree.build / "bin-made"
         self.assertTrue(made.exists())
         self.assertEqual(tree.label, self.first[:12])
-        source = made.parents[3]
+        source = made.parents[2]
         time = source.joinpath("CMakeLists.txt").stat().st_mtime_ns
         self.repository.base(self.first, ["goffer_bench"])
         self.assertEqual(source.joinpath("CMakeLists.txt").stat().st_mtime_ns, time)
@@ -59,6 +59,14 @@ class Trees(support.Case):
         (self.folder / "CMakeLists.txt").write_text(GOOD.replace("bin-made", "head-made"))
         tree = self.repository.head(["goffer_bench"])
         self.assertTrue((tree.build / "head-made").exists())
+
+    def test_a_head_that_does_not_build(self):
+        (self.folder / "CMakeLists.txt").write_text(GOOD + 'message(FATAL_ERROR "no such thing")\n')
+        with self.assertRaisesRegex(Broken, "head does not build goffer_bench: CMake Error"):
+            self.repository.head(["goffer_bench"])
+        (self.folder / "CMakeLists.txt").write_text(GOOD.replace("-E touch", "-E false"))
+        with self.assertRaisesRegex(Broken, "head does not build goffer_bench: FAILED"):
+            self.repository.head(["goffer_bench"])
 
     def test_bases_that_cannot_be_built(self):
         with self.assertRaisesRegex(Unmeasured, "no commit nowhere here"):
