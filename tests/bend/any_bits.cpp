@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/sanitized.hpp"
+#include "support/rounds.hpp"
 #include "support/test_batch.hpp"
 
 #include <goffer/bend/capsules.hpp>
@@ -146,7 +146,7 @@ bend::Sockets some_sockets(Random& random, const bend::Body& body) {
 TEST_CASE("P11: poses of any bits, through every function that takes them") {
     Random random(121);
     std::size_t bent = 0, at_rest = 0;
-    for (int round = 0; round < (sanitized ? 60 : 600); ++round) {
+    for (int round = 0; round < rounds(600, 60); ++round) {
         const bend::Body body = any_body(random);
         const bend::Sockets sockets = some_sockets(random, body);
         for (int trial = 0; trial < 10; ++trial) {
@@ -177,8 +177,8 @@ TEST_CASE("P11: poses of any bits, through every function that takes them") {
             }
         }
     }
-    CHECK(bent > (sanitized ? 100 : 1000));
-    CHECK(at_rest > (sanitized ? 100 : 1000));
+    CHECK(bent > rounds(1000u, 100u));
+    CHECK(at_rest > rounds(1000u, 100u));
 }
 
 TEST_CASE("P11: crowds of poses and weights of any bits give the bits of single jobs") {
@@ -186,7 +186,7 @@ TEST_CASE("P11: crowds of poses and weights of any bits give the bits of single 
     constexpr std::size_t chain[] = {9, 0, 20, 1};
     const bend::Body bodies[] = {loose_body(random, 70), loose_chain(random, chain)};
     std::size_t at_rest = 0;
-    for (int round = 0; round < (sanitized ? 8 : 60); ++round) {
+    for (int round = 0; round < rounds(60, 8); ++round) {
         const Isa isa = isas_here()[random() % isas_here().size()];
         TestBatches tested;
         for (const bend::Body& body : bodies) {

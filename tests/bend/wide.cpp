@@ -2,7 +2,7 @@
 #include "support/arena.hpp"
 #include "support/faults.hpp"
 #include "support/layout_case.hpp"
-#include "support/sanitized.hpp"
+#include "support/rounds.hpp"
 #include "support/test_batch.hpp"
 
 #include <doctest/doctest.h>
@@ -96,8 +96,7 @@ void check(LayoutCase& test_mesh, std::string_view picture, std::size_t shift, s
 TEST_CASE("wide records hold the bits of planes: every alignment") {
     Random random(141);
     const std::vector<std::size_t> counts =
-        sanitized ? std::vector<std::size_t>{17, 70, 257}
-                  : std::vector<std::size_t>{1, 2, 15, 16, 17, 33, 70, 255, 256, 257, 511, 513};
+        rounds<std::vector<std::size_t>>({1, 2, 15, 16, 17, 33, 70, 255, 256, 257, 511, 513}, {17, 70, 257});
     for (const std::size_t count : counts) {
         for (const std::size_t most : {std::size_t{3}, std::size_t{40}}) {
             LayoutCase test_mesh(random, cut_body(random, count, most));
@@ -121,7 +120,7 @@ TEST_CASE("wide records hold the bits of planes: any records, every vertex count
         LayoutCase test_mesh(random, cut_body(random, count, most));
         for (const Isa isa : isas_here()) {
             test_mesh.make_planes(isa);
-            for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial)
+            for (int trial = 0; trial < rounds(24, 4); ++trial)
                 check(test_mesh, any_picture(random, trial % 2 == 0), random() % 16, random() % 16, isa);
         }
     }
@@ -133,7 +132,7 @@ TEST_CASE("a range of wide records writes its own vertices alone, and its own ga
         LayoutCase test_mesh(random, cut_body(random, count, 12));
         for (const Isa isa : isas_here()) {
             test_mesh.make_planes(isa);
-            for (int trial = 0; trial < (sanitized ? 10 : 40); ++trial) {
+            for (int trial = 0; trial < rounds(40, 10); ++trial) {
                 const std::string picture = any_picture(random, trial % 4 != 0);
                 OutputBuffer out(picture, count, random() % 16, random() % 16);
                 for (int range = 0; range < 40; ++range) {
@@ -157,7 +156,7 @@ TEST_CASE("wide records of a crowd: pieces and threads leave the bits of single 
     std::vector<bend::Body> bodies;
     for (const std::size_t count : {23u, 400u}) bodies.push_back(cut_body(random, count, 9));
     for (const Isa isa : isas_here()) {
-        for (int trial = 0; trial < (sanitized ? 4 : 24); ++trial) {
+        for (int trial = 0; trial < rounds(24, 4); ++trial) {
             TestBatches tested;
             std::string pictures[2];
             for (std::size_t i = 0; i < 2; ++i) {

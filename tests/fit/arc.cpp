@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/sanitized.hpp"
+#include "support/rounds.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/cylinder.hpp>
@@ -83,7 +83,7 @@ void each_arc(const std::function<void(Recipe, double)>& visit) {
     for (const double angle : {10.0, 35.0, 60.0, 90.0, 120.0, 150.0}) {
         for (const double length : {6.0, 9.0, 15.0, 30.0}) {
             if (length < 2.2 * angle * degree) continue;
-            if (test::sanitized && (angle != 60 || length != 15)) continue;
+            if (!test::all_rounds() && (angle != 60 || length != 15)) continue;
             for (const int columns : {12, 40}) {
                 for (const bool closed : {false, true}) {
                     Recipe recipe{
@@ -275,7 +275,7 @@ TEST_CASE("arcs: hostile but valid meshes end in an error or in a cylinder that 
     std::mt19937 random(67);
     std::uniform_real_distribution<float> uniform(-1, 1);
     const std::vector<float> numbers{0.0f, 1.0f, -1.0f, 1e-20f, 1e-6f, 3e38f, -3e38f, 1e4f, 0.5f};
-    const int rounds = test::sanitized ? 30 : 1000;
+    const int rounds = test::rounds(1000, 30);
     int fitted = 0;
     for (int round = 0; round < rounds; ++round) {
         const auto number = [&] { return round % 3 == 0 ? uniform(random) : numbers[random() % 9]; };

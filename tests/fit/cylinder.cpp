@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/sanitized.hpp"
+#include "support/rounds.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/cylinder.hpp>
@@ -135,7 +135,7 @@ TEST_CASE("on few vertices the axis is as exact as their noise allows") {
     std::mt19937 random(33);
     for (const Recipe recipe :
          {Recipe{12, 10, 4, true, 1, 1, 0, 0.02}, Recipe{32, 15, 3, false, 1, 1, 0, 0.02}}) {
-        constexpr int rounds = 200;
+        const int rounds = test::rounds(200, 40);
         double sum = 0;
         for (int i = 0; i < rounds; ++i) {
             const Placing placing = test::random_placing(recipe.length, random);
@@ -401,7 +401,7 @@ TEST_CASE("hostile but valid meshes end in an error or in finite numbers") {
                                      1e-6f, 3e38f, -3e38f, 1e30f,      1e4f,   -0.0f,   0.5f};
     std::mt19937 random(42);
     std::uniform_real_distribution<float> uniform(-1, 1);
-    const int rounds = test::sanitized ? 80 : 4000;
+    const int rounds = test::rounds(4000, 80);
     int fitted = 0;
     for (int round = 0; round < rounds; ++round) {
         const std::size_t kinds = round % 2 == 0 ? numbers.size() : 4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/models.hpp"
-#include "support/sanitized.hpp"
+#include "support/rounds.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -26,7 +26,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 // With sanitizers the largest meshes would take minutes.
-constexpr std::size_t most_vertices = test::sanitized ? 10'000 : 1'000'000;
+const std::size_t most_vertices = test::rounds<std::size_t>(1'000'000, 10'000);
 
 struct Soup {
     std::vector<glm::vec3> positions;
@@ -84,7 +84,7 @@ void check_area(const char* name, double most, std::optional<glm::dvec3> axis = 
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     const Soup read{records.positions, records.triangles};
     if (read.positions.size() > most_vertices) {
-        MESSAGE("left out under a sanitizer: ", name);
+        MESSAGE("left out where few rounds are run: ", name);
         return;
     }
     const fit::Cylinder cylinder = fit::fit_cylinder(read.geometry(), axis, fit::Rest::straight);

@@ -3,7 +3,7 @@
 
 namespace goffer::test {
 
-/// Whether sanitizers watch: what takes seconds without them takes minutes then, so some tests run a part.
+/// Whether sanitizers watch.
 #ifdef GOFFER_SANITIZED
 inline constexpr bool sanitized = true;
 #else
