@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Builds goffer and runs its tests; arguments go to ctest:
 #   bash tests/run.sh [-R REGEX]
+# PRESET names another preset than `release`; CXX, at the first time, another compiler than g++.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+preset=${PRESET:-release}
 
 bash .ci/setup build test
-cmake --preset release
-cmake --build --preset release
-exec ctest --preset release --parallel "$(nproc)" "$@"
+cmake --preset "$preset"
+cmake --build --preset "$preset"
+exec ctest --preset "$preset" --parallel "$(nproc)" "$@"
