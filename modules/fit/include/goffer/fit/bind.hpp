@@ -33,7 +33,8 @@ struct RegionOptions {
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
 struct BindOptions {
     /// Folds k per half length of a region, 0..max_folds. More than the mesh has vertices for are allowed.
-    /// Unset: sensible_folds() of each region, with a capacity of at most max_folds.
+    /// Unset: sensible_folds() of each region, with a capacity of at most max_folds: none where a region is
+    /// longer than 256 radii.
     std::optional<int> folds = {};
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::damped;
