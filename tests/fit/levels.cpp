@@ -157,7 +157,8 @@ TEST_CASE("levels: what is shared is the rig's, and what is found is the level's
     CHECK(coarse.profile == paper::Profile::smooth);
     CHECK(coarse.cylinder.length == rig.cylinder.length);
     CHECK_FALSE(coarse.body.has_tangents());
-    const std::span<const bend::RegionInput> shared = coarse.body.region_inputs(), own = rig.body.region_inputs();
+    const std::span<const bend::RegionInput> shared = coarse.body.region_inputs(),
+                                             own = rig.body.region_inputs();
     for (std::size_t r = 0; r < 2; ++r) {
         CHECK(coarse.folds(r) == 2);
         CHECK(coarse.folds_capacity(r) < rig.folds_capacity(r));

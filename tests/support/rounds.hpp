@@ -8,8 +8,8 @@
 
 namespace goffer::test {
 
-/// Whether properties are tested in all rounds, or in a few: GOFFER_TEST_ROUNDS says "all" or "few". Without it
-/// a few are enough for a sanitizer, which makes each take ten times as long.
+/// Whether properties are tested in all rounds, or in a few: GOFFER_TEST_ROUNDS says "all" or "few". Without
+/// it a few are enough for a sanitizer, which makes each take ten times as long.
 inline bool all_rounds() {
     const char* wanted = std::getenv("GOFFER_TEST_ROUNDS");
     return wanted ? std::string_view(wanted) == "all" : !sanitized;
