@@ -153,12 +153,12 @@ void register_deform(Fixture& fixture) {
 }
 
 void register_sweep(Fixture& fixture) {
-    constexpr std::size_t most_bytes = 500'000'000;
+    constexpr std::size_t max_bytes = 500'000'000;
     for (const char* streams : {"positions", "positions+normals"}) {
         for (const std::size_t vertices : {200, 500, 2'000, 10'000, 50'000, 200'000, 1'000'000}) {
             for (const std::size_t instances : {1, 10, 100, 1'000, 10'000}) {
                 const Size size{instances, vertices};
-                if (memory_floats(stream_layout(streams), size) * sizeof(float) > most_bytes) continue;
+                if (memory_floats(stream_layout(streams), size) * sizeof(float) > max_bytes) continue;
                 const std::string name = std::to_string(instances) + "x" + std::to_string(vertices);
                 for (const int threads : Fixture::thread_counts())
                     register_case(fixture, "sweep", name,

@@ -26,7 +26,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 // With sanitizers the largest meshes would take minutes.
-const std::size_t most_vertices = test::rounds<std::size_t>(1'000'000, 10'000);
+const std::size_t max_vertices = test::rounds<std::size_t>(1'000'000, 10'000);
 
 struct Soup {
     std::vector<glm::vec3> positions;
@@ -83,7 +83,7 @@ void check_area(const char* name, double most, std::optional<glm::dvec3> axis = 
     if (path.empty()) return;
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     const Soup read{records.positions, records.triangles};
-    if (read.positions.size() > most_vertices) {
+    if (read.positions.size() > max_vertices) {
         MESSAGE("left out where few rounds are run: ", name);
         return;
     }

@@ -329,8 +329,8 @@ TEST_CASE("refine: growth has a limit, and it is named") {
     const Solid solid = test::cylinder({.columns = 12, .rows = 2, .length = 10}, random);
     const fit::Cylinder base = fit::fit_cylinder(solid.geometry());
     const std::size_t needed = fit::refine(solid.geometry(), base, 4).parents.size();
-    CHECK(fit::refine(solid.geometry(), base, 4, {.most_triangles = needed}).parents.size() == needed);
-    const auto less = [&] { (void)fit::refine(solid.geometry(), base, 4, {.most_triangles = needed - 1}); };
+    CHECK(fit::refine(solid.geometry(), base, 4, {.max_triangles = needed}).parents.size() == needed);
+    const auto less = [&] { (void)fit::refine(solid.geometry(), base, 4, {.max_triangles = needed - 1}); };
     CHECK_THROWS_WITH_AS(less(), doctest::Contains(("more than the " + std::to_string(needed - 1)).c_str()),
                          fit::Error);
     CHECK_THROWS_WITH_AS((void)fit::refine(solid.geometry(), base, 1 << 20),
@@ -338,7 +338,7 @@ TEST_CASE("refine: growth has a limit, and it is named") {
                          fit::Error);
     const std::size_t any = std::numeric_limits<std::size_t>::max();
     CHECK_THROWS_AS(
-        (void)fit::refine(solid.geometry(), {{}, {}, {}, 1e-300, 1e-301}, 1 << 20, {.most_triangles = any}),
+        (void)fit::refine(solid.geometry(), {{}, {}, {}, 1e-300, 1e-301}, 1 << 20, {.max_triangles = any}),
         fit::Error);
 }
 

@@ -169,7 +169,7 @@ TEST_CASE("gltf: integers of all kinds become numbers, normalized or not, with s
     struct Kind {
         int component;
         std::string bytes;  // 0, half or so, the most
-        float half, most, half_normalized, most_normalized;
+        float half, most, half_normalized, max_normalized;
     };
     using namespace std;
     const vector<Kind> kinds{
@@ -188,7 +188,7 @@ TEST_CASE("gltf: integers of all kinds become numbers, normalized or not, with s
             document.json["accessors"][index]["normalized"] = normalized;
             primitive_of(document)["attributes"]["POSITION"] = index;
             const Mesh mesh = load_document(document);
-            const glm::vec3 expected = normalized ? glm::vec3(0, kind.half_normalized, kind.most_normalized)
+            const glm::vec3 expected = normalized ? glm::vec3(0, kind.half_normalized, kind.max_normalized)
                                                   : glm::vec3(0, kind.half, kind.most);
             for (const glm::vec3& p : mesh.positions) CHECK(p == expected);
         }

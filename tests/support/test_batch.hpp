@@ -31,12 +31,12 @@ namespace goffer::test {
 
 /// What is kept of an instance. Members of a byte lie between the others, so that columns have odd offsets.
 struct Worm {
-    static constexpr std::size_t most_regions = bend::max_regions;
+    static constexpr std::size_t max_regions = bend::max_regions;
     std::uint8_t visible = 1;
-    bend::Pose poses[most_regions];
+    bend::Pose poses[max_regions];
     std::uint8_t changed = 1;
     float weight = 1;
-    bend::Pose previous_poses[most_regions];
+    bend::Pose previous_poses[max_regions];
     std::uint8_t interval = 1;
     glm::mat4x3 model{1}, previous_model{1};
     glm::mat4 model4{1}, previous_model4{1};
@@ -207,7 +207,7 @@ private:
 
     void make(Random& random, Worm& worm) const {
         for (bend::Pose* poses : {worm.poses, worm.previous_poses}) {
-            for (std::size_t r = 0; r < Worm::most_regions; ++r) {
+            for (std::size_t r = 0; r < Worm::max_regions; ++r) {
                 poses[r] = random_pose(random);
                 poses[r].angle = hostile(random, poses[r].angle);
                 poses[r].direction = hostile(random, poses[r].direction);

@@ -9,7 +9,7 @@
 namespace goffer::cli {
 namespace {
 
-constexpr double most_degrees = 36000;
+constexpr double max_degrees = 36000;
 
 [[noreturn]] void refuse_count(const std::string& option, std::size_t count, std::size_t regions) {
     throw UsageError(option + ": " + std::to_string(count) + " for " + counted(regions, "region") +
@@ -31,16 +31,16 @@ std::vector<double> read_degrees(const std::string& option, const std::string& t
     std::vector<double> degrees = read_numbers(option, text);
     if (degrees.size() != count) refuse_count(option, degrees.size(), count);
     for (const double value : degrees) {
-        if (std::fabs(value) > most_degrees) {
+        if (std::fabs(value) > max_degrees) {
             throw UsageError(option + ": " + number(value) + " is not an angle in degrees within " +
-                             number(-most_degrees) + ".." + number(most_degrees));
+                             number(-max_degrees) + ".." + number(max_degrees));
         }
     }
     return degrees;
 }
 
 CLI::Validator angle_in_degrees() {
-    return number_within(-most_degrees, most_degrees, "an angle in degrees");
+    return number_within(-max_degrees, max_degrees, "an angle in degrees");
 }
 
 }  // namespace

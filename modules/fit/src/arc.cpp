@@ -164,14 +164,14 @@ double roughness(const Body& body, const Line& line) {
 /// Whether the body is a tube about the arc, and that by more than noise or a relief would make it better
 /// than one about the straight line. `slack`: 1, or more where both lines are known only roughly.
 bool convincing(const Body& body, const Fitted& arc, const Line& straight, double slack) {
-    constexpr double better = 0.8;      // share of the straight line's roughness
-    constexpr double least_sag = 0.05;  // share of the radius: what bends less is straight
+    constexpr double better = 0.8;    // share of the straight line's roughness
+    constexpr double min_sag = 0.05;  // share of the radius: what bends less is straight
     // As a share of the radius: rougher bodies are no tubes. Beyond a half turn less is allowed, since few
     // bodies are bent so far, but such an arc fits many others a little.
     const double roughest = arc.angle() < std::numbers::pi ? 0.3 : 0.2;
     const double rough = roughness(body, arc.line);
     const double sag = (arc.high - arc.low) * arc.angle() / 8;
-    return rough < slack * roughest * arc.section.radius && slack * sag > least_sag * arc.section.radius &&
+    return rough < slack * roughest * arc.section.radius && slack * sag > min_sag * arc.section.radius &&
            rough < slack * better * roughness(body, straight);
 }
 
@@ -198,13 +198,13 @@ std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
 
 std::optional<Fitted> fit_arc(const Body& body, const Vector3d& axis, const Line& straight) {
     constexpr std::size_t enough = 800;
-    constexpr int most_steps = 20;
+    constexpr int max_steps = 20;
     constexpr double slack = 1.1;
     std::vector<std::uint32_t> triangles;
-    const Body cloud = confetti(body, enough, triangles);
+    const Body cloud = sampled_surface(body, enough, triangles);
     const std::optional<Fitted> rough = rough_arc(cloud, axis);
     if (!rough || !convincing(cloud, *rough, straight, slack)) return std::nullopt;
-    const std::optional<Fitted> arc = arc_from(body, rough->line, most_steps);
+    const std::optional<Fitted> arc = arc_from(body, rough->line, max_steps);
     return arc && convincing(body, *arc, straight, 1) ? arc : std::nullopt;
 }
 

@@ -173,7 +173,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     check(level);
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or does not have its regions; give what bind returned");
-    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places_of(rig));
+    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, rest_regions(rig));
     const std::span<const bend::RegionInput> own = rig.body.region_inputs();
     std::vector<bend::RegionInput> regions(own.begin(), own.end());
     std::vector<RegionBinding> found = rig.regions;

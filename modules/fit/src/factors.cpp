@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t rows = 17;         // of a table of factors
 constexpr double most = 2;               // factor
 constexpr double area_tolerance = 2e-5;  // of the region's area
-constexpr int most_steps = 6;            // of Newton's method, which needs two or three
+constexpr int max_steps = 6;             // of Newton's method, which needs two or three
 
 /// A region's surface in one pose. The map is linear in the wrinkle's amplitude, so that the bare bend and
 /// the wrinkled one give all of them.
@@ -60,7 +60,7 @@ Area area_of(const Surface& surface, std::span<const std::uint32_t> triangles, d
 double solve(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted, double guess) {
     double factor = guess;
     double best = guess, best_error = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
         const Area at = area_of(surface, triangles, factor);
         const double error = at.area - wanted;
         if (std::fabs(error) < best_error) best = factor, best_error = std::fabs(error);

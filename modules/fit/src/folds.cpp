@@ -14,7 +14,7 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int most_folds = 1 << 20;  // far beyond any use, well inside int
+constexpr int max_folds = 1 << 20;  // far beyond any use, well inside int
 
 /// How far a triangle reaches along the axis, and its area.
 using Reach = std::pair<double, double>;
@@ -63,7 +63,7 @@ int Rows::folds(double length) const {
     constexpr double rows_per_length = 16;  // 8 a fold, k folds per half length
     constexpr double rounding = 1e-3;       // a mesh of just enough rows has enough
     const double folds = (1 + rounding) * length / (rows_per_length * reach_);
-    return folds < most_folds ? static_cast<int>(folds) : most_folds;
+    return folds < max_folds ? static_cast<int>(folds) : max_folds;
 }
 
 int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
@@ -71,7 +71,7 @@ int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
 }
 
 int sensible_folds(const Cylinder& cylinder, int capacity) {
-    const double folds = std::min<double>(std::round(cylinder.length / (2 * cylinder.radius)), most_folds);
+    const double folds = std::min<double>(std::round(cylinder.length / (2 * cylinder.radius)), max_folds);
     const int wanted = static_cast<int>(folds);
     return 2 * std::int64_t{capacity} < wanted ? 0 : std::min(wanted, std::max(capacity, 0));
 }

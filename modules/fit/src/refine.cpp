@@ -17,7 +17,7 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int most_folds = 1 << 20;   // as folds_capacity
+constexpr int max_folds = 1 << 20;    // as folds_capacity
 constexpr int rows_per_stretch = 16;  // 8 a fold, folds per half length
 constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
 
@@ -83,8 +83,8 @@ public:
         for (const double z : heights_) rows_.push_back(scale_.row(z));
     }
 
-    Refinement run(std::size_t most_triangles) && {
-        check_growth(most_triangles);
+    Refinement run(std::size_t max_triangles) && {
+        check_growth(max_triangles);
         for (std::size_t t = 0; t < triangles_.size(); t += 3) cut(t / 3);
         return std::move(out_);
     }
@@ -99,7 +99,7 @@ private:
         return {{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[0]}}};
     }
 
-    void check_growth(std::size_t most_triangles) const;
+    void check_growth(std::size_t max_triangles) const;
     void cut(std::size_t triangle);
     void emit(std::size_t parent, const Upright& corners, std::array<std::uint32_t, 3> piece);
     [[nodiscard]] Upright upright(std::size_t triangle) const;
@@ -118,7 +118,7 @@ private:
     Refinement out_;
 };
 
-void Refiner::check_growth(std::size_t most_triangles) const {
+void Refiner::check_growth(std::size_t max_triangles) const {
     double triangles = 0, vertices = static_cast<double>(heights_.size());
     for (std::size_t t = 0; t < triangles_.size() / 3; ++t) {
         for (const Edge& edge : edges(t)) {
@@ -128,9 +128,9 @@ void Refiner::check_growth(std::size_t most_triangles) const {
         triangles -= 2;
     }
     const double indices = std::numeric_limits<std::uint32_t>::max();
-    if (triangles <= static_cast<double>(most_triangles) && vertices < indices) return;
+    if (triangles <= static_cast<double>(max_triangles) && vertices < indices) return;
     throw Error("refined, the mesh would have " + text(triangles) + " triangles, more than the " +
-                std::to_string(most_triangles) + " allowed; ask for fewer folds");
+                std::to_string(max_triangles) + " allowed; ask for fewer folds");
 }
 
 Upright Refiner::upright(std::size_t triangle) const {
@@ -170,12 +170,12 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
 /// edge turns one way, but not evenly: solved by false position (the Illinois variant), which keeps a
 /// bracket.
 double Refiner::place(Edge edge, double height) const {
-    constexpr int most_steps = 60;
+    constexpr int max_steps = 60;
     double low = 0, high = 1;
     double below = heights_[edge.a] - height, above = heights_[edge.b] - height;
     const double close = 1e-12 * (above - below);
     double t = below / (below - above);
-    for (int step = 0, side = 0; arc_ != nullptr && step < most_steps; ++step) {
+    for (int step = 0, side = 0; arc_ != nullptr && step < max_steps; ++step) {
         const double off = arc_->height(points_[edge.a] + t * (points_[edge.b] - points_[edge.a])) - height;
         if (!(std::fabs(off) > close)) break;
         const int now = off < 0 ? -1 : 1;
@@ -248,9 +248,9 @@ void check_stretches(std::span<const Stretch> stretches) {
         const auto [length, folds] = stretches[i];
         if (!(length > 0) || !std::isfinite(length))
             throw Error("length" + which + " is " + text(length) + "; give a finite length above 0");
-        if (folds < 0 || folds > most_folds)
+        if (folds < 0 || folds > max_folds)
             throw Error("folds" + which + ": " + std::to_string(folds) + "; give 0 to " +
-                        std::to_string(most_folds));
+                        std::to_string(max_folds));
     }
 }
 
@@ -271,7 +271,7 @@ Refinement refined(const Geometry& geometry, std::span<const double> heights,
     check_stretches(stretches);
     check_heights(heights, geometry.positions.size());
     const RowScale scale(stretches);
-    return Refiner(geometry, heights, scale, arc).run(options.most_triangles);
+    return Refiner(geometry, heights, scale, arc).run(options.max_triangles);
 }
 
 }  // namespace

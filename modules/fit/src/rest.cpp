@@ -140,7 +140,7 @@ glm::dmat3 axes_of(const Cylinder& cylinder) {
     return axes;
 }
 
-std::vector<RestRegion> places_of(const Binding& binding) {
+std::vector<RestRegion> rest_regions(const Binding& binding) {
     std::vector<RestRegion> places;
     double start = 0;
     for (const RegionBinding& region : binding.regions) {

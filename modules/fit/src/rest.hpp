@@ -26,7 +26,7 @@ struct RestRegion {
 };
 
 /// Returns the regions that `binding` was made with.
-[[nodiscard]] std::vector<RestRegion> places_of(const Binding& binding);
+[[nodiscard]] std::vector<RestRegion> rest_regions(const Binding& binding);
 
 /// Returns the axes of the base in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);

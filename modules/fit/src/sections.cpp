@@ -123,10 +123,10 @@ Fitted measured(const Body& body, const Line& line) {
 }
 
 Settled settle(const Body& body, const Line& start, bool tilt) {
-    constexpr int most_steps = 20;
+    constexpr int max_steps = 20;
     constexpr double settled = 1e-7;
     Settled now{start, 0};
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
         const Row by = regress(body, now.line, tilt);
         const Vector3d shift = now.line.frame.leftCols<2>() * by.segment<2>(1);
         const Vector3d turn = now.line.frame.leftCols<2>() * by.segment<2>(3);

@@ -16,7 +16,7 @@ namespace goffer::fit {
 namespace {
 
 bend::Socket placed(const Binding& binding, const paper::Cylindrical& at) {
-    const std::vector<RestRegion> regions = places_of(binding);
+    const std::vector<RestRegion> regions = rest_regions(binding);
     bend::Socket socket;
     socket.region = region_at(regions, at.z);
     socket.vertex = rest_vertex(at, regions[socket.region], binding.cylinder.radius, binding.profile);

@@ -65,7 +65,7 @@ Principal principal_axis(const Body& body) {
     return {centroid, solver.eigenvectors().col(2), spread[2] / spread[1]};
 }
 
-Body confetti(const Body& body, std::size_t count, std::vector<std::uint32_t>& triangles) {
+Body sampled_surface(const Body& body, std::size_t count, std::vector<std::uint32_t>& triangles) {
     const auto triangle = [&body](std::size_t t) {
         Matrix3d corners;
         for (int i = 0; i < 3; ++i)

@@ -53,6 +53,7 @@ struct Principal {
 /// Returns `count` small triangles of equal area, spread evenly over the surface and lying in it. To anything
 /// that integrates over the surface this is roughly the same body, at a cost that does not depend on the
 /// mesh. The indices are kept in `triangles`, which must outlive the result.
-[[nodiscard]] Body confetti(const Body& body, std::size_t count, std::vector<std::uint32_t>& triangles);
+[[nodiscard]] Body sampled_surface(const Body& body, std::size_t count,
+                                   std::vector<std::uint32_t>& triangles);
 
 }  // namespace goffer::fit

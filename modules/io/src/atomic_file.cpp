@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 fs::path followed(fs::path target) {
     std::error_code error;
-    constexpr int most_links = 40;  // as many as systems follow; what is still a link then is a loop
-    for (int i = 0; i < most_links && fs::is_symlink(target, error); ++i)
+    constexpr int max_links = 40;  // as many as systems follow; what is still a link then is a loop
+    for (int i = 0; i < max_links && fs::is_symlink(target, error); ++i)
         target = target.parent_path() / fs::read_symlink(target, error);
     return target;
 }

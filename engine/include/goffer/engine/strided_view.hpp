@@ -26,13 +26,13 @@ namespace goffer {
 template <class T>
 struct StridedView {
     static_assert(std::is_trivially_copyable_v<T>);
-    static constexpr std::uint32_t one_stretch = 63;  ///< page_shift of a view without pages
+    static constexpr std::uint32_t unpaged = 63;  ///< page_shift of a view without pages
 
     const void* data = nullptr;  ///< the array, or an array of the pages' addresses
     std::size_t count = 0;
     std::uint32_t stride = sizeof(T);
     std::uint32_t offset = 0;  ///< bytes from the beginning of the array, or of a page, to its first element
-    std::uint32_t page_shift = one_stretch;  ///< a page holds 2^page_shift elements
+    std::uint32_t page_shift = unpaged;  ///< a page holds 2^page_shift elements
 
     [[nodiscard]] bool empty() const noexcept { return data == nullptr; }
 
@@ -40,7 +40,7 @@ struct StridedView {
     [[nodiscard]] const T* at(std::size_t index) const noexcept {
         assert(index < count);
         const void* page = data;
-        if (page_shift != one_stretch) {
+        if (page_shift != unpaged) {
             // Copied, since reading a T* through a const void* lvalue would break the aliasing rules.
             const auto* const pages = static_cast<const std::byte*>(data);
             std::memcpy(&page, pages + (index >> page_shift) * sizeof page, sizeof page);

@@ -61,8 +61,8 @@ struct DoubledLanes {
         return {Lanes::with_sign(magnitude.low, sign.low), Lanes::with_sign(magnitude.high, sign.high)};
     }
     static Vec word(Vec value) { return {Lanes::word(value.low), Lanes::word(value.high)}; }
-    static Vec pair_words(Vec low, Vec high) {
-        return {Lanes::pair_words(low.low, high.low), Lanes::pair_words(low.high, high.high)};
+    static Vec pack_int16(Vec low, Vec high) {
+        return {Lanes::pack_int16(low.low, high.low), Lanes::pack_int16(low.high, high.high)};
     }
 };
 

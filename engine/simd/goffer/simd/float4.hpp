@@ -67,7 +67,7 @@ template <std::size_t N>
 
 /// a x b of the first three lanes. The last lane of the result is 0 if those of a and b are finite.
 [[nodiscard]] inline Float4 cross(Float4 a, Float4 b) noexcept {
-    return turn3(a * turn3(b) - turn3(a) * b);
+    return rotate_lanes3(a * rotate_lanes3(b) - rotate_lanes3(a) * b);
 }
 
 /// The sum of the first three lanes.

@@ -89,7 +89,7 @@ inline void store4(float* to, Float4 a) noexcept {
 }
 
 /// (a[1], a[2], a[0], a[3])
-[[nodiscard]] inline Float4 turn3(Float4 a) noexcept {
+[[nodiscard]] inline Float4 rotate_lanes3(Float4 a) noexcept {
     return {a[1], a[2], a[0], a[3]};
 }
 

@@ -94,7 +94,7 @@ inline void store4(float* to, Float4 a) noexcept {
 }
 
 /// (a[1], a[2], a[0], a[3])
-[[nodiscard]] inline Float4 turn3(Float4 a) noexcept {
+[[nodiscard]] inline Float4 rotate_lanes3(Float4 a) noexcept {
 #if XSIMD_VERSION_MAJOR >= 13
     return Float4(xsimd::swizzle(a.lanes, xsimd::batch_constant<std::uint32_t, Mask4::Arch, 1, 2, 0, 3>()));
 #else

@@ -52,7 +52,7 @@ struct ScalarLanes {
     /// The bits of the nearest integer, in a float. Numbers that do not fit, and NaN, give 0x80000000.
     static Vec word(Vec value) { return std::bit_cast<float>(integer(value)); }
     /// The lower halves of two such words in one: that of `low` in the lower half.
-    static Vec pair_words(Vec low, Vec high) {
+    static Vec pack_int16(Vec low, Vec high) {
         return std::bit_cast<float>((integer(low) & 0xffffu) | integer(high) << 16);
     }
 

@@ -102,7 +102,7 @@ struct XsimdLanes {
     static Vec word(Vec value) {
         return bits(xsimd::nearbyint_as_int(value));
     }
-    static Vec pair_words(Vec low, Vec high) {
+    static Vec pack_int16(Vec low, Vec high) {
         const Words lower = xsimd::nearbyint_as_int(low) & Words(0xffff);
         return bits(lower | (xsimd::nearbyint_as_int(high) << 16));
     }

@@ -69,7 +69,7 @@ Reason check_table(const Table& table) noexcept {
 }
 
 /// The largest factor on the amplitude: 1 without a table.
-double most_factor(const FactorTable& factors) noexcept {
+double max_factor(const FactorTable& factors) noexcept {
     float square = factors.empty() ? 1.0f : 0.0f;
     for (const auto& row : factors.rows) square = std::max(square, *std::ranges::max_element(row));
     return std::sqrt(static_cast<double>(square));
@@ -88,7 +88,7 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
     const bool relative = compares_with_rest(region);
     const double per_angle = radius / region.length;
     const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle);
-    const double step = relative ? 4.5 : 2, factor = most_factor(region.factors);
+    const double step = relative ? 4.5 : 2, factor = max_factor(region.factors);
     const auto& rows = region.table.rows;
     Wrinkle largest;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -109,21 +109,21 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
 }
 
 bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
-    constexpr double most_coefficient =
+    constexpr double max_coefficient =
         1e36;  // those of the slope are up to 15 times as large, and still float
-    return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= most_coefficient;
+    return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= max_coefficient;
 }
 
 BodyFault check_region(const RegionInput& region, std::size_t index, double radius) noexcept {
     const double most = region.length / (2 * radius);
     const double max_angle = std::min(most * (1 + 1e-6), Range::max_angle);
     const double max_rest = std::min(most * Range::max_rest, region.max_angle);
-    const double most_direction = Range::max_angle;
+    const double max_direction = Range::max_angle;
     const Limited numbers[] = {
         {BodyField::length, region.length, Range::min_length, Range::max_length},
         {BodyField::max_angle, region.max_angle, Range::min_angle, max_angle},
         {BodyField::rest_angle, region.rest_angle, 0, max_rest},
-        {BodyField::rest_direction, region.rest_direction, -most_direction, most_direction},
+        {BodyField::rest_direction, region.rest_direction, -max_direction, max_direction},
         {BodyField::onset, region.onset, 0, 1}};
     if (const BodyFault fault = first_fault(numbers, index); !fault.none()) return fault;
     if (const Reason reason = check_table(region.factors); reason != Reason::none)

@@ -14,7 +14,7 @@ constexpr std::size_t block_vertices = 512;
 
 /// Kernels write whole lines of a region directly if they hold at least this many vertices. Shorter stretches
 /// go through the stage, together with the joints beside them.
-constexpr std::size_t least_direct = 48;
+constexpr std::size_t min_direct = 48;
 
 PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
     PlaneOutput moved = {};
@@ -61,7 +61,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
     set_of(Pass::packed) = !batch.packed.empty() && streams ? set_count_++ : set_of(Pass::current);
     assert(set_count_ != 0 && "a batch that asks for nothing: see validate()");
     group_size_ = std::clamp<std::size_t>(
-        most_coefficients / (std::max<std::size_t>(set_count_, 1) * regions_), 1, setup_width);
+        max_coefficients / (std::max<std::size_t>(set_count_, 1) * regions_), 1, setup_width);
 }
 
 void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last) noexcept {
@@ -168,7 +168,7 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
         if (end == last) return end;
         while (body_.regions[region + 1].last <= end) ++region;
         const std::size_t next = std::min(body_.regions[region + 1].last, last);
-        if (line_before(member, next) >= end + least_direct) return end;
+        if (line_before(member, next) >= end + min_direct) return end;
     }
 }
 
@@ -241,7 +241,7 @@ void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, s
         const std::size_t region_end = std::min(body_.regions[region].last, last);
         const bool whole = region_end == last || !non_temporal;
         const std::size_t end = whole ? region_end : line_before(member, region_end);
-        if (!whole && end < first + least_direct) {
+        if (!whole && end < first + min_direct) {
             const std::size_t joints = joints_end(member, region, first, last);
             deform_staged(member, way, first, joints);
             first = joints;
@@ -275,7 +275,7 @@ RowOutput BatchRunner::row_output(std::size_t member, const PassPlan& pass, std:
 /// Kernels write rows: to the caller's records, or to strips that are then written as whole lines.
 void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept {
     while (first < last) {
-        const std::size_t end = block_end(member, first, last, Strips::most_vertices);
+        const std::size_t end = block_end(member, first, last, Strips::max_vertices);
         const std::size_t vertex = members_[member].vertex + first;
         strips_.begin(plan_, vertex);
         for (const PassPlan& pass : plan_.passes()) {

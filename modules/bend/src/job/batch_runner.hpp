@@ -43,8 +43,8 @@ private:
 
     /// A group has `set_count_` sets of coefficients per member, one for each pose that is wanted, and in
     /// each set one per region. There is room for one member of a body with max_regions.
-    static constexpr std::size_t most_coefficients = 96;
-    static_assert(most_coefficients >= pass_count * max_regions);
+    static constexpr std::size_t max_coefficients = 96;
+    static_assert(max_coefficients >= pass_count * max_regions);
 
     [[nodiscard]] Coefficients* coefficients(std::size_t member, std::size_t set) noexcept {
         return coefficients_ + (member * set_count_ + set) * regions_;
@@ -91,8 +91,8 @@ private:
     std::size_t member_count_ = 0;
     CrowdResult result_;
     Member members_[setup_width];
-    Squeeze squeezes_[most_coefficients];
-    Coefficients coefficients_[most_coefficients];
+    Squeeze squeezes_[max_coefficients];
+    Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;
     StagingBuffer stage_;
     Strips strips_;

@@ -141,7 +141,7 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
 template <class T>
 bool misaligned(const StridedView<T>& view) noexcept {
     if (view.empty()) return false;
-    const bool paged = view.page_shift != StridedView<T>::one_stretch;
+    const bool paged = view.page_shift != StridedView<T>::unpaged;
     const std::size_t first = paged ? 0 : reinterpret_cast<std::uintptr_t>(view.data);
     return (first + view.offset) % alignof(T) != 0 || view.stride % alignof(T) != 0;
 }

@@ -14,8 +14,8 @@
 namespace goffer::bend {
 namespace {
 
-constexpr std::size_t most_pieces = 256;
-constexpr std::size_t least_vertices = 8192;  // per piece: handing it out must cost less than the work on it
+constexpr std::size_t max_pieces = 256;
+constexpr std::size_t min_vertices = 8192;  // per piece: handing it out must cost less than the work on it
 
 /// A place in the crowd: a vertex of an instance of a batch.
 struct Place {
@@ -224,8 +224,8 @@ CrowdResult run_parallel(const CrowdJob& job) {
     assert(may_run(job));
     const Size size = size_of(job);
     const bool non_temporal = is_non_temporal(job, size.bytes);
-    const std::size_t pieces = std::clamp<std::size_t>(size.vertices / least_vertices, 1, most_pieces);
-    Place places[most_pieces + 1];
+    const std::size_t pieces = std::clamp<std::size_t>(size.vertices / min_vertices, 1, max_pieces);
+    Place places[max_pieces + 1];
     Cutter cutter(job, size.vertices, pieces);
     for (std::size_t piece = 0; piece <= pieces; ++piece) places[piece] = cutter.begin_of(piece);
     std::atomic<std::size_t> deformed = 0, clamped = 0, at_rest = 0;

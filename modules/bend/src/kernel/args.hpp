@@ -25,7 +25,7 @@ constexpr std::size_t line_floats = 16;
 
 /// The most vertices that a kernel works on at a time. With Write::staged it may write that many beyond the
 /// end.
-constexpr std::size_t largest_unit = 32;
+constexpr std::size_t max_unit = 32;
 
 /// What makes wrinkles. Each has kernels of its own.
 enum class Squeeze : unsigned char {
@@ -48,7 +48,7 @@ constexpr std::size_t stream_set_count = 4;
 enum class Write : unsigned char {
     cached,        ///< exactly the values asked for
     non_temporal,  ///< the same, whole lines past the cache; the caller must fence them
-    staged,        ///< whole units: may overwrite up to largest_unit values beyond the end
+    staged,        ///< whole units: may overwrite up to max_unit values beyond the end
 };
 
 constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
@@ -126,7 +126,7 @@ using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, f
 using Weave = void (*)(const float* const* planes, std::size_t lines, float* to, bool non_temporal);
 
 /// The most floats of a record that is woven.
-constexpr std::size_t most_woven = 13;
+constexpr std::size_t max_woven = 13;
 
 /// Copies `count` floats. `non_temporal`: whole lines past the cache, to be fenced by the caller.
 using CopyLines = void (*)(const float* from, float* to, std::size_t count, bool non_temporal);
@@ -164,7 +164,7 @@ struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
     RowKernel rows[squeeze_count][stream_set_count];
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
-    Weave weave[most_woven + 1];  ///< indexed by the floats of a record; null where there is none
+    Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null where there is none
     CopyLines copy_lines;
     Setup setup;
 

@@ -281,9 +281,9 @@ Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
     const Vec below = L::max(L::nmadd(z, scale, zero), zero);
     const Vec u = x * scale;
     const Vec v = y * scale;
-    return {{L::pair_words(step(position.component[0]), step(position.component[1])),
+    return {{L::pack_int16(step(position.component[0]), step(position.component[1])),
              L::word(step(position.component[2])),
-             L::pair_words(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
+             L::pack_int16(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
 }
 
 /// The results of one batch. Only what is wanted is set and used.

@@ -97,13 +97,13 @@ private:
         }
     }
 
-    /// Rows stand at equal steps of the angle's root. Below least_kappa, the scale of a relative row would
+    /// Rows stand at equal steps of the angle's root. Below min_kappa, the scale of a relative row would
     /// leave float's range.
     void find_row(Vec kappa, float* table_place, float* scale) const {
         Vec angle = alpha_;
         if (region_.relative) {
-            constexpr float least_kappa = 1e-4f;
-            kappa = L::max(kappa, L::splat(least_kappa));
+            constexpr float min_kappa = 1e-4f;
+            kappa = L::max(kappa, L::splat(min_kappa));
             angle = kappa * L::splat(1 / (region_.per_length * region_.radius));
         }
         L::store(scale + first_, region_.relative ? kappa : L::sqrt(kappa));

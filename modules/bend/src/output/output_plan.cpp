@@ -191,7 +191,7 @@ void OutputPlan::find_strips() noexcept {
         if (!record.in_lines || !record.has_gaps()) continue;
         const std::size_t floats = Strips::floats_of(record.stride_floats());
         record.in_lines =
-            record.stride_floats() <= Strips::longest_record && taken + floats <= Strips::most_floats;
+            record.stride_floats() <= Strips::longest_record && taken + floats <= Strips::max_floats;
         record.in_strip = record.in_lines;
         record.strip = taken;
         taken += record.in_lines ? floats : 0;

@@ -19,7 +19,7 @@ enum class Pass : std::uint8_t { current, previous, packed };
 constexpr std::size_t pass_count = 3;
 
 /// The most values per vertex: position, normal, tangent; previous position; three packed words.
-constexpr std::size_t most_values = 16;
+constexpr std::size_t max_values = 16;
 
 /// How the values of a pass get to the caller's memory.
 enum class Way : std::uint8_t {
@@ -113,9 +113,9 @@ private:
 
     PassPlan passes_[pass_count];
     std::size_t pass_count_ = 0;
-    Component components_[most_values];
+    Component components_[max_values];
     std::size_t component_count_ = 0;
-    Record records_[most_values];
+    Record records_[max_values];
     std::size_t record_count_ = 0;
     std::size_t value_count_ = 0;
     bool non_temporal_ = false;

@@ -6,8 +6,8 @@
 namespace goffer::bend {
 
 StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
-    const std::size_t room = most_floats / std::max<std::size_t>(plan.value_count(), 1) - spare;
-    capacity_ = std::min(most_vertices, room / line_floats * line_floats);
+    const std::size_t room = max_floats / std::max<std::size_t>(plan.value_count(), 1) - spare;
+    capacity_ = std::min(max_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
 }
 
@@ -30,7 +30,7 @@ void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, Way 
         if (record.plane()) {
             kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
                                plan.non_temporal());
-        } else if (!record.has_gaps() && components.size() <= most_woven &&
+        } else if (!record.has_gaps() && components.size() <= max_woven &&
                    kernels.weave[components.size()] != nullptr) {
             weave(record, components, kernels, vertex, count, plan.non_temporal());
         } else {
@@ -59,7 +59,7 @@ void StagingBuffer::weave(const Record& record, std::span<const Component> compo
         if (peeled == line_floats) non_temporal = false, peeled = 0;
         peeled = std::min(peeled, count);
     }
-    const float* planes[most_woven];
+    const float* planes[max_woven];
     for (std::size_t c = 0; c < components.size(); ++c)
         planes[c] = planes_ + components[c].value * stride_ + peeled;
     const std::size_t lines = (count - peeled) / line_floats;

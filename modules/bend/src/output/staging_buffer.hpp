@@ -36,15 +36,15 @@ private:
     void weave(const Record& record, std::span<const Component> components, const KernelSet& kernels,
                std::size_t vertex, std::size_t count, bool non_temporal) const noexcept;
 
-    static constexpr std::size_t most_floats = 3072;
-    static constexpr std::size_t most_vertices = 256;
+    static constexpr std::size_t max_floats = 3072;
+    static constexpr std::size_t max_vertices = 256;
     // For the whole units that kernels write, and so that planes begin at different places of the cache.
-    static constexpr std::size_t spare = largest_unit + line_floats;
-    static_assert(most_floats / most_values > spare + 2 * line_floats);
+    static constexpr std::size_t spare = max_unit + line_floats;
+    static_assert(max_floats / max_values > spare + 2 * line_floats);
 
     std::size_t capacity_;
     std::size_t stride_;  // floats from one plane to the next
-    alignas(64) float planes_[most_floats];
+    alignas(64) float planes_[max_floats];
 };
 
 }  // namespace goffer::bend

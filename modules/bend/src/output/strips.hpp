@@ -12,18 +12,18 @@ namespace goffer::bend {
 /// The records are then written as whole cache lines.
 class Strips {
 public:
-    static constexpr std::size_t most_vertices = 64;   // few, so that lines leave while the next are computed
-    static constexpr std::size_t most_floats = 2080;   // in all strips together
+    static constexpr std::size_t max_vertices = 64;    // few, so that lines leave while the next are computed
+    static constexpr std::size_t max_floats = 2080;    // in all strips together
     static constexpr std::size_t longest_record = 32;  // floats; longer ones would be gaps for the most part
 
     /// The number of floats that a strip takes.
     [[nodiscard]] static constexpr std::size_t floats_of(std::size_t record_floats) noexcept {
-        return line_floats + most_vertices * record_floats;
+        return line_floats + max_vertices * record_floats;
     }
 
     Strips() noexcept;
 
-    /// Begins a block of at most most_vertices records, from vertex `vertex` of the caller's buffer on.
+    /// Begins a block of at most max_vertices records, from vertex `vertex` of the caller's buffer on.
     /// Leaves as much of the first line free as lies before them there, so that lines here are lines there.
     void begin(const OutputPlan& plan, std::size_t vertex) noexcept;
 
@@ -51,8 +51,8 @@ private:
         std::size_t vertex = 0;  // in the caller's buffer
         std::size_t count = 0;   // 0: nothing to write
         bool ends = false;
-        std::size_t before[most_values];  // floats of the first line before the first record
-        alignas(64) float values[most_floats];
+        std::size_t before[max_values];  // floats of the first line before the first record
+        alignas(64) float values[max_floats];
     };
 
     static void write_out(Block& block, const OutputPlan& plan, const KernelSet& kernels) noexcept;

@@ -17,7 +17,7 @@ namespace goffer::bend {
 }
 
 /// Coordinates of four points, or components of four vectors.
-struct Three4 {
+struct Vec3x4 {
     Float4 c[3];
 
     /// Sets all four to `v`.
@@ -32,8 +32,8 @@ struct Three4 {
 /// in float, for four places at a time. Coordinates are relative to where the region begins, in units of its
 /// length. The parameter runs from 0 to 1 along the region.
 struct BezierStretch {
-    Three4 from, linear, square, cubic;
-    Three4 end, onward;          // where the line begins, and its direction; set only if `ends`
+    Vec3x4 from, linear, square, cubic;
+    Vec3x4 end, onward;          // where the line begins, and its direction; set only if `ends`
     float begin_pace, end_pace;  // d parameter / d length
     Float4 least, most;          // the range of parameters on the curve that is searched
     bool ends;                   // the line is near
@@ -44,8 +44,8 @@ struct BezierStretch {
         return along * (splat(begin_pace) + along * (splat(1 - begin_pace - bend) + along * splat(bend)));
     }
     /// The vectors from four places of the region, those of places.arc_x[i], to `point`.
-    [[nodiscard]] static Three4 away(const Three4& point, const CenterPlaces& places, int i) noexcept {
-        Three4 away;
+    [[nodiscard]] static Vec3x4 away(const Vec3x4& point, const CenterPlaces& places, int i) noexcept {
+        Vec3x4 away;
         for (int c = 0; c < 3; ++c) {
             away.c[c] = point.c[c] - places.arc_x[i] * splat(places.across[c]) -
                         places.arc_z[i] * splat(places.onward[c]);
@@ -54,14 +54,14 @@ struct BezierStretch {
     }
     /// Moves `parameters` to the feet of the perpendiculars on the curve's tangents there, and returns the
     /// squared distances from these feet. `seen` is away() of `from`.
-    [[nodiscard]] Float4 step(const Three4& seen, Float4& parameters) const noexcept;
+    [[nodiscard]] Float4 step(const Vec3x4& seen, Float4& parameters) const noexcept;
     /// The squared distances from the line. `seen` is away() of `end`.
-    [[nodiscard]] Float4 from_line(const Three4& seen) const noexcept;
+    [[nodiscard]] Float4 from_line(const Vec3x4& seen) const noexcept;
 };
 
-inline Float4 BezierStretch::step(const Three4& seen, Float4& parameters) const noexcept {
+inline Float4 BezierStretch::step(const Vec3x4& seen, Float4& parameters) const noexcept {
     const Float4 u = min(max(parameters, least), most);
-    Three4 away, slope;
+    Vec3x4 away, slope;
     Float4 dot = splat(0);
     for (int c = 0; c < 3; ++c) {  // Horner's scheme, for the value and the slope
         const Float4 k2 = square.c[c] + u * cubic.c[c], k1 = linear.c[c] + u * k2;
@@ -75,11 +75,11 @@ inline Float4 BezierStretch::step(const Three4& seen, Float4& parameters) const 
     return away.square();
 }
 
-inline Float4 BezierStretch::from_line(const Three4& seen) const noexcept {
+inline Float4 BezierStretch::from_line(const Vec3x4& seen) const noexcept {
     Float4 dot = splat(0);
     for (int c = 0; c < 3; ++c) dot = dot - seen.c[c] * onward.c[c];
     const Float4 along = max(dot, splat(0)) / max(onward.square(), splat(1e-30f));
-    Three4 away;
+    Vec3x4 away;
     for (int c = 0; c < 3; ++c) away.c[c] = seen.c[c] + along * onward.c[c];
     return away.square();
 }
@@ -154,21 +154,21 @@ inline void Bezier::measure() noexcept {
     for (int i = 0; i < pieces; ++i, at += 2) {
         const double mean = (at[0] + 4 * at[1] + at[2]) / 6;
         before_[i + 1] = before_[i] + mean / pieces;
-        pace_[i] = 1 / std::max(at[0], least_square);
+        pace_[i] = 1 / std::max(at[0], min_square);
     }
-    pace_[pieces] = 1 / std::max(at[0], least_square);
+    pace_[pieces] = 1 / std::max(at[0], min_square);
 }
 
 /// Within a piece, the parameter is a cubic polynomial of the length, given by values and paces at both ends.
 /// Paces are limited so that the cubic increases for sure.
 inline Bezier::Place Bezier::at(double length) noexcept {
     if (length >= before_[pieces]) {
-        const double pace = 1 / std::max(glm::length(onward_), least_square);
+        const double pace = 1 / std::max(glm::length(onward_), min_square);
         return {1 + (length - before_[pieces]) * pace, pace};
     }
     while (before_[piece_ + 1] < length) ++piece_;
     while (before_[piece_] > length) --piece_;
-    const double whole = std::max(before_[piece_ + 1] - before_[piece_], least_square), per_whole = 1 / whole;
+    const double whole = std::max(before_[piece_ + 1] - before_[piece_], min_square), per_whole = 1 / whole;
     const double x = (length - before_[piece_]) * per_whole;
     const double from = std::min(pace_[piece_] * whole * pieces, 3.0);
     const double to = std::min(pace_[piece_ + 1] * whole * pieces, 3.0);
@@ -198,7 +198,7 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterPlaces& pla
 }
 
 inline double Bezier::go(const CenterPlaces& places) noexcept {
-    constexpr int most_steps = 4;
+    constexpr int max_steps = 4;
     // Steps this small end the search: the error that remains is about their square.
     constexpr float near = 0.004f;
     constexpr int fours = CenterPlaces::fours;
@@ -206,7 +206,7 @@ inline double Bezier::go(const CenterPlaces& places) noexcept {
     const Place to = at(gone_);
     const BezierStretch stretch = stretch_to(to, places);
     here_ = to;
-    Three4 seen[fours];
+    Vec3x4 seen[fours];
     Float4 feet[fours], squares[fours];
     for (int i = 0; i < fours; ++i) {
         const Float4 shares = {0.0625f, 0.125f, 0.1875f, 0.25f};
@@ -214,7 +214,7 @@ inline double Bezier::go(const CenterPlaces& places) noexcept {
         feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
     }
     Float4 moved = splat(1);
-    for (int step = 0; step < most_steps && largest(moved) > near; ++step) {
+    for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
         moved = splat(0);
         for (int i = 0; i < fours; ++i) {
             const Float4 before = feet[i];

@@ -17,7 +17,7 @@ using simd::splat;
 
 /// Less than any squared length, other than 0, of vectors in float. As a lower limit of divisors it prevents
 /// NaN.
-inline constexpr double least_square = std::numeric_limits<double>::min();
+inline constexpr double min_square = std::numeric_limits<double>::min();
 
 /// The angle of an arc, with the sine and 1 - cosine of its sixteenth, eighth, quarter, half and whole.
 struct Arc {

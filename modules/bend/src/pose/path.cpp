@@ -82,7 +82,7 @@ double about_angle(const glm::dmat3& axes, const dvec3& heading, double most) no
     const double across = std::sqrt(square), onward = std::sqrt(square + local.z * local.z) + local.z;
     const double above = 2 * across * (15 * onward * onward + 4 * square);
     const double below = onward * (15 * onward * onward + 9 * square);
-    return std::min(above / std::max(below, least_square), most);
+    return std::min(above / std::max(below, min_square), most);
 }
 
 /// How far ahead on `path` a region of `length` ends: by the length of its center line. That is shorter than

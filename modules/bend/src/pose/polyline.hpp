@@ -79,7 +79,7 @@ private:
 inline Polyline::Foot Polyline::foot_on(const Piece& at, const glm::dvec3& place) const noexcept {
     const double most = is_last(at) ? std::numeric_limits<double>::infinity() : 1.0;
     const double t =
-        std::clamp(glm::dot(place - at.from, at.step) / std::max(at.square, least_square), 0.0, most);
+        std::clamp(glm::dot(place - at.from, at.step) / std::max(at.square, min_square), 0.0, most);
     const glm::dvec3 away = at.from + t * at.step - place;
     return {at.begin + t * (at.end - at.begin), glm::dot(away, away)};
 }

@@ -28,7 +28,7 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
     assert(!body_.empty() && poses_of(job).size() == body_.region_count() && frames.size() >= count());
     const BodyData& body = *body_.data();
     const KernelSet& set = kernels(job.isa);
-    alignas(64) float planes[10][chunk + largest_unit];
+    alignas(64) float planes[10][chunk + max_unit];
     const auto vector = [&](std::size_t plane, std::size_t i) {
         return glm::vec3(planes[plane][i], planes[plane + 1][i], planes[plane + 2][i]);
     };

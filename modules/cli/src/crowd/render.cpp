@@ -26,8 +26,8 @@ using namespace glm;
 #include <goffer/bend/packed.glsl>
 }  // namespace shader
 
-constexpr std::size_t most_instances = 400;
-constexpr std::size_t most_triangles = 4'000'000;
+constexpr std::size_t max_instances = 400;
+constexpr std::size_t max_triangles = 4'000'000;
 
 /// Parts without a color of their own, by model: clay, moss, straw, slate, plum.
 constexpr std::array<glm::vec3, 5> plain_colors = {glm::vec3{0.72f, 0.33f, 0.20f},
@@ -94,8 +94,8 @@ std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> 
     const std::size_t count = crowd.instances();
     std::size_t triangles = 0;
     for (std::size_t i = 0; i < count; ++i) triangles += models[crowd.model(i)].rest.triangles.size() / 3;
-    const std::size_t fit = most_triangles / (triangles / count + 1);
-    const std::size_t most = std::clamp<std::size_t>(fit, 1, most_instances);
+    const std::size_t fit = max_triangles / (triangles / count + 1);
+    const std::size_t most = std::clamp<std::size_t>(fit, 1, max_instances);
     const auto width = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(most))));
     const std::size_t left = (crowd.columns() - std::min(width, crowd.columns())) / 2;
     std::vector<std::size_t> chosen;

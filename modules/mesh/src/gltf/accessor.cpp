@@ -12,7 +12,7 @@ namespace {
 enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
 /// Elements without bytes behind them are zeros. A count in a file must not make us allocate without end.
-constexpr std::uint64_t most_unbacked = 1u << 20;
+constexpr std::uint64_t max_unbacked = 1u << 20;
 
 std::size_t size_of(std::uint64_t component) {
     switch (component) {
@@ -151,7 +151,7 @@ std::vector<T> read(const Document& document, const Value& index, std::size_t co
     run.component = component_type(accessor, unsigned_only);
     if (accessor.has("bufferView")) {
         run = run_of(document, accessor, run.component, components, count);
-    } else if (count > most_unbacked) {
+    } else if (count > max_unbacked) {
         accessor["count"].fail("is " + std::to_string(count) + " without a bufferView; give it one");
     }
     run.normalized = accessor.flag("normalized");

@@ -167,6 +167,15 @@ struct Scene {
     std::vector<Block> blocks;
 };
 
+/// A node of the scene, and the matrix from its space to the scene's.
+struct PlacedNode {
+    std::size_t node;
+    glm::dmat4 world;
+};
+
+/// All nodes of the scene, parents before children, children in their order. Throws Error if it is no forest.
+[[nodiscard]] std::vector<PlacedNode> nodes_of_scene(const Document& document);
+
 /// Reads the scene of a document. The writer relies on getting the same scene for the same document.
 [[nodiscard]] Scene read_scene(const Document& document);
 

@@ -3,7 +3,6 @@
 #include "gltf.hpp"
 #include "text.hpp"
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -18,86 +17,7 @@ namespace gltf {
 
 namespace {
 
-glm::dmat4 local_matrix(const Value& node) {
-    glm::dmat4 matrix(1.0);
-    if (node.has("matrix")) {
-        matrix = glm::make_mat4(node["matrix"].numbers(16).data());
-        for (int i = 0; i < 4; ++i) matrix[i][3] = i == 3 ? 1.0 : 0.0;  // affine, whatever the file says
-        return matrix;
-    }
-    if (node.has("rotation")) {
-        const std::vector<double> q = node["rotation"].numbers(4);
-        const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-        if (!(glm::length(rotation) > 1e-6))
-            node["rotation"].fail("is not a unit quaternion; export the file again");
-        matrix = glm::mat4_cast(glm::normalize(rotation));
-    }
-    if (node.has("scale")) {
-        const std::vector<double> scale = node["scale"].numbers(3);
-        for (int i = 0; i < 3; ++i) matrix[i] *= scale[static_cast<std::size_t>(i)];
-    }
-    if (node.has("translation")) {
-        matrix[3] = glm::dvec4(glm::make_vec3(node["translation"].numbers(3).data()), 1.0);
-    }
-    return matrix;
-}
-
-struct PlacedNode {
-    std::size_t node;
-    glm::dmat4 world;
-};
-
-/// Where the walk through the nodes starts: the roots of the default scene, or of all nodes where there is no
-/// scene.
-std::vector<std::size_t> roots(const Document& document) {
-    const Value root = document.root();
-    std::vector<std::size_t> found;
-    if (document.count("scenes") > 0) {
-        const Value scene =
-            root.has("scene") ? document.entry("scenes", root["scene"]) : root["scenes"][std::size_t{0}];
-        for (std::size_t i = 0; scene.has("nodes") && i < scene["nodes"].size(); ++i) {
-            found.push_back(document.number("nodes", scene["nodes"][i]));
-        }
-        return found;
-    }
-    std::vector<bool> child(document.count("nodes"), false);
-    for (std::size_t n = 0; n < child.size(); ++n) {
-        const Value node = root["nodes"][n];
-        for (std::size_t i = 0; node.has("children") && i < node["children"].size(); ++i) {
-            child[document.number("nodes", node["children"][i])] = true;
-        }
-    }
-    for (std::size_t n = 0; n < child.size(); ++n) {
-        if (!child[n]) found.push_back(n);
-    }
-    if (found.empty() && !child.empty())
-        root["nodes"].fail("every node is another's child, a cycle; export the file again");
-    return found;
-}
-
-/// All nodes of the scene, parents before children, children in their order. Throws Error if it is no forest.
-std::vector<PlacedNode> walk(const Document& document) {
-    std::vector<PlacedNode> order, open;
-    for (const std::size_t node : roots(document)) open.push_back({node, glm::dmat4(1.0)});
-    std::reverse(open.begin(), open.end());
-    std::vector<bool> seen(document.count("nodes"), false);
-    while (!open.empty()) {
-        PlacedNode next = open.back();
-        open.pop_back();
-        const Value node = document.root()["nodes"][next.node];
-        if (seen[next.node])
-            node.fail("is reached twice: a cycle, or a node with two parents; export the file again");
-        seen[next.node] = true;
-        next.world = next.world * local_matrix(node);
-        order.push_back(next);
-        for (std::size_t i = node.has("children") ? node["children"].size() : 0; i-- > 0;) {
-            open.push_back({document.number("nodes", node["children"][i]), next.world});
-        }
-    }
-    return order;
-}
-
-constexpr std::size_t most_uv_sets = 16;
+constexpr std::size_t max_uv_sets = 16;
 
 std::string uv_name(std::size_t set) {
     return "TEXCOORD_" + std::to_string(set);
@@ -261,7 +181,7 @@ AccessorSet SceneReader::accessors_of(const Value& attributes) const {
     };
     for (const char* name : stream_name) add(name);
     add("COLOR_0");
-    for (std::size_t i = 0; i < most_uv_sets && add(uv_name(i)); ++i) {
+    for (std::size_t i = 0; i < max_uv_sets && add(uv_name(i)); ++i) {
     }
     while (set.size() > stream_count + 1 && set.back() == Block::absent) set.pop_back();
     return set;
@@ -419,7 +339,7 @@ Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
 
 Scene SceneReader::read() && {
     read_materials();
-    for (const PlacedNode& placed : walk(document_)) read_node(placed);
+    for (const PlacedNode& placed : nodes_of_scene(document_)) read_node(placed);
     if (mesh_.positions.empty()) {
         throw Error("no node of the scene carries a mesh with vertices; put one into the default scene");
     }

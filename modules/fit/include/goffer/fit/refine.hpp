@@ -57,7 +57,7 @@ struct Stretch {
 
 /// Limits of a refinement.
 struct RefineOptions {
-    std::size_t most_triangles = 50'000'000;  ///< of the refined mesh; more are an Error
+    std::size_t max_triangles = 50'000'000;  ///< of the refined mesh; more are an Error
 };
 
 /// Returns the refinement of `geometry` that gives it a folds_capacity() of at least `folds`, or one less
