@@ -222,6 +222,24 @@ TEST_CASE("P7: indices, places and steps that lead out of the buffers are named"
           })) == "none");
 }
 
+TEST_CASE("P7: columns whose elements are too near to each other are named") {
+    // A flat array of poses, for a body of two regions: the last instance would read behind its end.
+    const auto after_poses = [](std::uint32_t stride) {
+        return after([&](Crowd&, Batch& b) { b.poses.stride = stride; });
+    };
+    CHECK(told(after_poses(sizeof(bend::Pose))) == "poses stride, batch 1");
+    CHECK(told(after_poses(2 * sizeof(bend::Pose) - 4)) == "poses stride, batch 1");
+    CHECK(told(after_poses(2 * sizeof(bend::Pose))) == "none");
+    CHECK(told(after_poses(0)) == "none");  // the same poses for all
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_poses.stride = sizeof(bend::Pose); })) ==
+          "previous_poses stride, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.transforms.first.stride = sizeof(float); })) ==
+          "transform stride, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.previous_transforms.first.stride = 44; })) ==
+          "previous_transform stride, batch 1");
+    CHECK(told(after([](Crowd&, Batch& b) { b.transforms.first.stride = 48; })) == "none");
+}
+
 TEST_CASE("P7: columns that are not aligned to what they hold are named") {
     const auto spoilt = [](auto column) {
         return after([&](Crowd&, Batch& b) { b.*column = one_byte_on(b.*column); });

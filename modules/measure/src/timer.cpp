@@ -11,7 +11,7 @@
 
 namespace goffer::measure {
 
-double now(int threads) noexcept {
+double now([[maybe_unused]] int threads) noexcept {
 #ifndef _WIN32
     if (threads == 1) {
         timespec time{};

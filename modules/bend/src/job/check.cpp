@@ -146,16 +146,17 @@ bool misaligned(const StridedView<T>& view) noexcept {
     return (first + view.offset) % alignof(T) != 0 || view.stride % alignof(T) != 0;
 }
 
-/// Checks that columns hold as many elements as are read.
+/// Checks that columns hold as many elements as are read, and that each has room for what is read of it.
 struct Extent {
     std::size_t elements = 0;
     Fault fault;
 
+    /// `bytes` are read of each element. A stride of 0 is the same element for all.
     template <class T>
-    void take(Field field, const StridedView<T>& view, bool required = false) noexcept {
-        if (!fault.none() || (view.empty() && !required)) return;
-        if (view.empty()) {
-            fault = fault_of(field, Reason::null);
+    void take(Field field, const StridedView<T>& view, std::size_t bytes = sizeof(T)) noexcept {
+        if (!fault.none() || view.empty()) return;
+        if (view.stride != 0 && view.stride < bytes) {
+            fault = fault_of(field, Reason::stride);
         } else if (view.count < elements) {
             fault = fault_of(field, Reason::count);
         } else if (misaligned(view)) {
@@ -177,11 +178,14 @@ Fault check_columns(const Batch& batch) noexcept {
         extent.elements = i == 0 ? index + 1 : index >= extent.elements ? index + 1 : extent.elements;
     }
     const bool previous = !batch.previous_positions.empty();
-    extent.take(Field::poses, batch.poses, true);
-    extent.take(Field::transform, batch.transforms.first);
+    if (previous && batch.previous_poses.empty()) return fault_of(Field::previous_poses, Reason::null);
+    const std::size_t poses = batch.body->region_count() * sizeof(Pose);
+    constexpr std::size_t matrix = 12 * sizeof(float);
+    extent.take(Field::poses, batch.poses, poses);
+    extent.take(Field::transform, batch.transforms.first, matrix);
     extent.take(Field::wrinkle_weight, batch.wrinkle_weights);
-    if (previous) extent.take(Field::previous_poses, batch.previous_poses, true);
-    if (previous) extent.take(Field::previous_transform, batch.previous_transforms.first);
+    if (previous) extent.take(Field::previous_poses, batch.previous_poses, poses);
+    if (previous) extent.take(Field::previous_transform, batch.previous_transforms.first, matrix);
     extent.take(Field::visible, batch.visible);
     extent.take(Field::changed, batch.changed);
     extent.take(Field::update_intervals, batch.update_intervals);

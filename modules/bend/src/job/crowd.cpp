@@ -164,7 +164,9 @@ private:
 
 Batch batch_of(const DeformJob& job) noexcept {
     const auto poses = [](std::span<const Pose> many, const Pose& one) {
-        return StridedView<Pose>{.data = many.empty() ? &one : many.data(), .count = 1};
+        if (many.empty()) many = {&one, 1};
+        return StridedView<Pose>{
+            .data = many.data(), .count = 1, .stride = static_cast<std::uint32_t>(many.size_bytes())};
     };
     const auto transform = [](const glm::mat4x3& matrix) {
         return TransformColumn(StridedView<glm::mat4x3>{.data = &matrix, .count = 1});

@@ -68,6 +68,12 @@ std::string_view reason_of_count(Field field) noexcept {
                : "fewer elements than instances, or than the indices ask for";
 }
 
+/// Whether instances read from it.
+bool is_column(Field field) noexcept {
+    return field == Field::poses || field == Field::previous_poses || field == Field::transform ||
+           field == Field::previous_transform;
+}
+
 std::string_view words(Field field, Reason reason) noexcept {
     switch (reason) {
         case Reason::none:
@@ -91,7 +97,9 @@ std::string_view words(Field field, Reason reason) noexcept {
         case Reason::too_short:
             return "its count is below what the instances' vertices take";
         case Reason::stride:
-            return "the stride is not a multiple of 4, or below what one vertex takes";
+            return is_column(field)
+                       ? "the stride is below what is read of an instance: a pose per region, a matrix"
+                       : "the stride is not a multiple of 4, or below what one vertex takes";
         case Reason::alignment:
             return "not aligned to the type of its elements";
         case Reason::overlap:

@@ -70,8 +70,8 @@ struct Batch {
     /// Empty, or one per instance: the element that it reads, in pools that other bodies' instances share.
     std::span<const std::uint32_t> indices = {};
 
-    /// Each element is the pose of the first region; those of the other regions follow it in memory. Must be
-    /// given.
+    /// Each element is the pose of the first region; those of the other regions follow it in memory, so that
+    /// the stride is at least region_count() poses, or 0: the same for all. Must be given.
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};          ///< as DeformJob::transform; default: the identity
     StridedView<float> wrinkle_weights = {};  ///< as DeformJob::wrinkle_weight; default: 1

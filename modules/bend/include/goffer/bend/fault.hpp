@@ -44,7 +44,7 @@ enum class Reason : std::uint8_t {
     out_of_range,   ///< outside 0..1 (a weight), WorkingRange (a body's number) or its column (an index)
     count,          ///< not as many as there are regions, instances or vertices
     too_short,      ///< a stream that ends before the last vertex
-    stride,         ///< no multiple of 4, or less than one vertex takes
+    stride,         ///< no multiple of 4, or less than one vertex takes; of a column, less than is read
     alignment,      ///< not aligned to its type
     overlap,        ///< two streams or instances may write to the same bytes
     not_supported,  ///< tangents of a body without any; an instruction set that cannot run here
