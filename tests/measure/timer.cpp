@@ -22,7 +22,7 @@ TEST_CASE("a quantile is the smallest value that its share of them do not exceed
 TEST_CASE("one thread is timed by its own clock, several by the wall's") {
     constexpr double milliseconds = 1e6;
     const auto sleep = [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); };
-    CHECK(measure::nanoseconds_of(2, sleep) >= 50 * milliseconds);
+    CHECK(measure::nanoseconds_of(2, sleep) >= 45 * milliseconds);  // a coarse clock may wake it early
 #ifndef _WIN32
     CHECK(measure::nanoseconds_of(1, sleep) < 25 * milliseconds);
 #endif
