@@ -20,7 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 class Picks(unittest.TestCase):
     def setUp(self):
-        self.files = [str(path.relative_to(ROOT)) for folder in ("modules", "bench") for path in (ROOT / folder).rglob("*.*")]
+        self.files = [str(path.relative_to(ROOT)) for folder in ("modules", "bench")
+                      for path in (ROOT / folder).rglob("*.*")]
 
     def test_they_depend_on_the_seed_alone(self):
         first = groups.candidates(ROOT, self.files, "paper", 1)

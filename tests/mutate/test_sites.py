@@ -22,8 +22,9 @@ class Cpp(unittest.TestCase):
         return " ".join(found.split())
 
     def test_what_is_not_touched(self):
-        for text in ("// 1 < 2", "/* 1\n < 2 */", '"1 < 2 \\" 3"', "'1'", "'\\''", 'R"(1 < 2)"', "#include <a1>", "# define A 1 \\\n 2",
-                     "static_assert(1 < 2,\n 3);", "assert(a < 1);", "template <class L, int N = 2>", "float matrix[12];",
+        for text in ("// 1 < 2", "/* 1\n < 2 */", '"1 < 2 \\" 3"', "'1'", "'\\''", 'R"(1 < 2)"', "#include <a1>",
+                     "# define A 1 \\\n 2", "static_assert(1 < 2,\n 3);", "assert(a < 1);", "template <class L, int N = 2>",
+                     "float matrix[12];",
                      "    alignas(64) float place[4], scale[4];"):
             with self.subTest(text):
                 self.assertEqual(self.blanked(text + "\nf(1);"), "f(1);")
@@ -38,7 +39,8 @@ class Cpp(unittest.TestCase):
                          {("arithmetic", "const float* a = b - c * d;"), ("arithmetic", "const float* a = b + c / d;")})
         self.assertEqual(changes("    x.y += b;"), {("arithmetic", "x.y -= b;"), ("statement", ";")})
         self.assertEqual(changes("    const bool a = b < c && d == e;"),
-                         {("comparison", "const bool a = b <= c && d == e;"), ("comparison", "const bool a = b > c && d == e;"),
+                         {("comparison", "const bool a = b <= c && d == e;"),
+                          ("comparison", "const bool a = b > c && d == e;"),
                           ("comparison", "const bool a = b < c && d != e;"), ("logic", "const bool a = b < c || d == e;")})
         self.assertEqual(changes("    const Vec a = L::nmadd(b, std::max(c, d), e);"),
                          {("multiply-add", "const Vec a = L::madd(b, std::max(c, d), e);"),

@@ -12,6 +12,7 @@ import pathlib
 import queue
 import subprocess
 import sys
+from collections.abc import Iterator
 
 from . import report, survivors
 from .groups import GROUPS, candidates, counts
@@ -37,9 +38,11 @@ def parse(words: list[str] | None) -> argparse.Namespace:
     add("--count", metavar="N", type=int, default=200, help="how many mutants; default %(default)s")
     add("--seed", metavar="N", type=int, default=1, help="which ones; default %(default)s")
     add("--only", metavar="GROUP", action="append", choices=sorted(GROUPS), help="one of %(choices)s; may be repeated")
-    add("--again", action="store_true", help="try those again that survived last time and are not explained, and bring the report up to date")
+    add("--again", action="store_true", help="try those again that survived last time and are not explained, "
+        "and bring the report up to date")
     add("--jobs", metavar="N", type=int, default=2, help="in so many copies at a time; default %(default)s")
-    add("--json", metavar="FILE", type=pathlib.Path, default=FOLDER / "report.json", help="default build/mutants/report.json")
+    add("--json", metavar="FILE", type=pathlib.Path, default=FOLDER / "report.json",
+        help="default build/mutants/report.json; what people read stands beside it")
     given = parser.parse_args(words)
     if given.count < 1 or given.jobs < 1:
         parser.error("--count, --jobs: 1 or more")
@@ -71,10 +74,9 @@ class Run:
         progress(f"{outcome.seconds:6.1f} s  {outcome.verdict:11} {mutant.file}:{mutant.line}: {mutant.new.strip()}")
         return Result(group, mutant, outcome, reason)
 
-    def all(self, wanted: dict[str, tuple[list[Mutant], int]]) -> list[Result]:
-        """Of each group the first so many that count, or all that there are."""
+    def all(self, wanted: dict[str, tuple[list[Mutant], int]]) -> Iterator[Result]:
+        """Of each group the first so many that count, or all that there are; as they come, with those that do not count."""
         left = {group: collections.deque(mutants) for group, (mutants, _) in wanted.items()}
-        results = []
         with concurrent.futures.ThreadPoolExecutor(self._jobs) as pool:
             def submit(group):
                 return {pool.submit(self._try, group, left[group].popleft())} if left[group] else set()
@@ -85,10 +87,9 @@ class Run:
             while running:
                 done, running = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
                 for one in (future.result() for future in done):
-                    results.append(one)
+                    yield one
                     if not one.counts:
                         running |= submit(one.group)
-        return sorted(results, key=lambda one: (one.group, one.mutant))
 
 
 def again(given: argparse.Namespace) -> tuple[list[Result], dict[str, tuple[list[Mutant], int]]]:
@@ -111,6 +112,15 @@ def again(given: argparse.Namespace) -> tuple[list[Result], dict[str, tuple[list
     return kept, wanted
 
 
+def write(given: argparse.Namespace, results: list[Result]) -> str:
+    """Leaves the report, for machines and people; the latter."""
+    given.json.parent.mkdir(parents=True, exist_ok=True)
+    given.json.write_text(json.dumps(report.document(results, given.seed), indent=2) + "\n", encoding="utf-8")
+    text = report.markdown(results)
+    given.json.with_suffix(".md").write_text(text, encoding="utf-8")
+    return text
+
+
 def run(given: argparse.Namespace) -> int:
     """Does what is asked for; the exit code."""
     if given.again:
@@ -125,12 +135,11 @@ def run(given: argparse.Namespace) -> int:
         tree.build(list(wanted))
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         list(pool.map(lambda tree: tree.time_tests(list(wanted)), trees))
-    results = kept + Run(trees).all(wanted)
-    given.json.parent.mkdir(parents=True, exist_ok=True)
-    given.json.write_text(json.dumps(report.document(results, given.seed), indent=2) + "\n", encoding="utf-8")
-    text = report.markdown(results)
-    given.json.with_suffix(".md").write_text(text, encoding="utf-8")
-    print(text, end="")
+    results = kept
+    for one in Run(trees).all(wanted):
+        results = sorted([*results, one], key=lambda one: (one.group, one.mutant))
+        write(given, results)  # each time: it takes hours, and may be interrupted
+    print(write(given, results), end="")
     return 1 if report.tally(results)["all"][3] else 0
 
 

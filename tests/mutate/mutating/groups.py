@@ -28,8 +28,9 @@ GROUPS = {
     "fit": Group(0.25, ("modules/fit/src/*.cpp",), ("scalar:test_fit",)),
     "importers": Group(0.2, ("modules/mesh/src/*/read.cpp", "modules/mesh/src/stl/stl.cpp", "modules/mesh/src/ply/ply.cpp",
                              "modules/mesh/src/text.cpp", "modules/mesh/src/gltf/accessor.cpp",
-                             "modules/mesh/src/gltf/document.cpp", "modules/mesh/src/gltf/placement.cpp",
-                             "modules/mesh/src/gltf/value.cpp"), ("scalar:test_mesh",)),
+                             "modules/mesh/src/gltf/document.cpp", "modules/mesh/src/gltf/nodes.cpp",
+                             "modules/mesh/src/gltf/placement.cpp", "modules/mesh/src/gltf/value.cpp"),
+                       ("scalar:test_mesh",)),
     "paper": Group(0.1, ("modules/paper/src/*.cpp",), ("scalar:test_paper",)),
     "gate": Group(0.1, ("bench/gating/*.py",), ("python:tests/gate",)),
 }

@@ -73,6 +73,6 @@ def markdown(results: list[Result]) -> str:
             lines += ["", f"## {title}", "", *listed(found)[:-1]]
     timed = [one.outcome.seconds for one in results if one.counts]
     others = len(results) - len(timed)
-    lines += ["", f"{sum(timed) / max(len(timed), 1):.1f} s a mutant. {others} more did not count: they were not compiled, or into "
-              "the same program."]
+    lines += ["", f"{sum(timed) / max(len(timed), 1):.1f} s a mutant. {others} more did not count: they were not compiled, or "
+              "into the same program, or they got stuck."]
     return "\n".join(lines) + "\n"

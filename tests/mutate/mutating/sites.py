@@ -40,7 +40,8 @@ CPP_BLANKED = re.compile(
 # Up to the semicolon, over several lines.
 CPP_ASSERTIONS = re.compile(r"\b(?:static_assert|assert|GOFFER_ASSERT)\b[^;]*;")
 CPP_TEMPLATES = re.compile(r"\btemplate\s*<")
-CPP_DECLARATION = re.compile(r"^\s*(?!return\b|throw\b)(?:(?:alignas\(\w+\)|static|const|constexpr|typename|mutable)\s+)*[\w:]+(?:<[^=()]*>)?[\s&*]+"
+CPP_DECLARATION = re.compile(r"^\s*(?!return\b|throw\b)(?:(?:alignas\(\w+\)|static|const|constexpr|typename|mutable)\s+)*"
+                             r"[\w:]+(?:<[^=()]*>)?[\s&*]+"
                              r"\w+(?:\[[^=()]*\])?(?:,\s*\*?\w+(?:\[[^=()]*\])?)*;", re.M)
 
 

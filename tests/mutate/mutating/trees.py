@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import hashlib
+import math
 import os
 import pathlib
 import re
@@ -24,9 +25,11 @@ OPTIONS = ["-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1", "-DGOFFER_TOOLS=O
            "-DGOFFER_SAMPLES=OFF", "-DGOFFER_INSTALL=OFF"]
 BUILDS = {"scalar": ["-DGOFFER_SIMD=OFF"], "vectors": ["-DGOFFER_SIMD=ON"]}
 SLOW = 0.5  # seconds, of a test case that is run after the others
-PATIENCE = 5  # times as long as the unchanged program takes
+PATIENCE = 5  # times as much of the processor as the unchanged program takes
 LEAST_PATIENCE = 10.0  # seconds
+STUCK = 1800.0  # seconds by the clock, which says little where the machine is busy
 LIMITED = ["prlimit", f"--as={8 << 30}", "--core=0"]  # a changed program may ask for all the memory that there is
+OUT_OF_TIME = (-signal.SIGXCPU, -signal.SIGKILL)
 
 
 class Broken(Exception):
@@ -46,7 +49,7 @@ class Stage:
 class Outcome:
     """What became of a mutant."""
 
-    verdict: str  # caught, survived, or not counted: unbuildable, same
+    verdict: str  # caught, survived, or not counted: unbuildable, same, stuck
     by: str = ""  # what caught it
     seconds: float = 0.0
 
@@ -116,10 +119,11 @@ class Tree:
                     continue
             same = False
             for stage in self._stages[build, program]:
-                limit = max(LEAST_PATIENCE, PATIENCE * stage.seconds)
-                code, _ = self._run(stage.command, stage.folder, limit)
+                code, _ = self._run(stage.command, stage.folder, max(LEAST_PATIENCE, PATIENCE * stage.seconds))
+                if code is None:
+                    return Outcome("stuck")
                 if code != 0:
-                    return Outcome("caught", "time" if code is None else f"{build} {program}")
+                    return Outcome("caught", "time" if code in OUT_OF_TIME else f"{build} {program}")
         return Outcome("same" if same else "survived")
 
     @contextlib.contextmanager
@@ -149,7 +153,7 @@ class Tree:
     def _doctest(self, build: str, program: str) -> list[Stage]:
         folder = self._folder / build
         command = [str(folder / "bin" / program)]
-        code, said = self._run([*command, "--duration=true"], folder, 3600)
+        code, said = self._run([*command, "--duration=true"], folder)
         if code != 0:
             raise Broken(f"{program} fails as it is:\n{faults(said)}")
         times = {name: float(seconds) for seconds, name in re.findall(r"^(\d+\.\d+) s: (.*)$", said, re.M)}
@@ -165,7 +169,7 @@ class Tree:
         for file in sorted(folder.glob("test_*.py")):
             stage = Stage(["/usr/bin/python3", "-B", "-m", "unittest", "-f", file.stem], folder)
             start = time.monotonic()
-            code, said = self._run(stage.command, folder, 3600)
+            code, said = self._run(stage.command, folder)
             if code != 0:
                 raise Broken(f"{tests} fails as it is:\n{faults(said)}")
             stage.seconds = time.monotonic() - start
@@ -182,8 +186,8 @@ class Tree:
         words = ["cmake", "--build", str(self._folder / build), "--target", program, "--parallel", "2"]
         # Paths below the folder count as relative, so that one copy finds what another compiled.
         cache = {"CCACHE_BASEDIR": str(self._folder), "CCACHE_NOHASHDIR": "1"}
-        done = subprocess.run(words, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                              env=os.environ | cache)
+        done = subprocess.run(words, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              errors="replace", env=os.environ | cache)
         if show and done.returncode != 0:
             print(done.stdout, file=sys.stderr)
         return done.returncode == 0
@@ -191,15 +195,16 @@ class Tree:
     def _digest(self, build: str, program: str) -> str:
         return hashlib.sha256((self._folder / build / "bin" / program).read_bytes()).hexdigest()
 
-    def _run(self, command: list[str], folder: pathlib.Path, limit: float) -> tuple[int | None, str]:
-        """The exit code, None where time is up, and what was said."""
+    def _run(self, command: list[str], folder: pathlib.Path, seconds: float = STUCK) -> tuple[int | None, str]:
+        """The exit code, None where the clock ran out, and what was said. `seconds` are the processor's."""
+        command = [*LIMITED, f"--cpu={math.ceil(seconds)}", *command]
         with tempfile.TemporaryDirectory(dir=self._folder) as scratch:
             # With no more models than those of the tree, so that every machine finds the same.
             environment = os.environ | {"TMPDIR": scratch, "GOFFER_MODELS": scratch, "GOFFER_TEST_ROUNDS": "few"}
-            with subprocess.Popen([*LIMITED, *command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                   errors="replace", env=environment, start_new_session=True) as process:
                 try:
-                    said, _ = process.communicate(timeout=limit)
+                    said, _ = process.communicate(timeout=STUCK)
                     return process.returncode, said
                 except subprocess.TimeoutExpired:
                     os.killpg(process.pid, signal.SIGKILL)
