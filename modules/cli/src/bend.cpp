@@ -82,10 +82,10 @@ Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, con
     if (const bend::Fault fault = bend::validate(job); !fault.none())
         throw InputError("cannot deform: " + std::string(bend::describe(fault)));
     tbb::task_arena arena(request.threads);
-    std::vector<double> times;  // of a few runs: the first one also pays for memory that was never touched
-    for (int i = 0; i < 9; ++i) {
-        times.push_back(measure::nanoseconds_of(request.threads,
-                                                [&] { arena.execute([&] { bend::run_parallel(job); }); }));
+    std::vector<double> times(9);  // the first run also pays for memory that was never touched
+    for (double& time : times) {
+        time = measure::nanoseconds_of(request.threads,
+                                       [&] { arena.execute([&] { bend::run_parallel(job); }); });
     }
     result.microseconds = 1e-3 * measure::median(times);
     put_in_model_order(result.records.positions, binding);
