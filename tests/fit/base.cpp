@@ -58,7 +58,7 @@ TEST_CASE("the wrinkled base has the area that its amplitude and its profile giv
 }
 
 TEST_CASE("regions' bases change by their shares of the length") {
-    fit::BindOptions options;
+    fit::BindOptions options = fit::BindOptions::as_in_paper();
     options.regions = {{0.4, 3}, {0.6, 0}};
     const double wrinkled = paper::lateral_area(Profile::damped, 3, 0.4 * length, radius, 0.9, 1) - 1;
     CHECK(change(options, {0.9, 1.2}) == doctest::Approx(0.4 * wrinkled - 0.6 * 1.2 / 6));
@@ -73,16 +73,19 @@ TEST_CASE("of bases that are bent at rest or have an onset no area is said") {
 }
 
 TEST_CASE("a wrinkle is as deep as eq 7 says of the most squeezed column") {
-    fit::BindOptions options;
-    options.regions = {{0.4, 3}, {0.6, 0}};
-    const fit::Binding binding = bound(options);
-    const double depth =
-        paper::amplitude(Profile::damped, 3, 0.4 * length, 2 * 0.9 * radius / (0.4 * length));
-    CHECK(depth > 0.1);
-    CHECK(fit::wrinkle_depth(binding, 0, 0.9) == doctest::Approx(depth));
-    CHECK(fit::wrinkle_depth(binding, 0, -0.9) == doctest::Approx(depth));
-    CHECK(fit::wrinkle_depth(binding, 0, 0) == 0);
-    CHECK(fit::wrinkle_depth(binding, 1, 0.9) == 0);
+    for (const Profile profile : {Profile::damped, Profile::even}) {
+        fit::BindOptions options;
+        options.profile = profile;
+        options.regions = {{0.4, 3}, {0.6, 0}};
+        const fit::Binding binding = bound(options);
+        const double depth =
+            profile.trough() * paper::amplitude(profile, 3, 0.4 * length, 2 * 0.9 * radius / (0.4 * length));
+        CHECK(depth > 0.1);
+        CHECK(fit::wrinkle_depth(binding, 0, 0.9) == doctest::Approx(depth));
+        CHECK(fit::wrinkle_depth(binding, 0, -0.9) == doctest::Approx(depth));
+        CHECK(fit::wrinkle_depth(binding, 0, 0) == 0);
+        CHECK(fit::wrinkle_depth(binding, 1, 0.9) == 0);
+    }
 }
 
 TEST_CASE("a rest arc's center line lies a radius inside its outer line") {

@@ -121,11 +121,13 @@ TEST_CASE("the largest angle lies just below where the outermost vertex meets th
 TEST_CASE("within the largest angle nothing folds through itself") {
     Random random(21);
     for (int trial = 0; trial < 10; ++trial) {
-        const TestMesh test_mesh = random_mesh(random, uniform(random, 4, 20), 1);
-        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder);
-        const paper::Parameters body{1, test_mesh.cylinder.radius, binding.folds(), Profile::damped,
-                                     Amplitude::paper};
-        const paper::ClosedForm map(body, {static_cast<double>(binding.body.max_angle()), 0});
+        TestMesh test_mesh = random_mesh(random, uniform(random, 4, 20), 1);
+        if (trial % 3 == 0) add_radii(test_mesh, random);
+        fit::BindOptions options;
+        options.profile = random_profile(random);
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        const paper::ClosedForm map(parameters_of(binding, options, 0),
+                                    {static_cast<double>(binding.body.max_angle()), 0});
         // The arc's parameter grows along every column: each step goes forward along the bent center line.
         double largest = 0;
         for (const glm::vec3& position : test_mesh.positions) {
@@ -137,7 +139,9 @@ TEST_CASE("within the largest angle nothing folds through itself") {
                 const double z = i / 200.0, step = 1e-4;
                 const glm::dvec3 a = map.position({0, z, rho});
                 const glm::dvec3 b = map.position({0, z + step, rho});
-                const double phi = static_cast<double>(binding.body.max_angle()) * z;
+                const auto& shape = binding.regions[0].shape;
+                const auto curvature = static_cast<double>(binding.body.max_angle());
+                const double phi = curvature * (z - (shape ? curvature * shape->drift(z) : 0));
                 REQUIRE(glm::dot(b - a, glm::dvec3(std::sin(phi), 0, std::cos(phi))) > 0);
             }
         }
@@ -149,7 +153,10 @@ TEST_CASE("folds that nobody asked for are never more than bind takes") {
     const auto folds = [&](double slenderness) {
         const TestMesh mesh = random_mesh(random, slenderness, 1, 3, static_cast<int>(9 * slenderness), 0);
         REQUIRE(fit::folds_capacity(mesh.geometry(), mesh.cylinder) > fit::BindOptions::max_folds);
-        return fit::bind(mesh.geometry(), mesh.cylinder).folds();
+        fit::BindOptions damped;
+        damped.profile = Profile::damped;
+        CHECK(fit::bind(mesh.geometry(), mesh.cylinder).folds() == 2 * fit::BindOptions::max_folds);
+        return fit::bind(mesh.geometry(), mesh.cylinder, damped).folds();
     };
     CHECK(folds(160) == fit::BindOptions::max_folds);
     CHECK(folds(300) == 0);  // 64 of the 150 that suit it would reach past the axis
@@ -166,7 +173,18 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
     };
     CHECK(refused([](TestMesh&, fit::BindOptions&) {}).empty());
     using Options = fit::BindOptions;
-    CHECK(refused([](TestMesh&, Options& o) { o.folds = 65; }).find("folds") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.folds = 129; }).find("folds") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) {
+              o.profile = Profile::damped;
+              o.folds = 65;
+          }).find("folds: 65 is outside 0..64") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.profile.roundness = 0.6; }).find("roundness") !=
+          std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.fold_length = 0; }).find("fold_length") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) { s.cylinder.radii = {1}; }).find("radii") != std::string::npos);
+    CHECK(refused([](TestMesh& s, Options&) {
+              s.cylinder.radii = {1, 2};
+          }).find("radii have the mean 1.5") != std::string::npos);
     CHECK(refused([](TestMesh&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
     CHECK(refused([](TestMesh&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
     CHECK(refused([](TestMesh& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") !=

@@ -301,16 +301,24 @@ TEST_CASE("refine: a body's stretches are its regions, with the folds asked for 
     cylinder.length = 20;
     cylinder.radius = 1;
     const auto folds_of = [&](const fit::BindOptions& options) {
-        std::vector<std::pair<double, int>> folds;
+        std::vector<std::pair<double, double>> folds;
         for (const auto& [length, count] : fit::stretches_of(cylinder, options))
             folds.emplace_back(length, count);
         return folds;
     };
-    using Folds = std::vector<std::pair<double, int>>;
-    CHECK(folds_of({}) == Folds{{20, 10}});
-    CHECK(folds_of({.folds = 3}) == Folds{{20, 3}});
-    CHECK(folds_of({.regions = {{0.25, 0}, {0.75, std::nullopt}}}) == Folds{{5, 0}, {15, 8}});
-    CHECK(folds_of({.folds = 4, .regions = {{0.25, 2}, {0.75, std::nullopt}}}) == Folds{{5, 2}, {15, 4}});
+    using Folds = std::vector<std::pair<double, double>>;
+    const paper::Profile damped = paper::Profile::damped;
+    CHECK(folds_of({.profile = damped}) == Folds{{20, 10}});
+    CHECK(folds_of({.fold_length = 2, .profile = damped}) == Folds{{20, 5}});
+    CHECK(folds_of({.folds = 3, .profile = damped}) == Folds{{20, 3}});
+    CHECK(folds_of({.profile = damped, .regions = {{0.25, 0}, {0.75, std::nullopt}}}) ==
+          Folds{{5, 0}, {15, 8}});
+    CHECK(folds_of({.folds = 4, .profile = damped, .regions = {{0.25, 2}, {0.75, std::nullopt}}}) ==
+          Folds{{5, 2}, {15, 4}});
+    // Those of `even` are counted over the whole length.
+    CHECK(folds_of({}) == Folds{{20, 13.5}});
+    CHECK(folds_of({.fold_length = 0.5}) == Folds{{20, 20}});
+    CHECK(folds_of({.folds = 7}) == Folds{{20, 3.5}});
 }
 
 TEST_CASE("refine: triangles without an area, and with three at an edge, do not tear") {
@@ -354,7 +362,7 @@ TEST_CASE("refine: bad input is named") {
     CHECK(told({{0, 3}}).starts_with("length is 0; give"));
     CHECK(told({{5, 3}, {nan, 3}}).starts_with("length of stretch 1 is nan"));
     CHECK(told({{5, -1}}).starts_with("folds: -1; give 0 to 1048576"));
-    CHECK(told({{5, 3}, {5, (1 << 20) + 1}}).starts_with("folds of stretch 1: 1048577"));
+    CHECK(told({{5, 3}, {5, (1 << 20) + 1}}).starts_with("folds of stretch 1: 1.049e+06"));
     heights[7] = nan;
     CHECK(told({{10, 3}}).starts_with("height of vertex 7 is NaN"));
     heights.pop_back();

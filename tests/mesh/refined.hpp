@@ -32,7 +32,7 @@ inline MeshRecipe recipe(const mesh::Mesh& mesh, int axis, int folds = 1) {
     for (const glm::vec3& p : mesh.positions) heights.push_back(static_cast<double>(p[axis]));
     const auto [low, high] = std::ranges::minmax(heights);
     for (double& z : heights) z -= low;
-    const fit::Stretch whole{high - low, folds};
+    const fit::Stretch whole{high - low, static_cast<double>(folds)};
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     MeshRecipe recipe;
     recipe.made = fit::refine({mesh.positions, triangles}, heights, {&whole, 1});

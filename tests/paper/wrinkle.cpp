@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -15,6 +16,12 @@ namespace {
 // Eq 6 and its derivative, written down a second time.
 double slope(Profile profile, int folds, double u) {
     const double w = 2 * std::numbers::pi * folds;
+    if (profile.kind == Profile::Kind::even) {
+        const double t = std::min((1 - u) * folds, 1.0), p = w / 2 * u, b = profile.roundness;
+        const double fade = 3 * t * t - 2 * t * t * t, fade_slope = t < 1 ? -6 * folds * (t - t * t) : 0;
+        return fade_slope * (std::cos(p) - b * std::cos(2 * p)) -
+               fade * w / 2 * (std::sin(p) - 2 * b * std::sin(2 * p));
+    }
     if (profile == Profile::damped) return -std::cos(w * u) - w * (1 - u) * std::sin(w * u);
     return -4 * u * (1 - u * u) * std::cos(w * u) - w * std::pow(1 - u * u, 2) * std::sin(w * u);
 }
@@ -29,7 +36,8 @@ double simpson(int steps, F&& f) {
 }  // namespace
 
 TEST_CASE("eq 7 is solved: the wrinkled strip is as long as the column was") {
-    for (const Profile profile : {Profile::damped, Profile::smooth}) {
+    const Profile plain_cosine{Profile::Kind::even, 0}, roundest{Profile::Kind::even, 0.5};
+    for (const Profile profile : {Profile::damped, Profile::smooth, Profile::even, plain_cosine, roundest}) {
         for (const int folds : {1, 2, 5, 12}) {
             for (const double q : {1e-12, 1e-6, 0.05, 0.1, 0.25, 0.5, 0.65, 0.9}) {
                 const double a = relative_amplitude(profile, folds, q);
@@ -46,7 +54,7 @@ TEST_CASE("eq 7 is solved: the wrinkled strip is as long as the column was") {
 }
 
 TEST_CASE("eq 7 is solved for the steepest columns") {
-    for (const Profile profile : {Profile::damped, Profile::smooth}) {
+    for (const Profile profile : {Profile::damped, Profile::smooth, Profile::even}) {
         for (const double q : {0.99, 0.999}) {
             const double a = relative_amplitude(profile, 3, q);
             const double length =
@@ -91,8 +99,33 @@ TEST_CASE("shapes: values at the ends, slope, mean displacement") {
     CHECK(std::abs(shape_slope(Profile::smooth, 3, 1)) < 1e-14);
 }
 
+TEST_CASE("even folds: fading ends, crests and troughs of the depth that the profile says") {
+    for (const double roundness : {0.0, 0.1, 0.25, 0.4, 0.5}) {
+        const Profile profile{Profile::Kind::even, roundness};
+        for (const int folds : {1, 2, 9, 12}) {
+            CHECK(shape(profile, folds, 1) == 0);
+            CHECK(shape_slope(profile, folds, 1) == doctest::Approx(0));
+            CHECK(shape_slope(profile, folds, 0) == doctest::Approx(0));
+            double crest = 0, trough = 0;
+            for (double u = 0; u <= 1; u += 1e-4) {
+                crest = std::max(crest, shape(profile, folds, u));
+                trough = std::max(trough, -shape(profile, folds, u));
+            }
+            CHECK(crest <= profile.crest() + 1e-12);
+            CHECK(trough <= profile.trough() + 1e-12);
+            if (folds < 9) continue;
+            CHECK(crest == doctest::Approx(profile.crest()).epsilon(1e-4));
+            CHECK(trough == doctest::Approx(profile.trough()).epsilon(1e-4));
+        }
+    }
+    CHECK(Profile::even.folds_of_length(7) == 7);
+    CHECK(Profile::damped.folds_of_length(7) == 14);
+    CHECK_THROWS_AS(Wave({Profile::Kind::even, 0.6}, 3, 0.1), std::invalid_argument);
+    CHECK_THROWS_AS(Wave({Profile::Kind::even, std::nan("")}, 3, 0.1), std::invalid_argument);
+}
+
 TEST_CASE("a column's slope is the derivative of its amplitude by the root of the squeeze") {
-    for (const Profile profile : {Profile::damped, Profile::smooth}) {
+    for (const Profile profile : {Profile::damped, Profile::smooth, Profile::even}) {
         const Wave wave(profile, 5, 0.96);
         for (const double root : {0.01, 0.3, 0.6, 0.9, 0.97}) {
             const double h = 1e-4;

@@ -96,6 +96,13 @@ inline TestMesh random_mesh(Random& random, double slenderness, double scale, in
     return test_mesh;
 }
 
+/// Any profile.
+inline paper::Profile random_profile(Random& random) {
+    const paper::Profile even{paper::Profile::Kind::even, uniform(random, 0, 0.5)};
+    const paper::Profile profiles[] = {paper::Profile::damped, paper::Profile::smooth, even};
+    return profiles[random() % 3];
+}
+
 /// Vertices that no mesh need have, for tests that ask where values go: heights up to 1, up to `widest` from
 /// the axis.
 struct LooseVertices {
@@ -117,6 +124,17 @@ struct LooseVertices {
         }
     }
 
+    /// Gives them the shape of a body that no mesh need have, up to max_scale times as thick.
+    void add_shape(Random& random) {
+        const double roughness = random() % 2 == 0 ? 0.01 : 0;
+        for (bend::RestVertex& v : vertices) {
+            v.scale = uniform(random, 0.3, max_scale);
+            v.scale_slope = uniform(random, -1, 1);
+            v.drift = 0.1 * v.z * (1 - v.z) + roughness * uniform(random, -1, 1);
+        }
+    }
+    static constexpr double max_scale = 1.4;
+
     /// A body of them. Radius 0.1.
     [[nodiscard]] bend::Body body(std::span<const bend::RegionInput> regions) const {
         bend::BodyInput input;
@@ -135,6 +153,24 @@ inline bend::RegionInput loose_region(std::size_t vertex_count) {
     static const bend::WrinkleTable table =
         fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 3, 1, 0.1, 4.9, 32);
     return {.length = 1, .max_angle = 4.9, .table = table, .vertex_count = vertex_count};
+}
+
+/// Such a region of vertices with a shape.
+inline bend::RegionInput loose_shaped_region(std::size_t vertex_count) {
+    static const bend::WrinkleTable table = fit::make_wrinkle_table(
+        paper::Profile::even, paper::Amplitude::paper, 6, 1, 0.1, 3.5, 32, LooseVertices::max_scale);
+    bend::RegionInput region{.length = 1, .max_angle = 3.5, .table = table, .vertex_count = vertex_count};
+    region.max_scale = LooseVertices::max_scale;
+    return region;
+}
+
+/// The same as loose_body, with a shape.
+inline bend::Body loose_shaped_body(Random& random, std::size_t count, double widest = 0.11) {
+    bend::RegionInput region = loose_shaped_region(count);
+    if (random() % 3 == 0) region.rest_angle = uniform(random, 0.1, 2);
+    LooseVertices loose(random, count, widest);
+    loose.add_shape(random);
+    return loose.body({&region, 1});
 }
 
 /// A body of one region of any vertices at all. Length 1, radius 0.1, three folds.
@@ -224,16 +260,42 @@ inline bend::DeformJob make_job(const bend::Body& body, const bend::Pose& pose, 
     return job;
 }
 
+/// What the reference takes for a region of a bound body.
+inline paper::Parameters parameters_of(const fit::Binding& binding, const fit::BindOptions& options,
+                                       std::size_t region) {
+    const fit::RegionBinding& found = binding.regions[region];
+    const fit::Cylinder& cylinder = binding.cylinder;
+    paper::Parameters body{found.length, found.shape ? found.shape->radius() : cylinder.radius, found.folds,
+                           options.profile, options.amplitude};
+    body.rest_angle = cylinder.rest_angle * body.length / cylinder.length;
+    body.rest_direction = cylinder.rest_direction;
+    body.onset = static_cast<double>(binding.body.regions()[region].onset);
+    body.shape = found.shape;
+    return body;
+}
+
+/// Gives the base of `test_mesh` radii of its own, from 0.3 to 1.7 of its radius.
+inline void add_radii(TestMesh& test_mesh, Random& random) {
+    fit::Cylinder& c = test_mesh.cylinder;
+    const double taper = uniform(random, -0.6, 0.6), wave = uniform(random, 0, 0.1);
+    constexpr int knots = 13;
+    for (int i = 0; i < knots; ++i) {
+        const double t = 2.0 * i / (knots - 1) - 1;
+        c.radii.push_back(c.radius * (1 + taper * t + wave * uniform(random, -1, 1)));
+    }
+    c.radius = paper::Spline(c.length, c.radii).integral(c.length) / c.length;
+}
+
 /// The closed form of `test_mesh`'s deformation in double, in model space, from the positions as float holds
 /// them.
 class Reference {
 public:
-    Reference(const TestMesh& test_mesh, const fit::BindOptions& options, int folds, const bend::Pose& pose)
+    Reference(const TestMesh& test_mesh, const fit::BindOptions& options, const fit::Binding& binding,
+              const bend::Pose& pose)
         : test_mesh_(test_mesh),
           axes_(test_mesh.cylinder.zero, glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero),
                 test_mesh.cylinder.axis),
-          map_({test_mesh.cylinder.length, test_mesh.cylinder.radius, folds, options.profile,
-                options.amplitude},
+          map_(parameters_of(binding, options, 0),
                {static_cast<double>(pose.angle), static_cast<double>(pose.direction)}) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,10 +16,18 @@
 
 namespace goffer::test {
 
+/// The shape of all of a cylinder; null without radii.
+inline std::shared_ptr<const paper::Shape> shape_of(const fit::Cylinder& c) {
+    if (c.radii.empty()) return nullptr;
+    return std::make_shared<const paper::Shape>(c.length, c.radius, paper::Shape::Knots{.radius = c.radii});
+}
+
 /// `test_mesh`, which is straight, bent: its mesh then has the rest arc that its cylinder says.
 inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
     fit::Cylinder& c = test_mesh.cylinder;
-    const paper::ClosedForm map({.length = c.length, .radius = c.radius}, {angle, direction});
+    paper::Parameters bare{.length = c.length, .radius = c.radius};
+    bare.shape = shape_of(c);
+    const paper::ClosedForm map(bare, {angle, direction});
     const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
     for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         const paper::Cylindrical at =
@@ -49,7 +58,8 @@ public:
           axes_(test_mesh.cylinder.zero, glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero),
                 test_mesh.cylinder.axis),
           rest_{test_mesh.cylinder.rest_angle, test_mesh.cylinder.rest_direction},
-          chain_(regions(test_mesh.cylinder, options, binding), doubled(poses)) {}
+          shape_(shape_of(binding.cylinder)),
+          chain_(regions(options, binding), doubled(poses)) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {
         const At at = rest(i);
@@ -59,17 +69,17 @@ public:
         const At at = rest(i);
         const glm::dvec3 own(test_mesh_.normals[at.vertex]);
         return axes_ * chain_.normal(at.region, at.local,
-                                     paper::straightened_normal(glm::transpose(axes_) * own, at.whole,
-                                                                test_mesh_.cylinder.length,
-                                                                test_mesh_.cylinder.radius, rest_));
+                                     paper::straightened_normal(
+                                         glm::transpose(axes_) * own, at.whole, binding_.cylinder.length,
+                                         binding_.cylinder.radius, rest_, shape_.get()));
     }
     [[nodiscard]] glm::dvec3 tangent(std::size_t i) const {
         const At at = rest(i);
         const glm::dvec3 own(test_mesh_.tangents[at.vertex]);
         return axes_ * chain_.tangent(at.region, at.local,
-                                      paper::straightened_tangent(glm::transpose(axes_) * own, at.whole,
-                                                                  test_mesh_.cylinder.length,
-                                                                  test_mesh_.cylinder.radius, rest_));
+                                      paper::straightened_tangent(
+                                          glm::transpose(axes_) * own, at.whole, binding_.cylinder.length,
+                                          binding_.cylinder.radius, rest_, shape_.get()));
     }
 
 private:
@@ -83,26 +93,20 @@ private:
         at.vertex = binding_.order.empty() ? i : binding_.order[i];
         const glm::dvec3 point = glm::transpose(axes_) *
                                  (glm::dvec3(test_mesh_.positions[at.vertex]) - test_mesh_.cylinder.origin);
-        at.whole =
-            paper::to_cylindrical(point, test_mesh_.cylinder.length, test_mesh_.cylinder.radius, rest_);
+        at.whole = paper::to_cylindrical(point, binding_.cylinder.length, binding_.cylinder.radius, rest_);
+        if (shape_ && rest_.angle != 0)
+            at.whole.z = shape_->unshifted(at.whole.z, rest_.angle / binding_.cylinder.length);
         at.local = at.whole;
         const std::span<const bend::Region> regions = binding_.body.regions();
         while (i >= regions[at.region].last) at.local.z -= binding_.regions[at.region++].length;
         return at;
     }
 
-    static std::vector<paper::Parameters> regions(const fit::Cylinder& cylinder,
-                                                  const fit::BindOptions& options,
+    static std::vector<paper::Parameters> regions(const fit::BindOptions& options,
                                                   const fit::Binding& binding) {
         std::vector<paper::Parameters> bodies;
-        for (std::size_t r = 0; r < binding.regions.size(); ++r) {
-            paper::Parameters body{binding.regions[r].length, cylinder.radius, binding.regions[r].folds,
-                                   options.profile, options.amplitude};
-            body.rest_angle = cylinder.rest_angle * body.length / cylinder.length;
-            body.rest_direction = cylinder.rest_direction;
-            body.onset = static_cast<double>(binding.body.regions()[r].onset);
-            bodies.push_back(body);
-        }
+        for (std::size_t r = 0; r < binding.regions.size(); ++r)
+            bodies.push_back(parameters_of(binding, options, r));
         return bodies;
     }
 
@@ -117,6 +121,7 @@ private:
     const fit::Binding& binding_;
     glm::dmat3 axes_;
     paper::Pose rest_;
+    std::shared_ptr<const paper::Shape> shape_;
     paper::Chain chain_;
 };
 

@@ -64,6 +64,7 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
     cylinder.rest_angle = radians(fit.value("rest_angle", 0.0));
     cylinder.rest_direction = radians(fit.value("rest_direction", 0.0));
     cylinder.residual = fit.value("residual", 0.0);
+    if (fit.contains("radii")) cylinder.radii = fit.at("radii").get<std::vector<double>>();
     return cylinder;
 }
 
@@ -133,6 +134,7 @@ fit::Amplitude parse_amplitude(const std::string& text) {
 }
 
 fit::Profile parse_profile(const std::string& text) {
+    if (text == "even") return fit::Profile::even;
     return text == "smooth" ? fit::Profile::smooth : fit::Profile::damped;
 }
 

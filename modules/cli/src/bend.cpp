@@ -172,7 +172,7 @@ void add_bend(CLI::App& app, Action& action) {
         "bent there gets that shape back from the angle and direction that 'goffer inspect' reports.");
     add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
-    add_refine_word(*command, options->bind);
+    add_refine_word(*command, options->bind, "auto");
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")

@@ -21,8 +21,15 @@ void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
 
 void add_bind_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
-                       "Make this many folds per half length of a region, or a list of one number for each "
-                       "(default: what suits the body and its mesh)");
+                       "Make this many folds over the length of a region (with --profile damped or smooth: "
+                       "over half of it), or a list of one number for each (default: what suits the body and "
+                       "its mesh)");
+    command
+        .add_option(
+            "--fold-length", words.fold_length,
+            "Make folds so many radii long: the shorter, the shallower (default: 0.75; with --profile "
+            "damped or smooth 1)")
+        ->check(number_within(0.05, 10, "a number of radii"));
     command
         .add_option("--amplitude", words.amplitude,
                     "Choose wrinkles' depth: paper (keeps lengths), area (keeps the base's area), mesh "
@@ -31,9 +38,25 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         ->capture_default_str();
     command
         .add_option("--profile", words.profile,
-                    "Choose wrinkles' shape: damped (the paper's, with creases), smooth")
-        ->check(CLI::IsMember({"damped", "smooth"}))
+                    "Choose wrinkles' shape: even (of one depth), damped (the paper's, with creases), smooth")
+        ->check(CLI::IsMember({"even", "damped", "smooth"}))
         ->capture_default_str();
+    command
+        .add_option("--roundness", words.roundness,
+                    "Round the crests of --profile even, 0 to 0.5; 0 is a plain cosine")
+        ->check(number_within(0, 0.5, "a roundness"))
+        ->capture_default_str();
+    command
+        .add_option("--shape", words.shape,
+                    "Take the body for: auto (as thick as it is, here and there), cylinder (of one radius)")
+        ->check(CLI::IsMember({"auto", "cylinder"}))
+        ->capture_default_str();
+    command
+        .add_flag("--paper", words.paper,
+                  "Bend as the paper has it: --profile damped --shape cylinder --amplitude paper --onset 0")
+        ->excludes(command.get_option("--profile"))
+        ->excludes(command.get_option("--shape"))
+        ->excludes(command.get_option("--amplitude"));
     command
         .add_option("--onset", words.onset,
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
@@ -41,9 +64,15 @@ void add_bind_words(CLI::App& command, BindWords& words) {
     add_fit_words(command, words.axis, words.rest);
 }
 
-void add_refine_word(CLI::App& command, BindWords& words) {
-    command.add_flag("--refine", words.refine,
-                     "Add vertices along the body until its mesh carries the folds");
+void add_refine_word(CLI::App& command, BindWords& words, const std::string& usual) {
+    words.refine = usual;
+    command
+        .add_option("--refine", words.refine,
+                    "Add vertices along the body until its mesh carries the folds: off, on, auto (where that "
+                    "takes no more than a million triangles)")
+        ->expected(0, 1)
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->default_str(usual);
 }
 
 BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
@@ -53,8 +82,18 @@ BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions>
     options.onset = words.onset;
     options.amplitude = parse_amplitude(words.amplitude);
     options.profile = parse_profile(words.profile);
-    refine = words.refine;
-    if (refine && words.folds == "0")
+    options.profile.roundness = words.roundness;
+    options.fold_length = words.fold_length;
+    if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
+    if (words.paper) {
+        const fit::BindOptions paper = fit::BindOptions::as_in_paper();
+        options.profile = paper.profile;
+        options.shape = paper.shape;
+        options.amplitude = paper.amplitude;
+        if (!options.onset) options.onset = paper.onset;
+    }
+    refine = words.refine.empty() ? "on" : words.refine;
+    if (refine == "on" && words.folds == "0")
         throw UsageError(
             "--refine: without folds there is nothing to refine for; leave out one of --folds 0, --refine");
 }
@@ -68,11 +107,15 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
         fit::check(geometry);
-        return given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis, request.rest);
+        const fit::Cylinder found =
+            given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis, request.rest);
+        const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
+        return shaped ? fit::fit_shape(geometry, found) : found;
     });
     std::optional<Growth> growth;
-    if (request.refine) {
-        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options); });
+    if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
+        growth =
+            in_file(file, [&] { return refine(mesh, cylinder, request.options, request.refine == "auto"); });
         rest = mesh::vertex_arrays(mesh);
         geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
     }

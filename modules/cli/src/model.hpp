@@ -22,29 +22,34 @@ namespace goffer::cli {
 /// Words on how models are fitted and bound.
 struct BindWords {
     std::optional<std::string> folds = {};
-    std::string amplitude = "paper";
-    std::string profile = "damped";
+    std::optional<double> fold_length = {};
+    std::string amplitude = "mesh";
+    std::string profile = "even";
+    double roundness = 0.25;
+    std::string shape = "auto";
+    bool paper = false;  ///< as the paper has it
     std::string axis = "auto";
     std::string rest = "auto";
     std::optional<double> onset = {};
-    bool refine = false;  ///< split edges until the mesh carries the folds
+    std::string refine = "off";  ///< split edges until the mesh carries the folds: auto, on, off
 };
 
 /// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
-/// Adds --folds, --amplitude, --profile, --onset, --axis and --rest. `words` must outlive `command`.
+/// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --onset, --axis and
+/// --rest. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
-/// Adds --refine. `words` must outlive `command`.
-void add_refine_word(CLI::App& command, BindWords& words);
+/// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.
+void add_refine_word(CLI::App& command, BindWords& words, const std::string& usual);
 
 /// Such words, understood. Throws UsageError.
 struct BindRequest {
     std::optional<glm::dvec3> axis;
     fit::Rest rest;
     fit::BindOptions options;
-    bool refine = false;
+    std::string refine;
 
     /// `regions`: as PoseRequest's; none for a body of one region.
     explicit BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions = {});

@@ -9,7 +9,7 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/refined.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ void run_refine(const RefineOptions& options) {
     BindWords words;
     words.axis = options.axis;
     words.rest = options.rest;
-    words.refine = true;
+    words.refine = "on";
     BindRequest request(words);
     request.options.folds = options.folds;
     if (!options.fit.empty() && request.axis)
@@ -53,17 +53,37 @@ void run_refine(const RefineOptions& options) {
     report.finish();
 }
 
+/// Returns nothing if the refined mesh would be too large and that is allowed.
+std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const fit::Cylinder& cylinder,
+                                          std::span<const fit::Stretch> wanted, bool sparing) {
+    if (!sparing) return fit::refine(geometry, cylinder, wanted);
+    constexpr std::size_t most = 1'000'000;
+    const std::size_t limit = std::max(most, geometry.triangles.size() / 3);
+    try {
+        return fit::refine(geometry, cylinder, wanted, {.max_triangles = limit});
+    } catch (const fit::Error&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
-Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options) {
+Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
+              bool sparing) {
     Growth growth;
     const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
-    for (const fit::Stretch& stretch : wanted) growth.folds = std::max(growth.folds, stretch.folds);
+    double folds = 0;
+    for (const fit::Stretch& stretch : wanted) folds += stretch.folds;
+    growth.folds = static_cast<int>(std::round(folds));
     growth.vertices_before = mesh.positions.size();
     growth.triangles_before = mesh::triangle_count(mesh);
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     const fit::Geometry geometry{mesh.positions, triangles};
-    const fit::Refinement made = fit::refine(geometry, cylinder, wanted);
+    const std::optional<fit::Refinement> found = refinement(geometry, cylinder, wanted, sparing);
+    growth.vertices_after = growth.vertices_before;
+    growth.triangles_after = growth.triangles_before;
+    if (!found) return growth;
+    const fit::Refinement& made = *found;
     std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});

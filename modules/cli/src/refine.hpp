@@ -15,14 +15,16 @@ namespace goffer::cli {
 
 /// How a mesh grew.
 struct Growth {
-    int folds = 0;  ///< that it was refined for: of the region that has the most
+    int folds = 0;  ///< that it was refined for, per half length, in all regions together
     std::size_t vertices_before = 0, vertices_after = 0;
     std::size_t triangles_before = 0, triangles_after = 0;
 };
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that
-/// suits the body where nobody says. Throws what fit and mesh throw.
-Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options);
+/// suits the body where nobody says. `sparing`: leaves a mesh as it is that would get more than a million
+/// triangles. Throws what fit and mesh throw.
+Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
+              bool sparing = false);
 
 /// The growth, as a line and as "refined" in the JSON. Warns where there was no fold to refine for.
 void report_growth(Report& report, const Growth& growth);

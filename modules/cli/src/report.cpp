@@ -5,6 +5,7 @@
 
 #include <goffer/io/atomic_file.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -95,6 +96,7 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     fit["rest_angle"] = degrees(cylinder.rest_angle);
     fit["rest_direction"] = degrees(cylinder.rest_direction);
     fit["residual"] = cylinder.residual;
+    if (!cylinder.radii.empty()) fit["radii"] = cylinder.radii;
     report.line("base end", vector_text(cylinder.origin, cylinder.length));
     report.line("axis", vector_text(cylinder.axis, 1));
     report.line("zero direction", vector_text(cylinder.zero, 1));
@@ -103,6 +105,10 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     if (cylinder.rest_angle != 0) {
         report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees toward " +
                                    number(degrees(cylinder.rest_direction)));
+    }
+    if (!cylinder.radii.empty()) {
+        const auto [thinnest, thickest] = std::ranges::minmax(cylinder.radii);
+        report.line("shape", "radii from " + number(thinnest) + " to " + number(thickest));
     }
     report.line("fit residual", number(cylinder.residual) + " of the radius");
 }

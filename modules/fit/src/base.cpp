@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <goffer/fit/base.hpp>
+#include <goffer/paper/wave.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,9 @@ std::optional<double> base_area_change(const Binding& binding, std::span<const d
                     " regions; give one for each");
     }
     const bool gentle = std::ranges::any_of(regions, [](const bend::Region& r) { return r.onset != 0; });
-    if (gentle || binding.cylinder.rest_angle != 0) return std::nullopt;
+    const bool shaped =
+        std::ranges::any_of(binding.regions, [](const RegionBinding& r) { return r.shape != nullptr; });
+    if (gentle || shaped || binding.cylinder.rest_angle != 0) return std::nullopt;
     double change = 0;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         change += binding.regions[r].length / binding.cylinder.length *
@@ -41,8 +44,19 @@ double wrinkle_depth(const Binding& binding, std::size_t region, double angle) {
     const int folds = binding.folds(region);
     if (folds == 0) return 0;
     constexpr double most = 0.999;  // of eq 7's domain; the largest angle is below it
-    const double squeeze = std::min(2 * std::fabs(angle) * binding.cylinder.radius / length, most);
-    return paper::amplitude(binding.profile, folds, length, squeeze);
+    const double per_scale = 2 * std::fabs(angle) * binding.cylinder.radius / length;
+    const auto& shape = binding.regions[region].shape;
+    const double trough = binding.profile.trough();
+    if (!shape) return trough * paper::amplitude(binding.profile, folds, length, std::min(per_scale, most));
+    const paper::Wave wave(binding.profile, folds, std::min(per_scale * shape->max_scale(), most));
+    constexpr int slices = 64;
+    double deepest = 0;
+    for (int i = 0; i <= slices; ++i) {
+        const double z = length * i / slices, scale = shape->scale(z);
+        const double amplitude = wave.column(std::min(per_scale * scale, most)).amplitude * length / 2;
+        deepest = std::max(deepest, trough * amplitude * shape->depth(z) / scale);
+    }
+    return deepest;
 }
 
 }  // namespace goffer::fit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "factors.hpp"
+#include "girths.hpp"
 #include "rest.hpp"
 #include "text.hpp"
 
@@ -31,17 +32,31 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
                                 const BindOptions& options, std::vector<RestRegion>& rest) {
     std::vector<RegionBinding> found;
     const Rows rows(geometry, cylinder);
-    const bool none = options.amplitude == paper::Amplitude::none;
+    const bool even = options.profile.kind == Profile::Kind::even;
     for (const RegionOptions& region : regions_of(options)) {
         const Cylinder stretch = stretch_of(cylinder, region.share * cylinder.length);
-        const int capacity = rows.folds(stretch.length);
-        const int suitable = sensible_folds(stretch, std::min(capacity, BindOptions::max_folds));
-        const int folds = none ? 0 : region.folds.value_or(suitable);
         const double start = rest.empty() ? 0 : rest.back().start + rest.back().length;
-        rest.push_back({start, stretch.length, folds});
-        found.push_back({stretch.length, folds, capacity});
+        const int capacity =
+            even ? rows.even_folds(start, start + stretch.length) : rows.folds(stretch.length);
+        std::optional<int> asked = region.folds;
+        if (options.amplitude == paper::Amplitude::none) asked = 0;
+        if (!asked && !even)
+            asked = sensible_folds(stretch, std::min(capacity, BindOptions::max_folds), options.fold_length);
+        FoldPlan plan = plan_folds(cylinder, rows, options, start, stretch.length, asked);
+        rest.push_back({start, stretch.length, plan.folds, plan.shape});
+        found.push_back({stretch.length, plan.folds, capacity, std::move(plan.shape)});
     }
     return found;
+}
+
+/// The base that `options` ask for.
+Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
+    const bool plain = options.shape == ShapeMode::cylinder || options.amplitude == paper::Amplitude::area ||
+                       (cylinder.rest_angle != 0 && regions_of(options).size() > 1);
+    if (!plain) return cylinder.radii.empty() ? fit_shape(geometry, cylinder) : cylinder;
+    Cylinder base = cylinder;
+    base.radii.clear();
+    return base;
 }
 
 double largest_rho(std::span<const bend::RestVertex> vertices) {
@@ -50,24 +65,49 @@ double largest_rho(std::span<const bend::RestVertex> vertices) {
     return largest;
 }
 
+/// The slices of a region with a shape.
+Girths girths_of(const RestRegion& rest, paper::Profile profile, std::span<const bend::RestVertex> vertices) {
+    constexpr std::size_t count = 64;
+    Girths girths{rest.length, rest.shape->radius(), std::vector<Girth>(count)};
+    for (std::size_t i = 0; i < count; ++i) {
+        Girth& girth = girths.slices[i];
+        for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            const double z = rest.length * (static_cast<double>(i) + part) / count;
+            girth.scale = std::max(girth.scale, rest.shape->scale(z));
+            girth.depth = std::max(girth.depth, rest.shape->depth(z) * profile.crest());
+        }
+        girth.rho = girth.scale * girths.radius;
+    }
+    for (const bend::RestVertex& vertex : vertices) {
+        const double slice = std::clamp(vertex.z / rest.length * count, 0.0, count - 1.0);
+        Girth& girth = girths.slices[static_cast<std::size_t>(slice)];
+        girth.rho = std::max(girth.rho, vertex.rho);
+    }
+    return girths;
+}
+
 /// A region to be bound, and what its largest angle depends on.
 struct Plan {
     const Cylinder& cylinder;
     const BindOptions& options;
     const RestRegion& rest;
     double largest_rho;
+    Girths girths;  // of a region with a shape
 
     /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
     /// no wrinkle at rest.
     [[nodiscard]] double max_angle(double factor) const {
-        return std::max(cylinder.rest_angle * rest.length / cylinder.length,
-                        largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
-                                      cylinder.radius, largest_rho, factor));
+        const double largest =
+            rest.shape ? largest_angle(girths, options.profile, options.amplitude, rest.folds, factor)
+                       : largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
+                                       cylinder.radius, largest_rho, factor);
+        return std::max(cylinder.rest_angle * rest.length / cylinder.length, largest);
     }
 };
 
 bend::RegionInput region_input(const Plan& plan, double onset, std::size_t vertex_count) {
-    const auto& [cylinder, options, rest, rho] = plan;
+    const auto& [cylinder, options, rest, rho, girths] = plan;
+    const double radius = rest.shape ? rest.shape->radius() : cylinder.radius;
     bend::RegionInput region;
     region.length = rest.length;
     region.vertex_count = vertex_count;
@@ -75,8 +115,11 @@ bend::RegionInput region_input(const Plan& plan, double onset, std::size_t verte
     region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
     region.rest_direction = cylinder.rest_direction;
     region.max_angle = plan.max_angle(1);
-    region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length,
-                                      cylinder.radius, region.max_angle, options.table_rows);
+    region.radius = radius;
+    // Between the heights that a shape was looked at it may be thicker by a trace.
+    region.max_scale = rest.shape ? std::max(1.0, 1.001 * rest.shape->max_scale()) : 1;
+    region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length, radius,
+                                      region.max_angle, options.table_rows, region.max_scale);
     return region;
 }
 
@@ -100,6 +143,39 @@ bend::Body make(const Cylinder& cylinder, std::span<const bend::RegionInput> reg
     std::optional<bend::Body> body = bend::Body::make(input);
     if (!body) throw Error(std::string("cannot bind: ") + bend::describe(bend::Body::check(input)).c_str());
     return std::move(*body);
+}
+
+std::vector<Plan> plans_of(const Cylinder& cylinder, const BindOptions& options,
+                           std::span<const RestRegion> places, const RestMesh& mesh) {
+    std::vector<Plan> plans;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
+        plans.push_back({cylinder, options, places[i], largest_rho(own),
+                         places[i].shape ? girths_of(places[i], options.profile, own) : Girths{}});
+        first += own.size();
+    }
+    return plans;
+}
+
+std::vector<bend::RegionInput> inputs_of(std::span<const Plan> plans, double onset, const RestMesh& mesh) {
+    std::vector<bend::RegionInput> regions;
+    for (std::size_t i = 0; i < plans.size(); ++i)
+        regions.push_back(region_input(plans[i], onset, mesh.counts[i]));
+    return regions;
+}
+
+/// Gives each region the weights m(z) with which the slices of the mesh keep their area.
+void weigh_slices(const bend::Body& body, const Geometry& geometry, const RestMesh& mesh,
+                  std::vector<RestRegion>& places, std::vector<RegionBinding>& found) {
+    std::vector<double> heights;
+    for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::vector<double> factors =
+            solve_weights(body, geometry, mesh.order, heights, i, places[i].folds);
+        if (factors.empty()) continue;
+        places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors);
+    }
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -135,10 +211,21 @@ std::vector<RegionOptions> regions_of(const BindOptions& options) {
     return regions;
 }
 
-Binding bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
+BindOptions BindOptions::as_in_paper() {
+    BindOptions options;
+    options.profile = Profile::damped;
+    options.shape = ShapeMode::cylinder;
+    options.onset = 0;
+    return options;
+}
+
+Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
-    check(cylinder);
+    check(given);
+    if (!(options.fold_length.value_or(1) > 0) || !std::isfinite(options.fold_length.value_or(1)))
+        throw Error("fold_length: " + text(*options.fold_length) + " is not a length; give radii above 0");
+    const Cylinder cylinder = base_of(geometry, given, options);
     const double gentle = cylinder.rest_angle != 0 ? BindOptions::gentle_onset : 0;
     const double onset = options.onset.value_or(gentle);
     check(options, cylinder, onset);
@@ -146,18 +233,17 @@ Binding bind(const Geometry& geometry, const Cylinder& cylinder, const BindOptio
     std::vector<RestRegion> places;
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
     RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
-
-    std::vector<Plan> plans;
-    std::vector<bend::RegionInput> regions;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
-        plans.push_back({cylinder, options, places[i], largest_rho(own)});
-        regions.push_back(region_input(plans[i], onset, own.size()));
-        first += own.size();
-    }
+    std::vector<Plan> plans = plans_of(cylinder, options, places, mesh);
+    std::vector<bend::RegionInput> regions = inputs_of(plans, onset, mesh);
     bend::Body body = make(cylinder, regions, mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
+        if (options.profile.kind == Profile::Kind::even) {
+            weigh_slices(body, geometry, mesh, places, found);
+            mesh = rest_mesh(geometry, cylinder, options.profile, places);
+            plans = plans_of(cylinder, options, places, mesh);
+            regions = inputs_of(plans, onset, mesh);
+            body = make(cylinder, regions, mesh);
+        }
         solve_factors(body, geometry, mesh.order, regions);
         for (std::size_t i = 0; i < regions.size(); ++i)
             regions[i].max_angle =
@@ -173,14 +259,18 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     check(level);
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or does not have its regions; give what bind returned");
-    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, rest_regions(rig));
+    const std::vector<RestRegion> places = rest_regions(rig);
+    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places);
     const std::span<const bend::RegionInput> own = rig.body.region_inputs();
     std::vector<bend::RegionInput> regions(own.begin(), own.end());
     std::vector<RegionBinding> found = rig.regions;
     const Rows rows(level, rig.cylinder);
     for (std::size_t i = 0; i < regions.size(); ++i) {
         regions[i].vertex_count = mesh.counts[i];
-        found[i].folds_capacity = rows.folds(found[i].length);
+        const double from = places[i].start;
+        found[i].folds_capacity = rig.profile.kind == Profile::Kind::even
+                                      ? rows.even_folds(from, from + found[i].length)
+                                      : rows.folds(found[i].length);
     }
     bend::Body body = make(rig.cylinder, regions, mesh);
     return {std::move(body), std::move(found), std::move(mesh.order),    rig.cylinder,

@@ -4,6 +4,7 @@
 #include "surface.hpp"
 
 #include <goffer/fit/cylinder.hpp>
+#include <goffer/paper/shape.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -133,6 +134,18 @@ void check_rest_angle(const Cylinder& cylinder) {
                 ", the range for this length and radius; give radians within it");
 }
 
+void check_radii(const Cylinder& cylinder) {
+    if (cylinder.radii.empty()) return;
+    for (const double radius : cylinder.radii) check_positive(radius, "one of the radii");
+    const std::size_t count = cylinder.radii.size();
+    if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
+    const double mean =
+        paper::Spline(cylinder.length, cylinder.radii).integral(cylinder.length) / cylinder.length;
+    if (std::abs(mean / cylinder.radius - 1) <= 1e-3) return;
+    throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " + text(cylinder.radius) +
+                "; make them the same");
+}
+
 void check_finite(const Vector3d& value, std::string_view name) {
     if (value.allFinite()) return;
     throw Error("cylinder: " + std::string(name) + " " + text(value) + " is not finite; give finite numbers");
@@ -166,6 +179,7 @@ void check(const Cylinder& cylinder) {
     check_finite(Vector3d::Constant(cylinder.rest_direction), "rest_direction");
     check_finite(Vector3d::Constant(cylinder.residual), "residual");
     check_rest_angle(cylinder);
+    check_radii(cylinder);
     check_unit(cylinder.axis, "axis");
     check_unit(cylinder.zero, "zero");
     constexpr double tolerance = 1e-3;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace goffer::fit {
 
@@ -15,5 +16,14 @@ namespace goffer::fit {
 /// See modules/paper/README.md, "Amplitude modes".
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
                    std::span<bend::RegionInput> regions);
+
+/// Solves the factors m(z) of region `region`, 0..2, control values at equal steps of its length, with which
+/// each of its slices keeps its area in a pose that bends it far, on the mean of several directions.
+/// `heights`: z of each of the body's vertices, within its region. `folds`: those of the region. Empty: the
+/// region has no wrinkles. See modules/paper/README.md, "Amplitude modes".
+[[nodiscard]] std::vector<double> solve_weights(const bend::Body& body, const Geometry& geometry,
+                                                std::span<const std::uint32_t> order,
+                                                std::span<const double> heights, std::size_t region,
+                                                int folds);
 
 }  // namespace goffer::fit

@@ -16,8 +16,15 @@ namespace {
 
 constexpr int max_folds = 1 << 20;  // far beyond any use, well inside int
 
+constexpr std::size_t slices = 64;  // in which rows are looked at
+constexpr double rows_of_fold = 8;
+constexpr double rounding = 1e-3;  // a mesh of just enough rows has enough
+
 /// How far a triangle reaches along the axis, and its area.
-using Reach = std::pair<double, double>;
+struct Reach {
+    double low, height;
+    double area;
+};
 
 std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
     const std::vector<double> z = heights(geometry.positions, cylinder);
@@ -28,20 +35,20 @@ std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
                             k = geometry.triangles[t + 2];
         const glm::dvec3 a(geometry.positions[i]), b(geometry.positions[j]), c(geometry.positions[k]);
         const auto [low, high] = std::minmax({z[i], z[j], z[k]});
-        all.emplace_back(high - low, glm::length(glm::cross(b - a, c - a)) / 2);
+        all.push_back({low, high - low, glm::length(glm::cross(b - a, c - a)) / 2});
     }
     return all;
 }
 
 /// The reach that only the coarsest `share` of the area exceeds.
 double reach_beyond(std::vector<Reach> all, double share) {
-    std::ranges::sort(all, std::greater{});
+    std::ranges::sort(all, std::greater{}, &Reach::height);
     double area = 0;
-    for (const Reach& r : all) area += r.second;
+    for (const Reach& r : all) area += r.area;
     double coarser = 0;
     for (const Reach& r : all) {
-        coarser += r.second;
-        if (coarser >= share * area) return r.first;
+        coarser += r.area;
+        if (coarser >= share * area) return r.height;
     }
     return 0;
 }
@@ -57,12 +64,38 @@ std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder
 }
 
 Rows::Rows(const Geometry& geometry, const Cylinder& cylinder)
-    : reach_(reach_beyond(reaches(geometry, cylinder), 0.02)) {}
+    : length_(cylinder.length), reach_(0), slices_(slices, 0) {
+    const std::vector<Reach> all = reaches(geometry, cylinder);
+    std::vector<std::vector<Reach>> by_slice(slices);
+    for (const Reach& reach : all) {
+        const auto slice = [&](double z) {
+            return static_cast<std::size_t>(std::clamp(z / length_ * slices, 0.0, slices - 1.0));
+        };
+        const std::size_t first = slice(reach.low), last = slice(reach.low + reach.height);
+        for (std::size_t i = first; i <= last; ++i) by_slice[i].push_back(reach);
+    }
+    for (std::size_t i = 0; i < slices; ++i) slices_[i] = reach_beyond(std::move(by_slice[i]), 0.05);
+    reach_ = reach_beyond(all, 0.02);
+}
+
+double Rows::reach_at(double z) const {
+    const double at = std::clamp(z / length_ * slices - 0.5, 0.0, slices - 1.0);
+    const auto i = static_cast<std::size_t>(at);
+    return std::max(slices_[i], slices_[std::min<std::size_t>(i + 1, slices - 1)]);
+}
+
+int Rows::even_folds(double low, double high) const {
+    constexpr int steps = 64;
+    double folds = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double step = (high - low) / steps;
+        folds += step / (rows_of_fold * std::max(reach_at(low + (i + 0.5) * step), 1e-9 * length_));
+    }
+    return static_cast<int>(std::min<double>(folds * (1 + rounding), max_folds));
+}
 
 int Rows::folds(double length) const {
-    constexpr double rows_per_length = 16;  // 8 a fold, k folds per half length
-    constexpr double rounding = 1e-3;       // a mesh of just enough rows has enough
-    const double folds = (1 + rounding) * length / (rows_per_length * reach_);
+    const double folds = (1 + rounding) * length / (2 * rows_of_fold * reach_);
     return folds < max_folds ? static_cast<int>(folds) : max_folds;
 }
 
@@ -70,8 +103,9 @@ int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
     return Rows(geometry, cylinder).folds(cylinder.length);
 }
 
-int sensible_folds(const Cylinder& cylinder, int capacity) {
-    const double folds = std::min<double>(std::round(cylinder.length / (2 * cylinder.radius)), max_folds);
+int sensible_folds(const Cylinder& cylinder, int capacity, std::optional<double> fold_length) {
+    const double long_folds = std::round(cylinder.length / (2 * cylinder.radius * fold_length.value_or(1)));
+    const double folds = std::min<double>(long_folds, max_folds);
     const int wanted = static_cast<int>(folds);
     return 2 * std::int64_t{capacity} < wanted ? 0 : std::min(wanted, std::max(capacity, 0));
 }

@@ -3,6 +3,7 @@
 #include "text.hpp"
 
 #include <goffer/fit/refine.hpp>
+#include <goffer/paper/shape.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -248,9 +249,8 @@ void check_stretches(std::span<const Stretch> stretches) {
         const auto [length, folds] = stretches[i];
         if (!(length > 0) || !std::isfinite(length))
             throw Error("length" + which + " is " + text(length) + "; give a finite length above 0");
-        if (folds < 0 || folds > max_folds)
-            throw Error("folds" + which + ": " + std::to_string(folds) + "; give 0 to " +
-                        std::to_string(max_folds));
+        if (!(folds >= 0 && folds <= max_folds))
+            throw Error("folds" + which + ": " + text(folds) + "; give 0 to " + std::to_string(max_folds));
     }
 }
 
@@ -262,6 +262,27 @@ void check_heights(std::span<const double> heights, std::size_t vertices) {
     if (bad != heights.end())
         throw Error("height of vertex " + std::to_string(bad - heights.begin()) +
                     " is NaN or infinite; give z in model units");
+}
+
+/// Adds stretches that a region of Profile::even needs: folds are as long as the body is thick.
+void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const BindOptions& options,
+              double start, double length, std::optional<int> asked) {
+    const bool round = cylinder.radii.empty() || options.shape == ShapeMode::cylinder;
+    const int pieces = round ? 1 : 64;
+    const double step = length / pieces;
+    const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
+    std::vector<double> folds;
+    double sum = 0;
+    for (int i = 0; i < pieces; ++i) {
+        const double z = start + (i + 0.5) * step;
+        const double radius = round ? cylinder.radius : paper::Spline(cylinder.length, cylinder.radii)(z);
+        folds.push_back(step / (in_radii * radius));
+        sum += folds.back();
+    }
+    // A body has a whole number of them.
+    const double whole =
+        asked ? *asked : std::min(std::max(std::round(sum), 1.0), 2.0 * BindOptions::max_folds);
+    for (const double own : folds) stretches.push_back({step, own * whole / sum / 2});
 }
 
 /// `arc` is that of Refiner's constructor.
@@ -278,10 +299,16 @@ Refinement refined(const Geometry& geometry, std::span<const double> heights,
 
 std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options) {
     std::vector<Stretch> stretches;
+    double start = 0;
     for (const RegionOptions& region : regions_of(options)) {
         const Cylinder own = stretch_of(cylinder, region.share * cylinder.length);
-        const int sensible = sensible_folds(own, BindOptions::max_folds);
-        stretches.push_back({own.length, region.folds.value_or(sensible)});
+        if (options.profile.kind == Profile::Kind::even) {
+            add_even(stretches, cylinder, options, start, own.length, region.folds);
+        } else {
+            const int sensible = sensible_folds(own, BindOptions::max_folds, options.fold_length);
+            stretches.push_back({own.length, static_cast<double>(region.folds.value_or(sensible))});
+        }
+        start += own.length;
     }
     return stretches;
 }
@@ -303,7 +330,7 @@ Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                   const RefineOptions& options) {
-    const Stretch whole{cylinder.length, folds};
+    const Stretch whole{cylinder.length, static_cast<double>(folds)};
     return refine(geometry, cylinder, {&whole, 1}, options);
 }
 

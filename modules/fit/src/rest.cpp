@@ -82,6 +82,20 @@ bend::RestVector any_orthogonal(const bend::RestVector& n) {
     return {tangent.x, tangent.y, tangent.z};
 }
 
+/// g and dg/dz at a height of a region.
+struct WaveAt {
+    double shape, slope;
+};
+
+WaveAt wave_at(const RestRegion& region, paper::Profile profile, double z) {
+    if (region.shape)
+        return {region.shape->wave(profile, region.folds, z),
+                region.shape->wave_slope(profile, region.folds, z)};
+    const double u = std::min(std::fabs(2 * z / region.length - 1), 1.0);
+    return {paper::shape(profile, region.folds, u),
+            paper::shape_slope_z(profile, region.folds, region.length, z)};
+}
+
 /// The normals of a geometry: its own, or made ones where it has none or one without length.
 class Normals {
 public:
@@ -103,13 +117,38 @@ private:
 
 }  // namespace
 
+std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double radius,
+                                             const std::vector<double>& factors) {
+    paper::Shape::Knots knots = region.shape ? region.shape->knots() : paper::Shape::Knots{};
+    const std::size_t count = std::max<std::size_t>(knots.weight.size(), 49);
+    const paper::Spline by_height(region.length, factors);
+    std::vector<double> weight;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+        const double own = knots.weight.empty() ? 1 : paper::Spline(1, knots.weight)(share);
+        weight.push_back(std::max(own * by_height(share * region.length), 0.0));
+    }
+    knots.weight = std::move(weight);
+    return std::make_shared<const paper::Shape>(region.length, radius, knots);
+}
+
+std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder) {
+    if (cylinder.radii.empty()) return nullptr;
+    return std::make_shared<const paper::Shape>(cylinder.length, cylinder.radius,
+                                                paper::Shape::Knots{.radius = cylinder.radii});
+}
+
 Straightening::Straightening(const Cylinder& cylinder)
     : cylinder_(cylinder),
       to_body_(glm::transpose(axes_of(cylinder))),
-      rest_{cylinder.rest_angle, cylinder.rest_direction} {}
+      rest_{cylinder.rest_angle, cylinder.rest_direction},
+      shape_(cylinder.rest_angle != 0 ? shape_of(cylinder) : nullptr),
+      radius_(shape_ ? shape_->radius() : cylinder.radius) {}
 
 paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
-    return paper::to_cylindrical(in_body(position), cylinder_.length, cylinder_.radius, rest_);
+    paper::Cylindrical at = paper::to_cylindrical(in_body(position), cylinder_.length, radius_, rest_);
+    if (shape_) at.z = shape_->unshifted(at.z, rest_.angle / cylinder_.length);
+    return at;
 }
 
 double Straightening::height(const glm::dvec3& position) const {
@@ -118,13 +157,13 @@ double Straightening::height(const glm::dvec3& position) const {
 
 bend::RestVector Straightening::normal(const glm::dvec3& vector, const paper::Cylindrical& at) const {
     const auto [rho, beta, z] =
-        paper::straightened_normal(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_);
+        paper::straightened_normal(to_body_ * vector, at, cylinder_.length, radius_, rest_, shape_.get());
     return {rho, beta, z};
 }
 
 bend::RestVector Straightening::tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const {
     const auto [rho, beta, z] =
-        paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, cylinder_.radius, rest_);
+        paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, radius_, rest_, shape_.get());
     return {rho, beta, z};
 }
 
@@ -144,7 +183,7 @@ std::vector<RestRegion> rest_regions(const Binding& binding) {
     std::vector<RestRegion> places;
     double start = 0;
     for (const RegionBinding& region : binding.regions) {
-        places.push_back({start, region.length, region.folds});
+        places.push_back({start, region.length, region.folds, region.shape});
         start += region.length;
     }
     return places;
@@ -160,12 +199,20 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
                              paper::Profile profile) {
     const double z = at.z - region.start;
     bend::RestVertex rest{at.beta, z, at.rho, 0, 0};
+    if (region.shape) {
+        rest.scale = region.shape->scale(z);
+        rest.scale_slope = region.shape->scale_slope(z);
+        rest.drift = region.shape->drift(z);
+        radius = region.shape->radius() * rest.scale;
+    }
     if (region.folds == 0) return rest;
-    const double u = std::min(std::fabs(2 * z / region.length - 1), 1.0);
+    const auto [wave, slope] = wave_at(region, profile, z);
     const double weight = paper::depth_weight(at.rho, radius);
     const double weight_by_rho = at.rho > 1e-9 * radius ? weight / at.rho : 2 / radius;
-    rest.wrinkle = weight_by_rho * paper::shape(profile, region.folds, u);
-    rest.slope = weight * paper::shape_slope_z(profile, region.folds, region.length, z);
+    rest.wrinkle = weight_by_rho * wave;
+    rest.slope = weight * slope;
+    // The weight of an inner vertex depends on the radius there.
+    if (at.rho < radius / 2) rest.slope -= weight * wave * rest.scale_slope / rest.scale;
     return rest;
 }
 

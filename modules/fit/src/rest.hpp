@@ -11,6 +11,8 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,10 +25,19 @@ struct RestRegion {
     double start = 0;  ///< z where it begins
     double length = 0;
     int folds = 0;
+    std::shared_ptr<const paper::Shape> shape = {};  ///< null: of a cylinder, with folds of one length
 };
 
 /// Returns the regions that `binding` was made with.
 [[nodiscard]] std::vector<RestRegion> rest_regions(const Binding& binding);
+
+/// Returns the shape of a region with its wrinkles times `factors`, control values at equal steps. `radius`:
+/// of the base.
+[[nodiscard]] std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double radius,
+                                                           const std::vector<double>& factors);
+
+/// Returns the shape of all of `cylinder`; null where it has no radii.
+[[nodiscard]] std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder);
 
 /// Returns the axes of the base in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
@@ -49,6 +60,8 @@ private:
     const Cylinder& cylinder_;
     glm::dmat3 to_body_;
     paper::Pose rest_;
+    std::shared_ptr<const paper::Shape> shape_;  // null where it makes no difference
+    double radius_;
 };
 
 /// Returns the vertex at `at`, which lies in `region`, with its wrinkle and with z from where the region
@@ -67,9 +80,30 @@ public:
     /// The most folds, per half length, that a stretch of `length` can carry (folds_capacity).
     [[nodiscard]] int folds(double length) const;
 
+    /// The most folds that the heights from `low` to `high` can carry where each may have a length of its
+    /// own.
+    [[nodiscard]] int even_folds(double low, double high) const;
+
+    /// How far the coarsest triangles that count reach along z about height z.
+    [[nodiscard]] double reach_at(double z) const;
+
 private:
-    double reach_;  // how far the coarsest triangles that count reach along z
+    double length_;
+    double reach_;                // of the coarsest triangles that count anywhere
+    std::vector<double> slices_;  // of those in each of so many slices
 };
+
+/// The shape of a region and of its folds.
+struct FoldPlan {
+    int folds = 0;
+    std::shared_ptr<const paper::Shape> shape = {};
+};
+
+/// Plans the folds of Profile::even from z = `start` on: `asked` of them, or as many of the length that
+/// `options` say as fit, longer ones where rows are too far apart, and none where these would be too long for
+/// the body. Profiles other than `even` get `asked` folds and the shape alone.
+[[nodiscard]] FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options,
+                                  double start, double length, std::optional<int> asked);
 
 /// A mesh's vertices at rest, straightened, region by region.
 struct RestMesh {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "chebyshev.hpp"
+#include "girths.hpp"
 #include "text.hpp"
 
 #include <goffer/fit/bind.hpp>
@@ -18,15 +19,16 @@ bool wrinkles(paper::Amplitude amplitude, int folds) {
     return amplitude != paper::Amplitude::none && folds > 0;
 }
 
-void check_shape(int folds, double length, double radius) {
+void check_shape(paper::Profile profile, int folds, double length, double radius) {
     if (!(length > 0) || !std::isfinite(length))
         throw Error("length: " + text(length) + " is not a positive number");
     if (!(radius > 0) || !std::isfinite(radius))
         throw Error("radius: " + text(radius) + " is not a positive number");
-    if (folds < 0 || folds > BindOptions::max_folds) {
-        throw Error("folds: " + std::to_string(folds) + " is outside 0.." +
-                    std::to_string(BindOptions::max_folds));
-    }
+    const int most = BindOptions::max_folds * 2 / profile.folds_of_length(1);
+    if (folds < 0 || folds > most)
+        throw Error("folds: " + std::to_string(folds) + " is outside 0.." + std::to_string(most));
+    if (!(profile.roundness >= 0 && profile.roundness <= 0.5))
+        throw Error("roundness: " + text(profile.roundness) + " is outside 0..0.5");
 }
 
 /// Q(q) = (1 - q) a(q) / sqrt(q): the smooth part of eq 7's solution, A = (L / 2) sqrt(q) Q(q).
@@ -49,37 +51,41 @@ Chebyshev area_factors(paper::Profile profile, paper::Amplitude amplitude, int f
 }  // namespace
 
 bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude amplitude, int folds,
-                                      double length, double radius, double max_angle, int rows) {
-    check_shape(folds, length, radius);
-    if (!(max_angle > 0) || max_angle * 2 * radius >= length) {
-        throw Error("max_angle: " + text(max_angle) + " is outside 0..length / (2 radius)");
+                                      double length, double radius, double max_angle, int rows,
+                                      double max_scale) {
+    check_shape(profile, folds, length, radius);
+    if (!(max_scale >= 1) || !std::isfinite(max_scale))
+        throw Error("max_scale: " + text(max_scale) + " is below 1");
+    if (!(max_angle > 0) || max_angle * 2 * radius * max_scale >= length) {
+        throw Error("max_angle: " + text(max_angle) + " is outside 0..length / (2 radius max_scale)");
     }
     if (rows < 2 || rows > 4096) throw Error("table_rows: " + std::to_string(rows) + " is outside 2..4096");
     bend::WrinkleTable table;
     if (!wrinkles(amplitude, folds)) return table;
 
-    const Chebyshev q_part = smooth_amplitude(profile, folds, 2 * max_angle * radius / length);
+    const double largest_t = 2 * max_scale;  // of s T
+    const Chebyshev q_part = smooth_amplitude(profile, folds, largest_t * max_angle * radius / length);
     const Chebyshev factor = area_factors(profile, amplitude, folds, length, radius, max_angle);
     table.max_angle = static_cast<float>(max_angle);
     table.rows.resize(static_cast<std::size_t>(rows));
     for (int i = 0; i < rows; ++i) {
         const double root = static_cast<double>(i) / (rows - 1);
-        const double two_kappa = 2 * root * root * max_angle * radius / length;
+        const double largest_squeeze = largest_t * root * root * max_angle * radius / length;
         const double scale = length / 2 * factor(root);
         const Chebyshev profile_in_t(0, 1, static_cast<int>(bend::wrinkle_degree) + 1,
-                                     [&](double t) { return scale * q_part(two_kappa * t); });
+                                     [&](double t) { return scale * q_part(largest_squeeze * t); });
         const std::vector<double> coefficients = profile_in_t.monomials();
         bend::WrinkleRow& row = table.rows[static_cast<std::size_t>(i)];
-        for (std::size_t n = 0; n < row.size(); ++n) {  // from powers of t = T / 2 to powers of T
-            row[n] = static_cast<float>(std::ldexp(coefficients[n], -static_cast<int>(n)));
-        }
+        double per_power = 1;  // from powers of t = s T / largest_t to powers of s T
+        for (std::size_t n = 0; n < row.size(); ++n, per_power /= largest_t)
+            row[n] = static_cast<float>(coefficients[n] * per_power);
     }
     return table;
 }
 
 double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int folds, double length,
                      double radius, double rho_max, double factor) {
-    check_shape(folds, length, radius);
+    check_shape(profile, folds, length, radius);
     if (!(rho_max >= 0) || !std::isfinite(rho_max)) {
         throw Error("rho_max: " + text(rho_max) + " is not a distance; give 0 or more");
     }
@@ -91,7 +97,9 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
             const double alpha = (low + high) / 2;
             const double squeeze = std::min(2 * alpha * radius / length, 1 - 1e-9);
             const double lift =
-                wrinkles(amplitude, folds) ? own * paper::amplitude(profile, folds, length, squeeze) : 0;
+                wrinkles(amplitude, folds)
+                    ? own * profile.crest() * paper::amplitude(profile, folds, length, squeeze)
+                    : 0;
             (length / alpha - radius > outermost + lift ? low : high) = alpha;
         }
         return low;
@@ -102,6 +110,30 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
     // m grows with the angle, so the factor at the plain limit is no smaller than the one at the limit that
     // it gives.
     return inside * search(factor * paper::area_factor(profile, folds, length, radius, angle));
+}
+
+double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude, int folds,
+                     double factor) {
+    constexpr double inside = 0.999, largest_squeeze = 0.995;
+    double thickest = 0;
+    for (const Girth& girth : girths.slices) thickest = std::max(thickest, girth.scale);
+    const bool wrinkled = wrinkles(amplitude, folds);
+    const double per_length = 1 / girths.length;
+    const Chebyshev q_part = wrinkled ? smooth_amplitude(profile, folds, largest_squeeze)
+                                      : Chebyshev(0, 1, 1, [](double) { return 0.0; });
+    double low = 0, high = largest_squeeze * girths.length / (2 * girths.radius * thickest);
+    const auto fits = [&](double alpha, const Girth& girth) {
+        const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, largest_squeeze);
+        const double lift =
+            wrinkled ? factor * girth.depth * girths.length / 2 * std::sqrt(q) * q_part(q) : 0;
+        return girths.length / alpha - girths.radius > girth.rho + lift;
+    };
+    for (int step = 0; step < 60; ++step) {
+        const double alpha = (low + high) / 2;
+        const bool all = std::ranges::all_of(girths.slices, [&](const Girth& g) { return fits(alpha, g); });
+        (all ? low : high) = alpha;
+    }
+    return inside * low;
 }
 
 }  // namespace goffer::fit

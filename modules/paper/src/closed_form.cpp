@@ -33,10 +33,19 @@ void require_rest(const Parameters& body) {
         throw std::invalid_argument("rest_angle is negative: turn rest_direction by pi");
     if (!(body.onset >= 0)) throw std::invalid_argument("onset is negative: it must be 0 or more");
     const bool relative = body.rest_angle != 0 || body.onset != 0;
-    if (relative && body.amplitude == Amplitude::area) {
+    if ((relative || body.shape) && body.amplitude == Amplitude::area) {
         throw std::invalid_argument(
-            "amplitude area: no factor is known for a body with a rest arc or an onset");
+            "amplitude area: no factor is known for a body with a rest arc, an onset or a shape");
     }
+}
+
+void require_shape(const Parameters& body, double alpha) {
+    if (!body.shape) return;
+    if (!(std::abs(body.shape->radius() / body.radius - 1) < 1e-9))
+        throw std::invalid_argument("radius is not that of the shape");
+    const double thickest = body.shape->radius() * body.shape->max_scale();
+    if (!(std::max(alpha, body.rest_angle) < body.length / (2 * thickest)))
+        throw std::invalid_argument("angle: the body is too thick for it, where it is thickest");
 }
 
 /// The bent frame (n, b, t) at a vertex, in (e_theta, e_theta_perp, e3).
@@ -52,12 +61,14 @@ struct BareBend {
     glm::dmat3 frame;  // in the body frame
     double stretch;
 
-    BareBend(const Cylindrical& at, double length, double radius, const Pose& pose) {
+    BareBend(const Cylindrical& at, double length, double radius, const Pose& pose, const Shape* shape) {
         const Bend bend = bend_of({.length = length, .radius = radius}, pose);
         const double c = std::cos(at.beta - bend.theta), s = std::sin(at.beta - bend.theta);
-        frame = bent_frame(c, s, bend.alpha * at.z / length);
+        const double curvature = bend.alpha / length;
+        frame = bent_frame(c, s, curvature * (at.z - (shape ? curvature * shape->drift(at.z) : 0)));
         for (int i = 0; i < 3; ++i) frame[i] = turned(frame[i], bend.theta);
-        stretch = (1 - bend.kappa()) - bend.alpha / length * at.rho * c;
+        stretch = (1 - bend.kappa()) - curvature * at.rho * c;
+        if (shape) stretch *= 1 - bend.kappa() * (shape->scale(at.z) - 1);
     }
 };
 
@@ -71,6 +82,22 @@ double weight_per_rho(double rho, double radius) {
 }
 
 }  // namespace
+
+/// The shape of the body about a vertex.
+struct ClosedForm::LocalShape {
+    double scale, scale_slope;  // s = r(z) / r, ds/dz
+    double wave, wave_slope;    // g w, d(g w)/dz
+    double wave_per_rho;        // g w / rho
+    bool inner;                 // w depends on rho
+    double arc_z;               // height of the place on a cylinder that has the same arc angle
+};
+
+/// Amplitude A of a column, model units.
+struct ClosedForm::Depth {
+    double amplitude = 0;
+    double slope = 0;     // by beta
+    double by_scale = 0;  // by s
+};
 
 /// The Jacobian at a vertex, from (e_rho, e_beta, e_z) to the bent frame, is upper triangular: rows (outward,
 /// across, along), (0, around, 0), (0, 0, stretch).
@@ -90,76 +117,103 @@ ClosedForm::ClosedForm(const Parameters& body, const Pose& pose) : body_(body) {
     alpha_ = bend.alpha;
     theta_ = bend.theta;
     kappa_ = bend.kappa();
+    require_shape(body, alpha_);
     if (body.folds == 0 || body.amplitude == Amplitude::none) return;
-    wave_ = std::make_shared<const Wave>(body.profile, body.folds, 2 * kappa_);
+    const double max_scale = body.shape ? body.shape->max_scale() : 1;
+    wave_ = std::make_shared<const Wave>(body.profile, body.folds, std::min(2 * kappa_ * max_scale, 0.9999));
     factor_ = body.amplitude == Amplitude::area ? area_factor(body, alpha_) : 1;
 }
 
-Column ClosedForm::column(double beta) const {
+ClosedForm::Depth ClosedForm::column(double beta, double scale) const {
     if (!wave_) return {};
-    if (body_.rest_angle != 0 || body_.onset != 0) return relative_column(beta);
-    const Column relative = wave_->column(squeeze(kappa_, beta, theta_));
-    const double scale = factor_ * body_.length / 2;
+    if (body_.rest_angle != 0 || body_.onset != 0) return relative_column(beta, scale);
+    const double kappa = kappa_ * scale;
+    const Column relative = wave_->column(squeeze(kappa, beta, theta_));
+    const double size = factor_ * body_.length / 2;
     // sqrt(q) = sqrt(2 kappa) |h|, with the sign of h blended where the amplitude has its corner.
-    const double half = (beta - theta_) / 2;
-    const double side = std::clamp(std::cos(half) / crease_width, -1.0, 1.0);
-    const double root_slope = -std::sqrt(2 * kappa_) * side * std::sin(half) / 2;
-    return {scale * relative.amplitude, scale * relative.slope * root_slope};
+    const double half = (beta - theta_) / 2, h = std::cos(half);
+    const double side = std::clamp(h / crease_width, -1.0, 1.0);
+    const double root_slope = -std::sqrt(2 * kappa) * side * std::sin(half) / 2;
+    const double root_by_scale = std::sqrt(2 * kappa) * std::abs(h) / (2 * scale);
+    return {size * relative.amplitude, size * relative.slope * root_slope,
+            size * relative.slope * root_by_scale};
 }
 
 // The column's own length is L S_0, with S_0 its scale at rest; it is squeezed to S / S_0 of that.
-Column ClosedForm::relative_column(double beta) const {
-    const double rest_kappa = body_.rest_angle * body_.radius / body_.length;
+ClosedForm::Depth ClosedForm::relative_column(double beta, double scale) const {
+    const double kappa = kappa_ * scale;
+    const double rest_kappa = body_.rest_angle * body_.radius / body_.length * scale;
     const double rest_scale = 1 - squeeze(rest_kappa, beta, body_.rest_direction);
     const double rest_slope = rest_kappa * std::sin(beta - body_.rest_direction);
-    const double difference = squeeze(kappa_, beta, theta_) - (1 - rest_scale);
+    const double difference = squeeze(kappa, beta, theta_) - (1 - rest_scale);
     if (difference <= 0) return {};
     const double q = difference / rest_scale;
     const double per_root = 1 / std::sqrt(q + body_.onset);
     const double root = q * per_root;  // of q^2 / (q + q0)
-    const double difference_slope = rest_slope - kappa_ * std::sin(beta - theta_);
+    const double difference_slope = rest_slope - kappa * std::sin(beta - theta_);
     const double q_slope = (difference_slope - q * rest_slope) / rest_scale;
-    const double root_slope = q_slope * per_root * (1 - q * per_root * per_root / 2);
+    const double root_by_q = per_root * (1 - q * per_root * per_root / 2);
     const Column relative = wave_->column(root * root);
-    const double scale = factor_ * body_.length / 2;
-    return {scale * rest_scale * relative.amplitude,
-            scale * (rest_scale * relative.slope * root_slope + rest_slope * relative.amplitude)};
+    const double size = factor_ * body_.length / 2;
+    // dq/ds = q / (s S_0), since q is difference / rest_scale, and both depend linearly on s.
+    return {size * rest_scale * relative.amplitude,
+            size * (rest_scale * relative.slope * root_by_q * q_slope + rest_slope * relative.amplitude),
+            size / scale * (relative.slope * root_by_q * q - (1 - rest_scale) * relative.amplitude)};
 }
 
 double ClosedForm::column_amplitude(double beta) const {
-    return column(beta).amplitude;
+    return column(beta, 1).amplitude;
+}
+
+ClosedForm::LocalShape ClosedForm::shape_at(const Cylindrical& rest) const {
+    LocalShape at{1, 0, 0, 0, 0, false, rest.z};
+    if (body_.shape) {
+        at.scale = body_.shape->scale(rest.z);
+        at.scale_slope = body_.shape->scale_slope(rest.z);
+        at.arc_z -= alpha_ / body_.length * body_.shape->drift(rest.z);
+    }
+    const double radius = at.scale * body_.radius, weight = depth_weight(rest.rho, radius);
+    at.inner = rest.rho < radius / 2;
+    if (!wave_) return at;
+    const double u = std::min(std::abs(2 * rest.z / body_.length - 1), 1.0);
+    const double wave = body_.shape ? body_.shape->wave(body_.profile, body_.folds, rest.z)
+                                    : shape(body_.profile, body_.folds, u);
+    const double slope = body_.shape ? body_.shape->wave_slope(body_.profile, body_.folds, rest.z)
+                                     : shape_slope_z(body_.profile, body_.folds, body_.length, rest.z);
+    at.wave = wave * weight;
+    at.wave_slope = slope * weight - (at.inner ? at.wave * at.scale_slope / at.scale : 0);
+    at.wave_per_rho = weight_per_rho(rest.rho, radius) * wave;
+    return at;
 }
 
 double ClosedForm::wrinkle(const Cylindrical& rest) const {
     if (!wave_) return 0;
-    const double u = std::abs(2 * rest.z / body_.length - 1);
-    return column_amplitude(rest.beta) * shape(body_.profile, body_.folds, u) *
-           depth_weight(rest.rho, body_.radius);
+    const LocalShape shape = shape_at(rest);
+    return column(rest.beta, shape.scale).amplitude * shape.wave;
 }
 
 glm::dvec3 ClosedForm::position(const Cylindrical& rest) const {
-    return Bend{body_.length, body_.radius, alpha_, theta_}.position(rest, wrinkle(rest));
+    const Bend bend{body_.length, body_.radius, alpha_, theta_};
+    if (!body_.shape) return bend.position(rest, wrinkle(rest));
+    return bend.position({rest.beta, shape_at(rest).arc_z, rest.rho}, wrinkle(rest));
 }
 
 ClosedForm::Local ClosedForm::local(const Cylindrical& rest) const {
+    const LocalShape shape = shape_at(rest);
     const double c = std::cos(rest.beta - theta_), s = std::sin(rest.beta - theta_);
-    const double phi = alpha_ * rest.z / body_.length;
+    const double curvature = alpha_ / body_.length;
     Local at{};
-    at.frame = bent_frame(c, s, phi);
+    at.frame = bent_frame(c, s, curvature * shape.arc_z);
     at.outward = at.around = 1;
     if (wave_) {
-        const Column here = column(rest.beta);
-        const double u = std::abs(2 * rest.z / body_.length - 1);
-        const double g = shape(body_.profile, body_.folds, u);
-        const double weight = depth_weight(rest.rho, body_.radius);
-        const double per_rho = weight_per_rho(rest.rho, body_.radius);
-        at.wrinkle = here.amplitude * g * weight;
-        at.outward += rest.rho < body_.radius / 2 ? here.amplitude * g * per_rho : 0;
-        at.around += here.amplitude * g * per_rho;
-        at.across = here.slope * g * per_rho;
-        at.along = here.amplitude * weight * shape_slope_z(body_.profile, body_.folds, body_.length, rest.z);
+        const Depth depth = column(rest.beta, shape.scale);
+        at.wrinkle = depth.amplitude * shape.wave;
+        at.outward += shape.inner ? depth.amplitude * shape.wave_per_rho : 0;
+        at.around += depth.amplitude * shape.wave_per_rho;
+        at.across = depth.slope * shape.wave_per_rho;
+        at.along = depth.amplitude * shape.wave_slope + depth.by_scale * shape.scale_slope * shape.wave;
     }
-    at.stretch = (1 - kappa_) - alpha_ / body_.length * (rest.rho + at.wrinkle) * c;
+    at.stretch = ((1 - kappa_) - curvature * (rest.rho + at.wrinkle) * c) * (1 - kappa_ * (shape.scale - 1));
     return at;
 }
 
@@ -181,18 +235,19 @@ glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector&
 }
 
 glm::dvec3 ClosedForm::center(double z) const {
+    if (body_.shape) z -= alpha_ / body_.length * body_.shape->drift(z);
     return Bend{body_.length, body_.radius, alpha_, theta_}.position({0, z, 0}, 0);
 }
 
 CylindricalVector straightened_normal(const glm::dvec3& vector, const Cylindrical& at, double length,
-                                      double radius, const Pose& rest) {
-    const BareBend bend(at, length, radius, rest);
+                                      double radius, const Pose& rest, const Shape* shape) {
+    const BareBend bend(at, length, radius, rest, shape);
     return components(unit(glm::transpose(bend.frame) * vector * glm::dvec3(1, 1, bend.stretch)));
 }
 
 CylindricalVector straightened_tangent(const glm::dvec3& vector, const Cylindrical& at, double length,
-                                       double radius, const Pose& rest) {
-    const BareBend bend(at, length, radius, rest);
+                                       double radius, const Pose& rest, const Shape* shape) {
+    const BareBend bend(at, length, radius, rest, shape);
     // Not divided by the stretch, which may be near 0: the direction is what counts.
     return components(unit(glm::transpose(bend.frame) * vector * glm::dvec3(bend.stretch, bend.stretch, 1)));
 }
@@ -203,9 +258,9 @@ double depth_weight(double rho, double radius) {
 
 double shape_slope_z(Profile profile, int folds, double length, double z) {
     const double x = 2 * z / length - 1;
-    // Only `damped` has a crease to blend; the slope of `smooth` is odd in x as it is.
-    const double side =
-        profile == Profile::damped ? std::clamp(x / crease_width, -1.0, 1.0) : std::copysign(1.0, x);
+    // Only `damped` has a crease to blend; the slopes of the others are odd in x as they are.
+    const double side = profile.kind == Profile::Kind::damped ? std::clamp(x / crease_width, -1.0, 1.0)
+                                                              : std::copysign(1.0, x);
     return side * shape_slope(profile, folds, std::abs(x)) * 2 / length;
 }
 

@@ -27,6 +27,7 @@ Grid::Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows)
         throw std::invalid_argument("the grid is " + std::to_string(columns) + " x " + std::to_string(rows) +
                                     ": it needs 3 columns and 2 rows or more");
     }
+    if (body.shape) throw std::invalid_argument("shape: the paper's grid has none");
     static_cast<void>(bend_of(body, {}));  // throws if length, radius or folds is out of range
 }
 

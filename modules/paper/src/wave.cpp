@@ -3,6 +3,7 @@
 
 #include "quadrature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -25,22 +26,61 @@ void require_squeeze(double squeeze) {
     }
 }
 
-// Where the wave turns: g' vanishes once shortly before each multiple j of a half wave, j = 1 .. 2k. How far
-// before is tan(v) = 1 / ((1 - u) w) for `damped` and 4 u / ((1 - u^2) w) for `smooth`, both below 1.3 rad.
-std::vector<double> pieces_between_extrema(Profile profile, int folds) {
-    const double frequency = 2 * std::numbers::pi * folds;
-    std::vector<double> ends{0};
-    for (int j = 1; j <= 2 * folds; ++j) {
-        double low = (j * std::numbers::pi - 1.3) / frequency;
-        double high = j * std::numbers::pi / frequency;
-        const bool rises = shape_slope(profile, folds, low) > 0;
-        for (int step = 0; step < 40; ++step) {
-            const double middle = (low + high) / 2;
-            ((shape_slope(profile, folds, middle) > 0) == rises ? low : high) = middle;
-        }
-        ends.push_back(low);
+void require_roundness(double roundness) {
+    if (!(roundness >= 0 && roundness <= 0.5)) {
+        throw std::invalid_argument("roundness is " + std::to_string(roundness) + ": it must be 0 to 0.5");
     }
+}
+
+/// The zero of g' between `low` and `high`, of which it changes its sign once.
+double extremum(Profile profile, int folds, double low, double high) {
+    const bool rises = shape_slope(profile, folds, low) > 0;
+    for (int step = 0; step < 40; ++step) {
+        const double middle = (low + high) / 2;
+        ((shape_slope(profile, folds, middle) > 0) == rises ? low : high) = middle;
+    }
+    return low;
+}
+
+// g' vanishes once shortly before each multiple j of a half wave, j = 1 .. 2k. How far before is tan(v) = 1 /
+// ((1 - u) w) for `damped` and 4 u / ((1 - u^2) w) for `smooth`, both below 1.3 rad.
+std::vector<double> extrema_before_half_waves(Profile profile, int folds) {
+    const double frequency = 2 * std::numbers::pi * folds;
+    std::vector<double> found;
+    for (int j = 1; j <= 2 * folds; ++j) {
+        const double half_wave = j * std::numbers::pi;
+        found.push_back(extremum(profile, folds, (half_wave - 1.3) / frequency, half_wave / frequency));
+    }
+    return found;
+}
+
+// The fade moves the extrema of the end folds, and a roundness above 1/4 makes more of them: they are looked
+// for. Between two of them there is a place where g' is steepest, which the quarters of a fold are near to.
+std::vector<double> ends_of_even(Profile profile, int folds) {
+    constexpr int steps_of_fold = 32;
+    const int steps = std::max(folds, 2) * steps_of_fold / 2;
+    std::vector<double> found;
+    for (int i = 0; i < steps; ++i) {
+        const double low = (i - 0.5) / steps, high = (i + 0.5) / steps;
+        if (i > 0 && (shape_slope(profile, folds, low) > 0) != (shape_slope(profile, folds, high) > 0))
+            found.push_back(extremum(profile, folds, low, high));
+    }
+    for (int i = 1; i < 2 * folds; ++i) found.push_back(i / (2.0 * folds));
+    found.push_back(1 - 1.0 / folds);  // where the fade begins
+    std::ranges::sort(found);
+    return found;
+}
+
+/// Places between which g' is smooth and does not change its sign.
+std::vector<double> pieces(Profile profile, int folds) {
+    std::vector<double> ends = profile.kind == Profile::Kind::even
+                                   ? ends_of_even(profile, folds)
+                                   : extrema_before_half_waves(profile, folds);
+    ends.insert(ends.begin(), 0);
     ends.push_back(1);
+    const auto too_near = [](double a, double b) { return b - a < 1e-9; };
+    ends.erase(std::ranges::unique(ends, too_near).begin(), ends.end());
+    ends.back() = 1;
     return ends;
 }
 
@@ -75,9 +115,10 @@ Excess excess(std::span<const Wave::Node> nodes, double a) {
 
 Wave::Wave(Profile profile, int folds, double largest_squeeze, Accuracy accuracy) {
     require_folds(folds);
+    require_roundness(profile.roundness);
     require_squeeze(largest_squeeze);
     const Rule rule = rule_for(largest_squeeze, accuracy);
-    const std::vector<double> ends = pieces_between_extrema(profile, folds);
+    const std::vector<double> ends = pieces(profile, folds);
     nodes_.reserve((ends.size() - 1) * rule.at.size());
     for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
         const double width = ends[piece + 1] - ends[piece];

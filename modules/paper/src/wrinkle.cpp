@@ -3,24 +3,54 @@
 
 #include <goffer/paper/wave.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace goffer::paper {
 
+namespace {
+
+using std::numbers::pi;
+
+/// A function of u and its slope.
+struct Value {
+    double value;
+    double slope;
+};
+
+/// What the wave is multiplied by: 1 at mid-height, 0 at the ends.
+Value fade(Profile profile, int folds, double u) {
+    if (profile.kind == Profile::Kind::damped) return {1 - u, -1};
+    if (profile.kind == Profile::Kind::smooth) {
+        const double inside = 1 - u * u;
+        return {inside * inside, -4 * u * inside};
+    }
+    // A smoothstep over the first half of the first fold and the last half of the last.
+    const double per_half_fold = folds;
+    const double t = std::min((1 - u) * per_half_fold, 1.0);
+    return {t * t * (3 - 2 * t), -6 * t * (1 - t) * per_half_fold};
+}
+
+Value wave(Profile profile, int folds, double u) {
+    if (profile.kind != Profile::Kind::even) {
+        const double frequency = 2 * pi * folds;
+        return {std::cos(frequency * u), -frequency * std::sin(frequency * u)};
+    }
+    const double phase = pi * folds * u, b = profile.roundness;
+    return {std::cos(phase) - b * std::cos(2 * phase),
+            -pi * folds * (std::sin(phase) - 2 * b * std::sin(2 * phase))};
+}
+
+}  // namespace
+
 double shape(Profile profile, int folds, double u) {
-    const double wave = std::cos(2 * std::numbers::pi * folds * u);
-    const double fade = profile == Profile::damped ? 1 - u : (1 - u * u) * (1 - u * u);
-    return fade * wave;
+    return fade(profile, folds, u).value * wave(profile, folds, u).value;
 }
 
 double shape_slope(Profile profile, int folds, double u) {
-    const double frequency = 2 * std::numbers::pi * folds;
-    const double wave = std::cos(frequency * u);
-    const double wave_slope = -frequency * std::sin(frequency * u);
-    if (profile == Profile::damped) return (1 - u) * wave_slope - wave;
-    const double inside = 1 - u * u;
-    return inside * inside * wave_slope - 4 * u * inside * wave;
+    const Value faded = fade(profile, folds, u), waving = wave(profile, folds, u);
+    return faded.value * waving.slope + faded.slope * waving.value;
 }
 
 double squeeze(double kappa, double beta, double theta) {

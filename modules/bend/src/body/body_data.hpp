@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -36,11 +37,28 @@ struct Bands {
     std::array<float, places> rho{};      ///< largest distance from the axis, model units; below 0: no vertex
     std::array<float, places> outward{};  ///< largest g w S, at least 0
     std::array<float, places> inward{};   ///< largest -g w S, at least 0
+    /// D / L where bands meet, the edge before band j at place j; between two of them it is off from a
+    /// straight line by drift_error at most. 0 without a shape.
+    std::array<float, places> drift{};
+    float drift_error = 0;
+    float max_scale = 1;  ///< largest s
 };
+
+/// D / L at a place between the edges of bands: j at edge j.
+[[nodiscard]] inline float drift_at(const Bands& bands, float place) noexcept {
+    const float inside = std::clamp(place, 0.0f, static_cast<float>(Bands::count));
+    const auto j = std::min(static_cast<std::size_t>(inside), Bands::count - 1);
+    return bands.drift[j] + (inside - static_cast<float>(j)) * (bands.drift[j + 1] - bands.drift[j]);
+}
 
 /// Whether the region is bent at rest or has an onset. If neither, cheaper kernels serve.
 [[nodiscard]] inline bool compares_with_rest(const RegionInput& region) noexcept {
     return region.rest_angle != 0 || region.onset != 0;
+}
+
+/// The radius of a region of a body.
+[[nodiscard]] inline double radius_of(const RegionInput& region, double body_radius) noexcept {
+    return region.radius == 0 ? body_radius : region.radius;
 }
 
 /// What the frame path reads of a region, in addition to Region.

@@ -86,9 +86,9 @@ struct Wrinkle {
 /// kappa stays below 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
 Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
     const bool relative = compares_with_rest(region);
-    const double per_angle = radius / region.length;
-    const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle);
-    const double step = relative ? 4.5 : 2, factor = max_factor(region.factors);
+    const double per_angle = radius / region.length, max_scale = region.max_scale;
+    const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle * max_scale);
+    const double step = max_scale * (relative ? 4.5 : 2), factor = max_factor(region.factors);
     const auto& rows = region.table.rows;
     Wrinkle largest;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -114,13 +114,16 @@ bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
     return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= max_coefficient;
 }
 
-BodyFault check_region(const RegionInput& region, std::size_t index, double radius) noexcept {
-    const double most = region.length / (2 * radius);
+BodyFault check_region(const RegionInput& region, std::size_t index, double body_radius) noexcept {
+    const double radius = radius_of(region, body_radius);
+    const double most = region.length / (2 * radius * region.max_scale);
     const double max_angle = std::min(most * (1 + 1e-6), Range::max_angle);
     const double max_rest = std::min(most * Range::max_rest, region.max_angle);
     const double max_direction = Range::max_angle;
     const Limited numbers[] = {
         {BodyField::length, region.length, Range::min_length, Range::max_length},
+        {BodyField::region_radius, radius, Range::min_length, Range::max_length},
+        {BodyField::max_scale, region.max_scale, 1, Range::max_scale},
         {BodyField::max_angle, region.max_angle, Range::min_angle, max_angle},
         {BodyField::rest_angle, region.rest_angle, 0, max_rest},
         {BodyField::rest_direction, region.rest_direction, -max_direction, max_direction},
@@ -143,12 +146,13 @@ BodyFault check_counts(const BodyInput& input) noexcept {
     return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
 }
 
-BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,
+BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region, double radius,
                        double depth) noexcept {
     constexpr double most = std::numeric_limits<double>::max(), max_wrinkle = Range::max_wrinkle;
     const double slack = 1e-3 * region.length;
     const double growth = depth * std::fabs(v.wrinkle);
     const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
+    const double max_drift = region.length * radius * region.max_scale;
     const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
                                {BodyField::z, v.z, -slack, region.length + slack},
                                {BodyField::rho, v.rho, 0, Range::max_length},
@@ -156,16 +160,21 @@ BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput
                                {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
                                {BodyField::wrinkle, growth, 0, Range::max_growth},
                                {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
-                               {BodyField::rho, reach, 0, Range::max_radius_ratio}};
+                               {BodyField::rho, reach, 0, Range::max_radius_ratio},
+                               {BodyField::scale, v.scale, 1 / Range::max_scale, region.max_scale},
+                               {BodyField::scale_slope, v.scale_slope * region.length / v.scale,
+                                -Range::max_taper, Range::max_taper},
+                               {BodyField::drift, v.drift, -max_drift, max_drift}};
     return first_fault(numbers, index);
 }
 
 BodyFault check_vertices(const BodyInput& input) noexcept {
     std::size_t i = 0;
     for (const RegionInput& region : input.regions) {
-        const double depth = wrinkle_of(region, input.radius).depth;
+        const double radius = radius_of(region, input.radius);
+        const double depth = wrinkle_of(region, radius).depth;
         for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
-            const BodyFault fault = check_vertex(input.vertices[i], i, region, depth);
+            const BodyFault fault = check_vertex(input.vertices[i], i, region, radius, depth);
             if (!fault.none()) return fault;
         }
     }

@@ -27,10 +27,16 @@ Words words_of(BodyField field) noexcept {
             return {"", "regions", "one to max_regions"};
         case BodyField::length:
             return {"regions", ".length", "from 1e-12 to 1e12"};
+        case BodyField::region_radius:
+            return {"regions", ".radius", "0, or from 1e-12 to 1e12"};
+        case BodyField::max_scale:
+            return {"regions", ".max_scale", "1 to 1000"};
         case BodyField::max_angle:
-            return {"regions", ".max_angle", "from 1e-12 to 1000 radians and to length / (2 radius)"};
+            return {"regions", ".max_angle",
+                    "from 1e-12 to 1000 radians and to length / (2 radius max_scale)"};
         case BodyField::rest_angle:
-            return {"regions", ".rest_angle", "0 to max_angle, and below length / (2 radius) by 1e-5 of it"};
+            return {"regions", ".rest_angle",
+                    "0 to max_angle, and below length / (2 radius max_scale) by 1e-5 of it"};
         case BodyField::rest_direction:
             return {"regions", ".rest_direction", "within 1000 radians"};
         case BodyField::onset:
@@ -59,6 +65,12 @@ Words words_of(BodyField field) noexcept {
         case BodyField::slope:
             return {"vertices", ".slope",
                     "within 1e18, and such that the deepest wrinkle is no steeper than 1e6"};
+        case BodyField::scale:
+            return {"vertices", ".scale", "0.001 to its region's max_scale"};
+        case BodyField::scale_slope:
+            return {"vertices", ".scale_slope", "within 1000 scale / length"};
+        case BodyField::drift:
+            return {"vertices", ".drift", "within its region's length times radius and max_scale"};
         case BodyField::normals:
             return {"normals", "", "one per vertex, of unit length"};
         case BodyField::tangents:

@@ -2,7 +2,9 @@
 #include "body/body_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -10,7 +12,8 @@ namespace goffer::bend {
 namespace {
 
 /// Places of columns in BodyData::storage. Those from `tangents` on exist only if the body has tangents. The
-/// columns of RestColumn follow if a region compares_with_rest.
+/// columns of ShapeColumn follow if the body has a shape, then those of RestColumn if a region
+/// compares_with_rest.
 enum Column : std::size_t {
     cos_half_beta,
     sin_half_beta,
@@ -24,20 +27,29 @@ enum Column : std::size_t {
     tangent_sign = tangents + 3,
     all_columns
 };
-enum RestColumn : std::size_t { cos_beta, sin_beta, rest_cosine, rest_sine, all_rest_columns };
+enum ShapeColumn : std::size_t { scale, drift, taper, all_shape_columns };
+enum RestColumn : std::size_t { cos_beta, sin_beta, rest_cosine, rest_sine, rest_scale, all_rest_columns };
 
-/// The place of the first RestColumn.
-std::size_t first_rest_column(bool has_tangents) {
-    return has_tangents ? all_columns : tangents;
-}
+/// Which columns a body has beside those that all have, and where they begin.
+struct Layout {
+    bool tangents, shape, rest;
 
-Columns storage_for(const BodyInput& input) {
-    const bool compares = std::ranges::any_of(input.regions, compares_with_rest);
-    return {first_rest_column(!input.tangents.empty()) + (compares ? std::size_t{all_rest_columns} : 0),
-            input.vertices.size()};
-}
+    explicit Layout(const BodyInput& input)
+        : tangents(!input.tangents.empty()),
+          shape(std::ranges::any_of(input.vertices,
+                                    [](const RestVertex& v) { return v.scale != 1 || v.drift != 0; })),
+          rest(std::ranges::any_of(input.regions, compares_with_rest)) {}
 
-RestColumns columns_of(const Columns& storage, bool has_tangents) {
+    [[nodiscard]] std::size_t first_shape_column() const { return tangents ? all_columns : Column::tangents; }
+    [[nodiscard]] std::size_t first_rest_column() const {
+        return first_shape_column() + (shape ? std::size_t{all_shape_columns} : 0);
+    }
+    [[nodiscard]] std::size_t columns() const {
+        return first_rest_column() + (rest ? std::size_t{all_rest_columns} : 0);
+    }
+};
+
+RestColumns columns_of(const Columns& storage, const Layout& layout) {
     const auto at = [&](std::size_t column) { return storage[column].data(); };
     RestColumns columns;
     columns.cos_half_beta = at(cos_half_beta);
@@ -48,14 +60,20 @@ RestColumns columns_of(const Columns& storage, bool has_tangents) {
     columns.wrinkle = at(wrinkle);
     columns.slope = at(slope);
     for (std::size_t c = 0; c < 3; ++c) columns.normal[c] = at(normals + c);
-    for (std::size_t c = 0; has_tangents && c < 3; ++c) columns.tangent[c] = at(tangents + c);
-    if (has_tangents) columns.tangent_sign = at(tangent_sign);
-    const std::size_t rest = first_rest_column(has_tangents);
-    if (storage.columns() == rest) return columns;
+    for (std::size_t c = 0; layout.tangents && c < 3; ++c) columns.tangent[c] = at(tangents + c);
+    if (layout.tangents) columns.tangent_sign = at(tangent_sign);
+    if (layout.shape) {
+        columns.scale = at(layout.first_shape_column() + scale);
+        columns.drift = at(layout.first_shape_column() + drift);
+        columns.taper = at(layout.first_shape_column() + taper);
+    }
+    if (!layout.rest) return columns;
+    const std::size_t rest = layout.first_rest_column();
     columns.cos_beta = at(rest + cos_beta);
     columns.sin_beta = at(rest + sin_beta);
     columns.rest_cosine = at(rest + rest_cosine);
     columns.rest_sine = at(rest + rest_sine);
+    columns.rest_scale = at(rest + rest_scale);
     return columns;
 }
 
@@ -74,23 +92,48 @@ struct Making {
     std::size_t first, last;
 };
 
-/// S of the column at `beta` in the rest pose, by eq 9 and 10.
-double rest_scale(const Making& making, double beta) {
-    const double kappa = making.region.rest_angle * making.radius / making.region.length;
-    return 1 - kappa * (1 + std::cos(beta - making.region.rest_direction));
+/// S of a vertex' column in the rest pose, by eq 9 and 10 at the radius about it.
+double rest_scale_of(const Making& making, const RestVertex& v) {
+    const double kappa = v.scale * making.region.rest_angle * making.radius / making.region.length;
+    return 1 - kappa * (1 + std::cos(v.beta - making.region.rest_direction));
+}
+
+/// What is multiplied into the wrinkle of a vertex, so that kernels need not: S, or the root of s.
+struct Stored {
+    double factor;
+    double slope;  // of the factor, by z; 0 for the root of s, whose change is part of RestColumns::taper
+};
+
+Stored stored_of(const Making& making, const RestVertex& v) {
+    if (!compares_with_rest(making.region)) return {std::sqrt(v.scale), 0};
+    const double scale = rest_scale_of(making, v);
+    return {scale, -(1 - scale) * v.scale_slope / v.scale};
 }
 
 void write_vertices(Columns& storage, const Making& making, std::span<const RestVertex> vertices) {
     for (std::size_t i = making.first; i < making.last; ++i) {
         const RestVertex& v = vertices[i];
-        const double scale = rest_scale(making, v.beta);
+        const auto [factor, factor_slope] = stored_of(making, v);
         storage[cos_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::cos(v.beta / 2));
         storage[sin_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::sin(v.beta / 2));
         storage[rho][i] = static_cast<float>(v.rho);
-        storage[radial_offset][i] = static_cast<float>(scale * v.wrinkle * v.rho);
+        storage[radial_offset][i] = static_cast<float>(factor * v.wrinkle * v.rho);
         storage[height][i] = static_cast<float>(v.z / making.region.length - 0.5);
-        storage[wrinkle][i] = static_cast<float>(scale * v.wrinkle);
-        storage[slope][i] = static_cast<float>(scale * v.slope);
+        storage[wrinkle][i] = static_cast<float>(factor * v.wrinkle);
+        storage[slope][i] = static_cast<float>(factor * v.slope + factor_slope * v.wrinkle * v.rho);
+    }
+}
+
+/// Writes the columns of ShapeColumn, the first of which is `column`.
+void write_shape_columns(Columns& storage, std::size_t column, const Making& making,
+                         std::span<const RestVertex> vertices) {
+    const bool compares = compares_with_rest(making.region);
+    for (std::size_t i = making.first; i < making.last; ++i) {
+        const RestVertex& v = vertices[i];
+        const double factor = compares ? 1 : std::sqrt(v.scale);
+        storage[column + scale][i] = static_cast<float>(v.scale);
+        storage[column + drift][i] = static_cast<float>(v.drift / making.region.length);
+        storage[column + taper][i] = static_cast<float>(factor * v.wrinkle * v.rho * v.scale_slope / v.scale);
     }
 }
 
@@ -99,11 +142,12 @@ void write_rest_columns(Columns& storage, std::size_t column, const Making& maki
                         std::span<const RestVertex> vertices) {
     for (std::size_t i = making.first; i < making.last; ++i) {
         const double beta = vertices[i].beta, cosine = std::cos(beta), sine = std::sin(beta);
-        const double scale = rest_scale(making, beta);
+        const double per_scale = vertices[i].scale / rest_scale_of(making, vertices[i]);
         storage[column + cos_beta][i] = static_cast<float>(cosine);
         storage[column + sin_beta][i] = static_cast<float>(sine);
-        storage[column + rest_cosine][i] = static_cast<float>(cosine / scale);
-        storage[column + rest_sine][i] = static_cast<float>(sine / scale);
+        storage[column + rest_cosine][i] = static_cast<float>(cosine * per_scale);
+        storage[column + rest_sine][i] = static_cast<float>(sine * per_scale);
+        storage[column + rest_scale][i] = static_cast<float>(per_scale);
     }
 }
 
@@ -116,6 +160,24 @@ Frame frame_of(const BodyInput& input) {
     return frame;
 }
 
+/// Takes the drift at an edge from the vertex nearest to it.
+void set_drift(Bands& bands, const RestColumns& columns, const Making& making, float per_height) {
+    std::array<float, Bands::count + 1> distance;
+    distance.fill(std::numeric_limits<float>::max());
+    for (std::size_t i = making.first; i < making.last; ++i) {
+        bands.max_scale = std::max(bands.max_scale, columns.scale[i]);
+        const float place = (columns.height[i] - bands.lowest) * per_height;
+        for (std::size_t j = 0; j < distance.size(); ++j) {
+            const float away = std::fabs(place - static_cast<float>(j));
+            if (away < distance[j]) distance[j] = away, bands.drift[j] = columns.drift[i];
+        }
+    }
+    for (std::size_t i = making.first; i < making.last; ++i) {
+        const float at = drift_at(bands, (columns.height[i] - bands.lowest) * per_height);
+        bands.drift_error = std::max(bands.drift_error, std::fabs(columns.drift[i] - at));
+    }
+}
+
 Bands bands_of(const RestColumns& columns, const Making& making) {
     Bands bands;
     bands.rho.fill(-1);
@@ -126,6 +188,7 @@ Bands bands_of(const RestColumns& columns, const Making& making) {
     bands.highest = *highest;
     const float extent = bands.highest - bands.lowest;
     const float per_height = extent > 0 ? static_cast<float>(Bands::count) / extent : 0.0f;
+    if (columns.scale != nullptr) set_drift(bands, columns, making, per_height);
     for (std::size_t i = first; i < last; ++i) {
         const auto band = static_cast<std::size_t>((columns.height[i] - bands.lowest) * per_height);
         const std::size_t place = std::min(band, Bands::count - 1) + 1;
@@ -179,13 +242,12 @@ RegionData data_of(const Making& making, const RestColumns& columns) {
     return {setup_of(input, making.radius), squeeze_of(input), &input.factors, bands_of(columns, making)};
 }
 
-void add_region(BodyData& data, const Making& making, std::span<const RestVertex> vertices) {
+void add_region(BodyData& data, const Layout& layout, const Making& making,
+                std::span<const RestVertex> vertices) {
     const RegionInput& input = making.region;
     write_vertices(data.storage, making, vertices);
-    if (data.columns.cos_beta != nullptr) {
-        const std::size_t column = first_rest_column(data.columns.tangent_sign != nullptr);
-        write_rest_columns(data.storage, column, making, vertices);
-    }
+    if (layout.shape) write_shape_columns(data.storage, layout.first_shape_column(), making, vertices);
+    if (layout.rest) write_rest_columns(data.storage, layout.first_rest_column(), making, vertices);
     data.regions.push_back(region_of(making));
     data.details.push_back(data_of(making, data.columns));
     data.length += input.length;
@@ -196,9 +258,9 @@ void add_region(BodyData& data, const Making& making, std::span<const RestVertex
 std::optional<Body> Body::make(const BodyInput& input) {
     if (!check(input).none()) return std::nullopt;
     auto data = std::make_unique<BodyData>();
-    const bool has_tangents = !input.tangents.empty();
-    data->storage = storage_for(input);
-    data->columns = columns_of(data->storage, has_tangents);
+    const Layout layout(input);
+    data->storage = Columns(layout.columns(), input.vertices.size());
+    data->columns = columns_of(data->storage, layout);
     data->vertex_count = input.vertices.size();
     data->base = frame_of(input);
     data->origin = input.origin;
@@ -207,11 +269,12 @@ std::optional<Body> Body::make(const BodyInput& input) {
     data->inputs.assign(input.regions.begin(), input.regions.end());
     std::size_t first = 0;
     for (const RegionInput& region : data->inputs) {
-        add_region(*data, {region, input.radius, first, first + region.vertex_count}, input.vertices);
+        const Making making{region, radius_of(region, input.radius), first, first + region.vertex_count};
+        add_region(*data, layout, making, input.vertices);
         first += region.vertex_count;
     }
     write_vectors(data->storage, normals, input.normals);
-    if (has_tangents) {
+    if (layout.tangents) {
         write_vectors(data->storage, tangents, input.tangents);
         std::ranges::copy(input.tangent_signs, data->storage[tangent_sign].begin());
     }

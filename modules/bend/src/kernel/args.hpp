@@ -71,24 +71,24 @@ struct alignas(16) Coefficients {
     float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
     float offset[4];          ///< the arc's middle in the streams' space
     float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
-    /// Plain: A = |h| sum of amplitude[n] T^n and dA/dbeta = sign(h) h' sum of amplitude_slope[n] T^n.
+    /// Plain, with x = s T: A = |h| sqrt(s) sum of amplitude[n] x^n, and dA/dbeta = sign(h) h' sqrt(s) sum of
+    /// amplitude_slope[n] x^n.
     /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of
     /// amplitude_slope[n] x^n is its derivative by sqrt(x).
     float amplitude[amplitude_terms];
     float amplitude_slope[amplitude_terms];
     /// What follows is for relative squeezes alone. With u = (cos beta, sin beta), the scales of a column at
     /// rest and in the pose, and its squeeze, are
-    ///     S_0 = 1 - kappa_0 - rest_curl . u
-    ///     S   = S_0 - (kappa - kappa_0) - curl_change . u
-    ///     q   = 1 - S / S_0 = squeeze[0] + squeeze[1, 2] . u / S_0
+    ///     S_0 = 1 - s (kappa_0 + rest_curl . u)
+    ///     S   = S_0 - s (kappa_change + curl_change . u)
+    ///     q   = 1 - S / S_0 = (kappa_change + curl_change . u) s / S_0
     float cos_direction, sin_direction;  ///< of theta
     float rest_curl[2];
     float curl_change[2];
-    float onset;  ///< > 0
-    float unused;
-    float squeeze[4];  ///< the last 0
+    float onset;         ///< > 0
+    float kappa_change;  ///< kappa - kappa_0
 };
-static_assert(sizeof(Coefficients) == 72 * sizeof(float));
+static_assert(sizeof(Coefficients) == 68 * sizeof(float));
 
 /// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
 struct PlaneOutput {

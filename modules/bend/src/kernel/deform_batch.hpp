@@ -44,6 +44,7 @@ struct Bent {
     Vec c, s;          // cos and sin of beta - theta
     Vec amplitude;     // A; A / S_0 where the squeeze is relative
     Vec slope;         // its derivative by beta
+    Vec by_scale;      // its derivative by ln(s); set where the body has a shape and slopes are wanted
     Vec rho_c, rho_s;  // rho' c, rho' s
     Vec arc_x, arc_z;  // L (1 - cos delta) / alpha, L sin delta / alpha
     Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
@@ -69,11 +70,15 @@ void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& 
     b.c = t - L::splat(1.0f);
     b.s = h * h_prime;
     if constexpr (squeeze == Squeeze::none) return;
-    b.amplitude = L::abs(h) * long_polynomial<L>(k.amplitude, t);
+    const Vec size = L::abs(h);
+    const Vec x = rest.scale == nullptr ? t : t * L::load(rest.scale + i);
+    b.amplitude = size * long_polynomial<L>(k.amplitude, x);
     if constexpr (slope) {
         // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
         const Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
-        b.slope = sign * h_prime * long_polynomial<L>(k.amplitude_slope, t);
+        const Vec per_turn = long_polynomial<L>(k.amplitude_slope, x);
+        b.slope = sign * h_prime * per_turn;
+        if (rest.scale != nullptr) b.by_scale = L::nmadd(size, per_turn, L::splat(0.0f));
     }
 }
 
@@ -88,8 +93,9 @@ void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L
     const Vec rest_cosine = L::load(rest.rest_cosine + i);
     const Vec rest_sine = L::load(rest.rest_sine + i);
     const Vec zero = L::splat(0.0f);
-    const Vec q = L::max(L::madd(L::splat(k.squeeze[2]), rest_sine,
-                                 L::madd(L::splat(k.squeeze[1]), rest_cosine, L::splat(k.squeeze[0]))),
+    const Vec q = L::max(L::madd(L::splat(k.curl_change[1]), rest_sine,
+                                 L::madd(L::splat(k.curl_change[0]), rest_cosine,
+                                         L::splat(k.kappa_change) * L::load(rest.rest_scale + i))),
                          zero);
     const Vec per_root = L::rsqrt(q + L::splat(k.onset));
     const Vec root = q * per_root;
@@ -101,9 +107,10 @@ void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L
         const Vec turned =
             L::nmadd(L::splat(k.curl_change[0]), rest_sine, L::splat(k.curl_change[1]) * rest_cosine);
         const Vec q_slope = L::nmadd(q, rest_slope, turned);
-        const Vec root_slope = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
-                               L::where_less(zero, q, q_slope, zero);
-        b.slope = L::madd(b.amplitude, rest_slope, root_slope * long_polynomial<L>(k.amplitude_slope, x));
+        const Vec per_q = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
+                          long_polynomial<L>(k.amplitude_slope, x);
+        b.slope = L::madd(b.amplitude, rest_slope, per_q * L::where_less(zero, q, q_slope, zero));
+        if (rest.scale != nullptr) b.by_scale = per_q * q;
     }
 }
 
@@ -112,6 +119,7 @@ template <class L, Squeeze squeeze, bool slope>
 Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i) {
     using Vec = typename L::Vec;
     Bent<L> b;
+    b.by_scale = L::splat(0.0f);
     if constexpr (squeeze == Squeeze::relative) {
         set_relative_wrinkle<L, slope>(rest, k, b, i);
     } else {
@@ -128,7 +136,8 @@ Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i
 template <class L>
 void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec v = L::load(rest.height + i);
+    Vec v = L::load(rest.height + i);
+    if (rest.drift != nullptr) v = L::nmadd(L::splat(k.curvature), L::load(rest.drift + i), v);
     const Vec vv = v * v;
     b.arc_x = vv * polynomial<L>(k.arc_x, vv);
     b.arc_z = v * polynomial<L>(k.arc_z, vv);
@@ -223,15 +232,29 @@ struct Jacobian {
     typename L::Vec a, b, d;
 };
 
+/// Bent::stretch of a body with a shape, for normals and tangents: the arc angle grows more slowly where the
+/// body is thick.
+template <class L>
+void set_shaped_stretch(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    const float kappa = 1 - k.one_minus_kappa;
+    b.stretch = b.stretch * L::nmadd(L::splat(kappa), L::load(rest.scale + i), L::splat(1 + kappa));
+}
+
 template <class L>
 Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
     const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
+    Vec half_radius = L::splat(k.half_radius);
+    Vec along = bent.amplitude * L::load(rest.slope + i);
+    if (rest.scale != nullptr) {
+        half_radius = half_radius * L::load(rest.scale + i);
+        along = L::madd(bent.by_scale, L::load(rest.taper + i), along);
+    }
     // Below half the radius the depth weight is proportional to rho, so the wrinkle stretches rho as much as
     // the circle.
-    return {growth, L::where_less(L::load(rest.rho + i), L::splat(k.half_radius), growth, L::splat(1.0f)),
-            bent.slope * wrinkle, bent.amplitude * L::load(rest.slope + i)};
+    return {growth, L::where_less(L::load(rest.rho + i), half_radius, growth, L::splat(1.0f)),
+            bent.slope * wrinkle, along};
 }
 
 template <class L, Squeeze squeeze>
@@ -309,6 +332,7 @@ Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> 
     results.position =
         place<L>(k.matrix, k.offset, L::madd(b.arc_x, b.stretch, b.rho_c), b.rho_s, b.arc_z * b.stretch);
     if constexpr (has_normals(streams)) {
+        if (rest.scale != nullptr) set_shaped_stretch<L>(rest, k, b, i);
         Jacobian<L> j;
         if constexpr (squeeze != Squeeze::none) j = jacobian<L>(rest, k, b, i);
         results.normal = bend_normals<L, squeeze>(rest, k, b, j, i);

@@ -285,12 +285,10 @@ private:
             doublings_, L::splat(region_.radius * 0.5f), handedness);
     }
 
-    /// A column has the scale S = 1 - kappa - curl . u, where u = (cos beta, sin beta) and curl = kappa (cos
-    /// theta, sin theta). With p = u / S_0, 1 / S_0 = (1 + rest_curl . p) / (1 - kappa_0), so q is linear in
-    /// p. The differences vanish exactly at the rest pose.
-    /// See modules/paper/README.md, "Bodies bent at rest".
+    /// A column has the scale S = 1 - s (kappa + curl . u), where u = (cos beta, sin beta) and curl = kappa
+    /// (cos theta, sin theta), so that q is linear in s / S_0 and s u / S_0. The differences vanish exactly
+    /// at the rest pose. See modules/paper/README.md, "Bodies bent at rest".
     void set_squeeze(Vec kappa) {
-        const Vec zero = L::splat(0.0f);
         // The same operations as for the pose, so that they cancel exactly.
         const Vec rest_kappa =
             L::splat(region_.rest_angle) * L::splat(region_.per_length) * L::splat(region_.radius);
@@ -298,13 +296,10 @@ private:
         const Vec rest_cosine = rest_kappa * rest.cosine, rest_sine = rest_kappa * rest.sine;
         const Vec change_cosine = kappa * whole_.cosine - rest_cosine;
         const Vec change_sine = kappa * whole_.sine - rest_sine;
-        const Vec squeeze = (kappa - rest_kappa) / (L::splat(1.0f) - rest_kappa);
         put([](Coefficients& k) -> float* { return &k.cos_direction; }, whole_.cosine, whole_.sine,
             rest_cosine, rest_sine);
         put([](Coefficients& k) -> float* { return k.curl_change; }, change_cosine, change_sine,
-            L::splat(region_.onset > 1e-12f ? region_.onset : 1e-12f), zero);
-        put([](Coefficients& k) -> float* { return k.squeeze; }, squeeze,
-            L::madd(squeeze, rest_cosine, change_cosine), L::madd(squeeze, rest_sine, change_sine), zero);
+            L::splat(region_.onset > 1e-12f ? region_.onset : 1e-12f), kappa - rest_kappa);
     }
 
     const SetupRegion& region_;

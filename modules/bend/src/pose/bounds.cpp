@@ -162,12 +162,31 @@ private:
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
 
+/// How much longer, over the curvature, the shape makes a band's share of the arc at most.
+float largest_step(const Bands& bands) noexcept {
+    float largest = 0;
+    for (std::size_t j = 0; j < Bands::count; ++j)
+        largest = std::max(largest, std::fabs(bands.drift[j + 1] - bands.drift[j]));
+    return largest;
+}
+
+/// How far vertices may be from where the bands' drift puts them.
+float shift_of(const Bands& bands, const Coefficients& k, float amplitude) noexcept {
+    if (bands.drift_error == 0) return 0;
+    float widest = 0;
+    for (std::size_t j = 1; j <= Bands::count; ++j)
+        widest = std::max(widest, bands.rho[j] + amplitude * std::max(bands.outward[j], bands.inward[j]));
+    const float along = k.curvature * bands.drift_error * k.arc_z[0];
+    return 1.01f * along * (k.one_minus_kappa + k.curvature * widest);
+}
+
 /// The bounds of a region that has vertices.
 Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
-    const Float4 amplitude = amplitudes(k, squeeze);
+    const Float4 amplitude = amplitudes(k, squeeze, bands.max_scale);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
-    const float length = k.one_minus_kappa * k.arc_z[0] * height;  // of a band's arc; arc_z[0] is L
-    const float turn = k.curvature * k.arc_z[0] * height;
+    const float longest = height + k.curvature * largest_step(bands);
+    const float length = k.one_minus_kappa * k.arc_z[0] * longest;  // of a band's arc; arc_z[0] is L
+    const float turn = k.curvature * k.arc_z[0] * longest;
     const float radius = k.one_minus_kappa / k.curvature;
     Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
     for (std::size_t j = 0; j < edges; j += 4) {
@@ -177,15 +196,17 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
             continue;
         }
         const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
-        const CenterLine line = center_line(k, splat(bands.lowest) + place * splat(height));
+        const Float4 drift = splat(k.curvature) * load4(&bands.drift[j]);
+        const CenterLine line = center_line(k, splat(bands.lowest) + place * splat(height) - drift);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
         for (Extent& extent : extents) extent.take_edges(line, j, sections);
     }
+    const float shift = shift_of(bands, k, amplitude[sectors - 1]);
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {
         Extent& extent = extents[row];
         if (!(turn > 3)) extent.take_bands(bands, amplitude, radius, length * turn / 8);
-        const float margin = 1e-5f * extent.whole() * k.arc_z[0] + 1e-6f * std::fabs(k.offset[row]);
+        const float margin = (1e-5f * k.arc_z[0] + shift) * extent.whole() + 1e-6f * std::fabs(k.offset[row]);
         bounds.low[row] = k.offset[row] + extent.low() - margin;
         bounds.high[row] = k.offset[row] + extent.high() + margin;
     }

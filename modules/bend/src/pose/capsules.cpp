@@ -30,6 +30,13 @@ float widest(const Bands& bands, float amplitude, float from, float to) noexcept
     return radius;
 }
 
+/// Where the arc has the angle of height v = z / L - 1/2: v itself, without a shape.
+float shifted(const Bands& bands, const Coefficients& k, float v) noexcept {
+    const float extent = bands.highest - bands.lowest;
+    const float per_height = extent > 0 ? static_cast<float>(Bands::count) / extent : 0.0f;
+    return v - k.curvature * drift_at(bands, (v - bands.lowest) * per_height);
+}
+
 /// An upper bound for the factor that the linear part M of `transform` stretches vectors by: the root of the
 /// largest sum of absolute values in a row of M^T M.
 float largest_scale(const glm::mat4x3& transform) noexcept {
@@ -56,16 +63,20 @@ glm::vec3 placed(const Coefficients& k, const CenterLine& line, int i) noexcept 
 void region_capsules(const Region& region, const Bands& bands, const Coefficients& k, Squeeze squeeze,
                      float scale, std::span<Capsule> result) {
     constexpr float margin = 1.00001f;  // for rounding
-    const Float4 deepest = amplitudes(k, squeeze);
+    const Float4 deepest = amplitudes(k, squeeze, bands.max_scale);
     const float count = static_cast<float>(result.size());
     const float step = (bands.highest - bands.lowest) / count;
-    const float turn = k.curvature * region.length * step;
-    const float arc = k.one_minus_kappa * region.length * step;
-    // R (1 - cos(turn / 2)) is at most R turn^2 / 8; beyond about half a turn the arc's length is the bound.
-    const float sagitta = turn < 3 ? arc * turn / 8 : arc;
+    const float slack = k.curvature * bands.drift_error;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
-        const CenterLine line = center_line(k, Float4{from, from + step, from, from});
+        const float begin = shifted(bands, k, from), end = shifted(bands, k, from + step);
+        const float height = end - begin + 2 * slack;
+        const float turn = k.curvature * region.length * height;
+        const float arc = k.one_minus_kappa * region.length * height;
+        // R (1 - cos(turn / 2)) is at most R turn^2 / 8; beyond about half a turn the arc's length is the
+        // bound.
+        const float sagitta = (turn < 3 ? arc * turn / 8 : arc) + k.one_minus_kappa * region.length * slack;
+        const CenterLine line = center_line(k, Float4{begin, end, begin, begin});
         const float radius =
             region.first == region.last
                 ? 0

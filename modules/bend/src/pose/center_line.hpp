@@ -41,14 +41,15 @@ inline CenterLine center_line(const Coefficients& k, Float4 v) noexcept {
 /// cos(beta - theta): 0 to 1/2 to 1 to 3/2 to 2.
 constexpr int sectors = 4;
 
-/// The largest amplitude of all columns where the squeeze is relative. The maximum of q = (d + e . u) / (1 -
-/// kappa_0 - f . u) over unit vectors u is the larger root of |e + q f| = q (1 - kappa_0) - d.
-inline float relative_amplitude(const Coefficients& k) noexcept {
-    const float e1 = k.curl_change[0], e2 = k.curl_change[1];
-    const float f1 = k.rest_curl[0], f2 = k.rest_curl[1];
+/// The largest amplitude of all columns where the squeeze is relative, with s up to `max_scale`, with which
+/// it grows. The maximum of q = (d + e . u) / (1 - kappa_0 - f . u) over unit vectors u is the larger root of
+/// |e + q f| = q (1 - kappa_0) - d.
+inline float relative_amplitude(const Coefficients& k, float max_scale) noexcept {
+    const float e1 = max_scale * k.curl_change[0], e2 = max_scale * k.curl_change[1];
+    const float f1 = max_scale * k.rest_curl[0], f2 = max_scale * k.rest_curl[1];
     const float kappa = std::sqrt(f1 * f1 + f2 * f2);
     const float scale = 1 - kappa;
-    const float d = k.squeeze[0] * scale;
+    const float d = max_scale * k.kappa_change;
     const float a = 1 - 2 * kappa;  // of a q^2 - 2 b q - c = 0
     const float b = e1 * f1 + e2 * f2 + scale * d;
     const float c = e1 * e1 + e2 * e2 - d * d;
@@ -61,13 +62,19 @@ inline float relative_amplitude(const Coefficients& k) noexcept {
     return 1.001f * largest;
 }
 
-/// The largest amplitude in each sector and those before it. It grows with T in tables that fit makes, but a
-/// caller's table may hold anything.
-inline Float4 amplitudes(const Coefficients& k, Squeeze squeeze) noexcept {
+/// The largest amplitude in each sector and those before it, over sqrt(s) where the squeeze is plain. It
+/// grows with T in tables that fit makes, but a caller's table may hold anything. With a shape, all s up to
+/// `max_scale` count, and the polynomial alone falls with s T.
+inline Float4 amplitudes(const Coefficients& k, Squeeze squeeze, float max_scale) noexcept {
     if (squeeze == Squeeze::none) return splat(0);
-    if (squeeze == Squeeze::relative) return splat(relative_amplitude(k));
+    if (squeeze == Squeeze::relative) return splat(relative_amplitude(k, max_scale));
     const Float4 t = {0.5f, 1.0f, 1.5f, 2.0f};
-    const Float4 each = abs(polynomial(k.amplitude, t)) * sqrt(t);
+    Float4 size = abs(polynomial(k.amplitude, t * splat(max_scale)));
+    if (max_scale != 1) {
+        for (const float part : {0.0f, 0.25f, 0.5f, 0.75f})
+            size = max(size, abs(polynomial(k.amplitude, t * splat(part * max_scale))));
+    }
+    const Float4 each = size * sqrt(t);
     const float second = std::max(each[0], each[1]), third = std::max(second, each[2]);
     return {each[0], second, third, std::max(third, each[3])};
 }

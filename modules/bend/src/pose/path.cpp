@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body/body_data.hpp"
 #include "pose/bezier.hpp"
 #include "pose/center_places.hpp"
 #include "pose/polyline.hpp"
@@ -123,10 +124,11 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
     PathFit fit{.transform = transform_to(way, body)};
     double farthest = 0, share = 1;  // share: center line / length of the last region
     const std::span<const Region> regions = body.regions();
-    const double radius = body.radius();
+    const BodyData& data = *body.data();
     for (std::size_t r = 0; r < poses.size(); ++r) {
         const auto length = static_cast<double>(regions[r].length);
         const auto most = static_cast<double>(regions[r].max_angle);
+        const double radius = radius_of(data.inputs[r], data.radius);
         double ahead = share * length;
         for (int steps = r == 0 ? 2 : 1; steps > 0; --steps)
             ahead = end_of_region(path, way.axes, ahead, length, radius, most);

@@ -211,8 +211,9 @@ void add_crowd(CLI::App& app, Action& action) {
         ->capture_default_str();
     add_angle_words(*command, options->pose,
                     "Swing between straight and this many degrees; negative: the other way");
+    options->bind.amplitude = "paper";  // the factors of `mesh` cost time in each frame
     add_bind_words(*command, options->bind);
-    add_refine_word(*command, options->bind);
+    add_refine_word(*command, options->bind, "off");
     command
         ->add_option(
             "--streams", options->streams,

@@ -28,6 +28,10 @@ struct RestVertex {
     /// on the axis, where w / rho = 2 / r.
     double wrinkle = 0;
     double slope = 0;  ///< d(g w) / dz, 1 / model units
+    /// These three are of the body's shape at z: see modules/paper/README.md, "Shaped bodies".
+    double scale = 1;        ///< s > 0: the radius there over the region's
+    double scale_slope = 0;  ///< ds / dz, 1 / model units
+    double drift = 0;  ///< D: integral of the radius there less the region's, from 0 to z, units squared
 };
 
 /// A rest normal's or tangent's components along (e_rho, e_beta, e_z) at its vertex. In a region that is bent
@@ -66,6 +70,8 @@ struct WorkingRange {
     static constexpr double max_angle = 1000;     ///< largest max_angle and |rest_direction|, radians
     static constexpr double max_rest = 1 - 1e-5;  ///< largest rest_angle, as a share of length / (2 radius)
     static constexpr double max_wrinkle = 1e18;   ///< largest |wrinkle| and |slope|, 1 / model units
+    static constexpr double max_scale = 1e3;      ///< largest scale of a vertex, and of 1 / scale
+    static constexpr double max_taper = 1e3;      ///< largest |scale_slope| times the length over the scale
     static constexpr double max_depth = 1e15;     ///< deepest wrinkle that a table may ask for
     static constexpr double max_growth = 1e6;  ///< largest factor that a wrinkle may stretch the surface by
     /// Largest distance of a vertex from the axis, with the deepest wrinkle added, as a multiple of the arc's
@@ -74,7 +80,7 @@ struct WorkingRange {
 };
 
 /// The part of a BodyInput that is at fault. From `length` to `factors`: a member of a region; from `beta` to
-/// `slope`: a member of a vertex.
+/// `drift`: a member of a vertex.
 enum class BodyField : std::uint8_t {
     none,
     origin,
@@ -82,6 +88,8 @@ enum class BodyField : std::uint8_t {
     radius,
     regions,  ///< how many there are
     length,
+    region_radius,
+    max_scale,
     max_angle,
     rest_angle,
     rest_direction,
@@ -95,6 +103,9 @@ enum class BodyField : std::uint8_t {
     rho,
     wrinkle,
     slope,
+    scale,
+    scale_slope,
+    drift,
     normals,
     tangents,
     tangent_signs,

@@ -20,7 +20,8 @@ namespace goffer::fit {
 
 /// Returns the depth of the wrinkle of region `region`, bent by `angle`, where the base is squeezed most:
 /// model units; 0 without folds. Leaves out the factors of Amplitude::area and Amplitude::mesh. A wrinkle
-/// that is deeper than the radius reaches past the axis. Thread-safe.
+/// that is deeper than the radius reaches past the axis. For a region with a shape: the largest depth over
+/// the radius where it is, times the base's radius. Thread-safe.
 [[nodiscard]] double wrinkle_depth(const Binding& binding, std::size_t region, double angle);
 
 }  // namespace goffer::fit

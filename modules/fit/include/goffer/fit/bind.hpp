@@ -4,9 +4,11 @@
 #include <goffer/bend/body.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
+#include <goffer/paper/shape.hpp>
 #include <goffer/paper/wrinkle.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,8 +23,13 @@ namespace goffer::fit {
 using Amplitude = paper::Amplitude;
 
 /// The shape of wrinkles along the body. They are deepest at mid-length, and either have creases there and at
-/// the ends, as in the paper (damped), or none (smooth).
+/// the ends, as in the paper (damped), or none (smooth); or they have one depth throughout, with round crests
+/// and tight troughs (even).
 using Profile = paper::Profile;
+
+/// What is taken for the base of a body: its own radius at each height where that is not the same throughout
+/// (automatic), or one radius (cylinder).
+enum class ShapeMode { automatic, cylinder };
 
 /// What can be chosen for one region: a stretch of the body that bends along an arc of its own.
 struct RegionOptions {
@@ -32,12 +39,20 @@ struct RegionOptions {
 
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
 struct BindOptions {
-    /// Folds k per half length of a region, 0..max_folds. More than the mesh has vertices for are allowed.
-    /// Unset: sensible_folds() of each region, with a capacity of at most max_folds: none where a region is
-    /// longer than 256 radii.
+    /// Folds k of a region: per half length, 0..max_folds, or over the whole length with Profile::even,
+    /// 0..2 max_folds. More than the mesh has vertices for are allowed. Unset: folds of fold_length. With
+    /// Profile::even they are longer where the mesh has fewer rows than 8 for one, and fade where that would
+    /// make them longer than 1.5 to 2.5 radii. Otherwise sensible_folds() of each region, with a capacity of
+    /// at most max_folds: none where a region is longer than 256 radii.
     std::optional<int> folds = {};
+    /// Length of a fold, in radii of the body where it stands, > 0. Depth goes with it: half as long, half as
+    /// deep. Has no effect where folds are given. Unset: default_fold_length().
+    std::optional<double> fold_length = {};
     Amplitude amplitude = Amplitude::paper;
-    Profile profile = Profile::damped;
+    Profile profile = Profile::even;
+    /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). Of a body that
+    /// is bent at rest and has several regions, and with Amplitude::area, the base is a cylinder in any case.
+    ShapeMode shape = ShapeMode::automatic;
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions = {};
@@ -46,6 +61,10 @@ struct BindOptions {
     /// whose wrinkles would begin with a step otherwise; 0 for a straight one.
     /// See modules/paper/README.md, "Onset".
     std::optional<double> onset = {};
+
+    /// Returns the options with which bodies bend as in the paper: Profile::damped, Amplitude::paper, one
+    /// radius, no onset.
+    [[nodiscard]] static BindOptions as_in_paper();
 
     static constexpr int max_folds = 64;
     static constexpr int default_table_rows = 256;
@@ -66,7 +85,12 @@ struct RegionBinding {
     double length = 0;       ///< of the region's outer line, model units
     int folds = 0;           ///< k in use; 0: no wrinkle
     int folds_capacity = 0;  ///< most folds that the mesh has vertices for
+    /// How its radius and its folds change along it; null: not at all.
+    std::shared_ptr<const paper::Shape> shape = {};
 };
+
+/// Returns BindOptions::fold_length where nobody says: 0.75 for Profile::even, else 1.
+[[nodiscard]] double default_fold_length(Profile profile);
 
 /// A body, and what was found on the way to it. bind_level() binds other meshes to the same cylinder, regions
 /// and tables: this is then their rig.
@@ -77,7 +101,7 @@ struct Binding {
     /// of a region follow those of the one before. Empty where the order is the geometry's, as with one
     /// region.
     std::vector<std::uint32_t> order;
-    Cylinder cylinder;  ///< the base cylinder that the mesh was bound to
+    Cylinder cylinder;  ///< the base that the mesh was bound to, with its radii
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
     double milliseconds = 0;  ///< what bind or bind_level took, by the wall clock
@@ -95,8 +119,8 @@ struct Binding {
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
-/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset (use
-/// Amplitude::mesh).
+/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest, has radii or an onset
+/// (use Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
 /// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the
@@ -128,15 +152,16 @@ struct Binding {
 /// Makes the wrinkle table of one region: `rows` rows (2..4096) from angle 0 to `max_angle` (radians), in
 /// double, from solutions of eq 7 at Chebyshev points. Kernels that interpolate 256 rows stay within 5e-6 L
 /// of the closed form, except for Amplitude::area with four folds or fewer: up to 1e-3 L with one fold of
-/// Profile::smooth. Amplitude::mesh has the table of Amplitude::paper; its factors are solved by bind().
-/// Empty for folds = 0 or Amplitude::none.
+/// Profile::smooth. `max_scale` >= 1: the largest radius over `radius`. Amplitude::mesh has the table of
+/// Amplitude::paper; its factors are solved by bind(). Empty for folds = 0 or Amplitude::none.
 ///
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, max_angle
-/// is not above 0 and below length / (2 radius), or `rows` is out of range. Thread-safe. See
+/// is not above 0 and below length / (2 radius max_scale), or `rows` is out of range. Thread-safe. See
 /// modules/paper/README.md, "Wrinkle table".
 [[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude, int folds,
                                                     double length, double radius, double max_angle,
-                                                    int rows = BindOptions::default_table_rows);
+                                                    int rows = BindOptions::default_table_rows,
+                                                    double max_scale = 1);
 
 /// Returns the largest usable |angle| of a region (radians): 0.999 times the one at which L / alpha - r =
 /// rho_max + A(alpha), where the outermost vertex, lifted by the wrinkle, reaches the center of the arc and

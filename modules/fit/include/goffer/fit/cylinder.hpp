@@ -26,6 +26,9 @@ struct Cylinder {
     double rest_direction = 0;  ///< theta_0 of the center line at rest, radians
     double residual = 0;        ///< area-weighted rms of (rho - r) / r over the lateral surface: how far the
                                 ///< mesh is from the cylinder. For information
+    /// Radii of a body that is thicker here than there, model units: control values of paper::Spline at equal
+    /// steps from base to tip, whose mean is `radius`. Empty: a cylinder.
+    std::vector<double> radii = {};
 };
 
 /// What fit_cylinder may take for a body's shape at rest.
@@ -64,9 +67,19 @@ public:
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     Rest rest = Rest::automatic);
 
+/// Returns `cylinder` with the radii that the mesh has along it, and with their mean as its radius: the
+/// area-weighted mean distance from the axis, smoothed over half a radius, at least a fifth of the mean. The
+/// length of an arc changes with the radius, its center line does not. Returns `cylinder` as it is, without
+/// radii, if their rms deviation is below a twentieth of the mean. bind() does this by itself.
+///
+/// Throws Error as check(geometry) and check(cylinder) do. Thread-safe. See modules/paper/README.md, "Shaped
+/// bodies".
+[[nodiscard]] Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder);
+
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length or
-/// radius is not above 0, rest_angle is negative or not below both 2 pi and length / (2 radius), or axis and
-/// zero are not of unit length or not orthogonal, within 1e-3. Thread-safe.
+/// radius is not above 0, rest_angle is negative or not below both 2 pi and length / (2 radius), axis and
+/// zero are not of unit length or not orthogonal, within 1e-3, or there are radii that are fewer than two,
+/// not above 0, or do not have the radius as their mean, within 1e-3. Thread-safe.
 void check(const Cylinder& cylinder);
 
 /// Returns `cylinder` with another length: a stretch of it, for sensible_folds(). Thread-safe.
@@ -92,9 +105,11 @@ void check(const Cylinder& cylinder);
 /// 0: too coarse for any fold. Both arguments must pass check(). Thread-safe.
 [[nodiscard]] int folds_capacity(const Geometry& geometry, const Cylinder& cylinder);
 
-/// Returns the number of folds to use when none is asked for: k = round(L / (2 r)), which makes folds about
-/// as long as the radius, or `capacity` if that is less. Returns 0 if `capacity` is less than half of k,
-/// since so few folds would be so deep that they reach past the axis. Thread-safe.
-[[nodiscard]] int sensible_folds(const Cylinder& cylinder, int capacity);
+/// Returns the number of folds of Profile::damped or smooth to use when none is asked for: k = round(L / (2 r
+/// fold_length)), which makes folds about `fold_length` radii long (unset: 1), or `capacity` if that is less.
+/// Returns 0 if `capacity` is less than half of k, since so few folds would be so deep that they reach past
+/// the axis. Thread-safe.
+[[nodiscard]] int sensible_folds(const Cylinder& cylinder, int capacity,
+                                 std::optional<double> fold_length = {});
 
 }  // namespace goffer::fit

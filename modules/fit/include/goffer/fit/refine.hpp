@@ -45,14 +45,16 @@ struct Refinement {
 };
 
 /// A stretch of the body along z with rows at equal distances, 16 for each of its folds. `folds` counts per
-/// half length of the stretch, as everywhere. In a stretch without folds nothing is cut.
+/// half length of the stretch, as those of Profile::damped do, and need not be whole. In a stretch without
+/// folds nothing is cut.
 struct Stretch {
     double length = 0;  ///< along z, model units, > 0
-    int folds = 0;      ///< 0..2^20
+    double folds = 0;   ///< 0..2^20
 };
 
 /// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
-/// or else those that suit a region of that length whose mesh is fine enough. Thread-safe.
+/// or else those that suit a region of that length whose mesh is fine enough. A region with Profile::even on
+/// a base with radii is many stretches, each with folds of its own length. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Limits of a refinement.

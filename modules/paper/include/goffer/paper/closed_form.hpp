@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/paper/shape.hpp>
 #include <goffer/paper/wave.hpp>
 #include <goffer/paper/wrinkle.hpp>
 
@@ -41,6 +42,8 @@ struct Parameters {
     double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that the body is bent along at rest
     double rest_direction = 0;  ///< theta_0 of that arc
     double onset = 0;           ///< q0 >= 0: the amplitude is that of q^2 / (q + q0)
+    /// How the region differs from a cylinder; null: not at all. Its radius() must be `radius`.
+    std::shared_ptr<const Shape> shape = nullptr;
 };
 
 /// What changes per frame. A negative angle alpha stands for (|alpha|, theta + pi).
@@ -54,7 +57,8 @@ class ClosedForm {
 public:
     /// Throws std::invalid_argument if length or radius is not a finite number above 0; folds, rest_angle or
     /// onset is negative; |angle| or rest_angle is not below length / (2 radius); a direction is not finite;
-    /// or the amplitude is `area` and the body is bent at rest or has an onset, for which no factor is known.
+    /// the amplitude is `area` and the body is bent at rest, has an onset or a shape, for which no factor is
+    /// known; or the shape has another radius, or is too thick for an angle, where it is thickest.
     ClosedForm(const Parameters& body, const Pose& pose);
 
     /// Returns the deformed position in the body frame (eq 2-6). Nothing is divided by alpha: at alpha = 0
@@ -72,7 +76,8 @@ public:
     /// straightened and blended as normal() says.
     [[nodiscard]] glm::dvec3 tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent) const;
 
-    /// Returns the amplitude A of the column at `beta`, with the factor m(alpha); model units.
+    /// Returns the amplitude A of the column at `beta`, with the factor m(alpha); model units. For a body
+    /// with a shape it is that of a part with the mean radius.
     [[nodiscard]] double column_amplitude(double beta) const;
 
     /// Returns the bent position of the center line at height `z`, in the body frame. The wrinkle has no part
@@ -80,10 +85,13 @@ public:
     [[nodiscard]] glm::dvec3 center(double z) const;
 
 private:
-    struct Local;  // what position, normal and tangent share at one vertex
+    struct Local;       // what position, normal and tangent share at one vertex
+    struct LocalShape;  // of the body, at a height
+    struct Depth;       // the amplitude and its derivatives
     [[nodiscard]] Local local(const Cylindrical& rest) const;
-    [[nodiscard]] Column column(double beta) const;           // A and dA/dbeta, model units
-    [[nodiscard]] Column relative_column(double beta) const;  // of a body with a rest arc, or an onset
+    [[nodiscard]] LocalShape shape_at(const Cylindrical& rest) const;
+    [[nodiscard]] Depth column(double beta, double scale) const;
+    [[nodiscard]] Depth relative_column(double beta, double scale) const;  // with a rest arc, or an onset
     [[nodiscard]] double wrinkle(const Cylindrical& rest) const;
 
     Parameters body_;
@@ -98,11 +106,13 @@ private:
 /// the bent body. `at`: its vertex, straightened. The results have unit length. Both undo what normal() and
 /// tangent() do without a wrinkle: a normal goes by the transpose of the bend's Jacobian, a tangent by its
 /// inverse. Throw std::invalid_argument if length or radius is not a finite number above 0, |angle| is not
-/// below length / (2 radius), or the direction is not finite.
+/// below length / (2 radius), or the direction is not finite. `shape`: of the body; null: a cylinder.
 [[nodiscard]] CylindricalVector straightened_normal(const glm::dvec3& vector, const Cylindrical& at,
-                                                    double length, double radius, const Pose& rest);
+                                                    double length, double radius, const Pose& rest,
+                                                    const Shape* shape = nullptr);
 [[nodiscard]] CylindricalVector straightened_tangent(const glm::dvec3& vector, const Cylindrical& at,
-                                                     double length, double radius, const Pose& rest);
+                                                     double length, double radius, const Pose& rest,
+                                                     const Shape* shape = nullptr);
 
 /// Half-width of the blend at the creases. Across the outer line, where the amplitude has a corner, the sign
 /// of h = cos((beta - theta) / 2) is replaced by clamp(h / crease_width, -1, 1): the blend reaches 0.11
@@ -124,7 +134,8 @@ inline constexpr double crease_width = 1e-3;
 [[nodiscard]] glm::dvec3 from_cylindrical(const Cylindrical& point);
 
 /// Returns the straightened cylinder coordinates of a point of a body that is bent by `rest` at rest: the
-/// inverse of the bend (eq 2-5), without a wrinkle. `point` is in the body frame of the bent body, whose e3
+/// inverse of the bend (eq 2-5), without a wrinkle. For a body with a shape, z is then
+/// Shape::unshifted(z, |rest.angle| / length). `point` is in the body frame of the bent body, whose e3
 /// is the tangent of the center line at the base end.
 ///
 /// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The gap

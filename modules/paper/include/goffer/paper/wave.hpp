@@ -38,7 +38,8 @@ public:
     };
 
     /// Makes a wave that has `accuracy` for squeezes up to `largest_squeeze`.
-    /// Throws std::invalid_argument if folds < 1 or largest_squeeze is not in 0 <= q < 1.
+    /// Throws std::invalid_argument if folds < 1, the profile's roundness is not in 0..0.5, or
+    /// largest_squeeze is not in 0 <= q < 1.
     Wave(Profile profile, int folds, double largest_squeeze, Accuracy accuracy = Accuracy::full);
 
     /// Solves eq 7 for the relative amplitude a, as relative_amplitude() in wrinkle.hpp does. Above

@@ -13,10 +13,40 @@
 namespace goffer::paper {
 
 /// Shape of the wrinkle along the body, as a function of u = |2 z / L - 1|: 0 at mid-height, 1 at both ends.
-enum class Profile {
-    damped,  ///< g(u) = (1 - u) cos(2 pi k u), the paper's. Creases at mid-height and at the ends.
-    smooth,  ///< g(u) = (1 - u^2)^2 cos(2 pi k u). No crease along the body.
+/// A plain value.
+struct Profile {
+    enum class Kind {
+        damped,  ///< g(u) = (1 - u) cos(2 pi k u), the paper's. Creases at mid-height and at the ends.
+        smooth,  ///< g(u) = (1 - u^2)^2 cos(2 pi k u). No crease along the body.
+        even,  ///< g(u) = w(u) (cos(pi k u) - b cos(2 pi k u)): k folds of one depth, over the whole length,
+               ///< of which w fades the first and the last. No crease along the body.
+    };
+
+    Kind kind = Kind::damped;
+    /// b of `even`, 0..0.5: 0 is a plain cosine; the larger, the rounder are crests and the tighter troughs.
+    double roundness = 0.25;
+
+    static const Profile damped, smooth, even;
+
+    /// Return the largest g, and the largest -g, of many folds.
+    [[nodiscard]] constexpr double crest() const {
+        if (kind != Kind::even) return 1;
+        return roundness <= 0.25 ? 1 - roundness : roundness + 1 / (8 * roundness);
+    }
+    [[nodiscard]] constexpr double trough() const { return kind == Kind::even ? 1 + roundness : 1; }
+
+    /// Returns how many oscillations there are from end to end: folds are counted per half length, those of
+    /// `even` over all of it.
+    [[nodiscard]] constexpr int folds_of_length(int folds) const {
+        return kind == Kind::even ? folds : 2 * folds;
+    }
+
+    [[nodiscard]] constexpr bool operator==(const Profile&) const = default;
 };
+
+inline constexpr Profile Profile::damped{Profile::Kind::damped};
+inline constexpr Profile Profile::smooth{Profile::Kind::smooth};
+inline constexpr Profile Profile::even{Profile::Kind::even};
 
 /// How the amplitude is chosen. See modules/paper/README.md, "Amplitude modes".
 enum class Amplitude {
@@ -27,7 +57,7 @@ enum class Amplitude {
             ///< which has no mesh, as `paper`
 };
 
-/// Returns the shape g(u) of the wrinkle at u in 0..1, for `folds` k >= 1 oscillations per half length.
+/// Returns the shape g(u) of the wrinkle at u in 0..1, for `folds` k >= 1.
 [[nodiscard]] double shape(Profile profile, int folds, double u);
 
 /// Returns dg/du at u in 0..1. Where g has a crease (u = 0 and u = 1 of `damped`), it is the slope inside.

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "rest.hpp"
+
+#include <goffer/paper/shape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace goffer::fit {
+namespace {
+
+constexpr double rows_of_fold = 8;
+constexpr double longest = 2.5;  // radii of a fold that is too long for wrinkles
+constexpr double full = 1.5;     // radii of a fold up to which they have their depth
+constexpr int max_even_folds = 2 * BindOptions::max_folds;
+
+/// The radii of a stretch of `cylinder`, at equal steps of about a quarter radius.
+std::vector<double> radii_of(const Cylinder& cylinder, double start, double length, std::size_t knots) {
+    if (cylinder.radii.empty()) return std::vector<double>(knots, cylinder.radius);
+    const paper::Spline whole(cylinder.length, cylinder.radii);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < knots; ++i)
+        radii.push_back(whole(start + length * static_cast<double>(i) / static_cast<double>(knots - 1)));
+    return radii;
+}
+
+std::size_t knots_of(const Cylinder& cylinder, double length) {
+    constexpr double max_knots = 256;
+    const double quarters = std::ceil(4 * length / cylinder.radius);
+    return static_cast<std::size_t>(std::clamp(quarters, 4.0, max_knots)) + 1;
+}
+
+/// Full up to `full` radii, 0 from `longest` on.
+double fade_of(double radii) {
+    const double t = std::clamp((longest - radii) / (longest - full), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+/// Each value and the larger ones of its neighbors: a fold reaches over several knots.
+std::vector<double> widened(const std::vector<double>& values) {
+    std::vector<double> wide = values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i > 0) wide[i] = std::max(wide[i], values[i - 1]);
+        if (i + 1 < values.size()) wide[i] = std::max(wide[i], values[i + 1]);
+    }
+    return wide;
+}
+
+}  // namespace
+
+double default_fold_length(Profile profile) {
+    return profile.kind == Profile::Kind::even ? 0.75 : 1;
+}
+
+FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
+                    double length, std::optional<int> asked) {
+    const bool even = options.profile.kind == Profile::Kind::even;
+    const std::size_t knots = knots_of(cylinder, length);
+    const std::vector<double> radii = radii_of(cylinder, start, length, knots);
+    paper::Shape::Knots shape;
+    // Of the whole body the same as Straightening has.
+    const bool whole = start == 0 && length == cylinder.length;
+    if (!cylinder.radii.empty()) shape.radius = whole ? cylinder.radii : radii;
+    FoldPlan plan{asked.value_or(0)};
+    if (even && !asked) {
+        const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
+        std::vector<double> row_limit;
+        for (std::size_t i = 0; i < knots; ++i) {
+            const double z = start + length * static_cast<double>(i) / static_cast<double>(knots - 1);
+            row_limit.push_back(rows_of_fold * rows.reach_at(z));
+        }
+        row_limit = widened(row_limit);
+        bool same = cylinder.radii.empty();
+        for (std::size_t i = 0; i < knots; ++i) {
+            shape.fold_length.push_back(
+                std::clamp(row_limit[i], in_radii * radii[i], std::max(longest, in_radii) * radii[i]));
+            const double excess = std::max(row_limit[i], in_radii * radii[i]) / radii[i];
+            shape.weight.push_back(in_radii > full ? 1 : fade_of(excess));
+            same = same && std::fabs(shape.fold_length[i] / shape.fold_length[0] - 1) < 1e-3 &&
+                   shape.weight[i] == shape.weight[0];
+        }
+        const paper::Shape counting(length, cylinder.radius, shape);
+        const double folds = std::round(counting.folds());
+        plan.folds = static_cast<int>(std::clamp<double>(folds, 1, max_even_folds));
+        // A body that is too long for so many has longer ones.
+        const double longer = std::max(folds / max_even_folds, 1.0);
+        if (longer > 1 && in_radii <= full) {
+            for (double& weight : shape.weight) weight = std::min(weight, fade_of(longer * in_radii));
+        }
+        if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
+        if (same && shape.weight[0] == 1) shape.fold_length.clear(), shape.weight.clear();
+    }
+    if (shape.radius.empty() && shape.fold_length.empty()) return plan;
+    plan.shape = std::make_shared<const paper::Shape>(length, cylinder.radius, shape);
+    return plan;
+}
+
+}  // namespace goffer::fit
