@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "face_cutter.hpp"
 #include "format.hpp"
 #include "text.hpp"
 
@@ -63,13 +64,13 @@ Split split(const Mesh& mesh) {
     return out;
 }
 
-std::vector<std::uint32_t> fans(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
+std::vector<std::uint32_t> cut_up(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
     std::vector<std::uint32_t> triangles;
     triangles.reserve(3 * triangle_count(mesh));
+    FaceCutter cut(mesh);
     std::size_t first = 0;
     for (const std::uint32_t size : mesh.faces) {
-        for (std::size_t k = 1; k + 1 < size; ++k)
-            triangles.insert(triangles.end(), {corners[first], corners[first + k], corners[first + k + 1]});
+        for (const std::size_t corner : cut(first, size)) triangles.push_back(corners[corner]);
         first += size;
     }
     return triangles;
@@ -163,7 +164,7 @@ void check_finite(const std::vector<glm::vec3>& values, const char* what, const 
 VertexArrays vertex_arrays(const Mesh& mesh) {
     const Split parts = split(mesh);
     VertexArrays out;
-    out.triangles = fans(mesh, parts.corners);
+    out.triangles = cut_up(mesh, parts.corners);
     out.normals = gather(mesh.normals, parts.keys, &Key::normal);
     out.tangents = gather(mesh.tangents, parts.keys, &Key::tangent);
     for (const Key& key : parts.keys) {
@@ -178,7 +179,7 @@ std::size_t triangle_count(const Mesh& mesh) {
 }
 
 std::vector<std::uint32_t> triangles(const Mesh& mesh) {
-    return fans(mesh, mesh.corners);
+    return cut_up(mesh, mesh.corners);
 }
 
 Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {

@@ -108,7 +108,7 @@ struct VertexArrays {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;        ///< empty if the mesh has none
     std::vector<glm::vec4> tangents;       ///< empty if the mesh has none
-    std::vector<std::uint32_t> triangles;  ///< 3 entries each; a polygon is a fan of triangles
+    std::vector<std::uint32_t> triangles;  ///< 3 entries each; polygons are cut as triangles() does
     std::vector<std::uint32_t> vertex;     ///< for each entry, which vertex of the mesh it is
 };
 
@@ -118,7 +118,10 @@ struct VertexArrays {
 /// Returns the number of triangles, a face of n corners being n - 2.
 [[nodiscard]] std::size_t triangle_count(const Mesh& mesh);
 
-/// Returns the vertices of the triangles, 3 each: face after face, each a fan around its first corner.
+/// Returns the vertices of the triangles, 3 each: face after face, wound as the faces are. A convex face is a
+/// fan around its first corner. A concave one is cut along diagonals that lie in it, so that its triangles
+/// have its area, in a time that grows with the square of its corners. It is a fan too if it crosses itself,
+/// has no area, or has more than 4096 corners.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
 
 /// Returns `mesh` with the positions, normals and tangents of `bent`, whose entries are those of
