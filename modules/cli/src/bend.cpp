@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "local_area.hpp"
 #include "model.hpp"
 #include "picture.hpp"
 #include "poses.hpp"
@@ -34,6 +35,7 @@ struct BendOptions {
     int threads = 0;
     std::filesystem::path png;
     bool ghost = false;
+    std::string show;  ///< what the picture's colors stand for; empty: the materials
     std::filesystem::path json;
 };
 
@@ -51,6 +53,8 @@ struct Request {
           threads(usable_threads(options.threads)) {
         if (options.ghost && options.png.empty())
             throw UsageError("--ghost: belongs to a picture; add --png FILE");
+        if (!options.show.empty() && options.png.empty())
+            throw UsageError("--show: belongs to a picture; add --png FILE");
         if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         check_places({{"MODEL", options.model}, {"--fit", options.fit}},
@@ -149,11 +153,17 @@ void run_bend(const BendOptions& options) {
     report_fit(report, model.cylinder);
     if (model.growth) report_growth(report, *model.growth);
     report_bend(report, options, request, model, targets, bent, area_before);
+    report_local_area(report, model, poses, bent.records.positions);
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
-        write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, poses[0]},
-                      options.ghost, options.png);
+        const bool show = !options.show.empty();
+        const std::vector<glm::vec4> colors =
+            show ? area_colors(model, bent.records.positions) : std::vector<glm::vec4>();
+        write_picture(
+            {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
+            options.ghost, options.png);
+        if (show) report_area_colors(report);
         report.line("picture", options.png.string());
     }
     mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output);
@@ -187,6 +197,10 @@ void add_bend(CLI::App& app, Action& action) {
         ->capture_default_str();
     command->add_option("--png", options->png, "Write a picture, 1280 x 960");
     command->add_flag("--ghost", options->ghost, "Show the rest shape in the picture too, translucent");
+    command
+        ->add_option("--show", options->show,
+                     "Color the picture by: area (its change at every vertex; blue: smaller, red: larger)")
+        ->check(CLI::IsMember({"area"}));
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_bend(*options); }; });
 }
