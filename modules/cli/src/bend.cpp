@@ -6,6 +6,7 @@
 #include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "shape.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/base.hpp>
@@ -151,6 +152,7 @@ void run_bend(const BendOptions& options) {
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
     report_fit(report, model.cylinder);
+    report_shape(report, model);
     if (model.growth) report_growth(report, *model.growth);
     report_bend(report, options, request, model, targets, bent, area_before);
     report_local_area(report, model, poses, bent.records.positions);
