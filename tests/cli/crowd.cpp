@@ -156,6 +156,11 @@ TEST_CASE("crowd: beyond the largest angle it swings as far as it can, and says 
     REQUIRE(all["warnings"].size() == 1);
     CHECK(all["warnings"][0].get<std::string>().find("beyond the largest") != std::string::npos);
     CHECK(hash(folder, {"--angle", "3000"}) == all["hash"]);
+    CHECK(hash(folder, {"--angle", "1e9"}) == all["hash"]);
+    const json most = crowd(folder, {"--angle", "max"});
+    CHECK(most["hash"] == all["hash"]);
+    CHECK(most["angles"] == json{"max"});
+    CHECK(most["warnings"] == json::array());
 }
 
 TEST_CASE("crowd: regions bend on their own, each with its folds") {
@@ -241,8 +246,8 @@ TEST_CASE("crowd: bad words") {
             refuse({option, word}, {option});
     }
     for (const std::string word : {"0", "-1", "1025", "x"}) refuse({"--threads", word}, {"--threads"});
-    for (const std::string word : {"nan", "1e9", "", "90deg"})
-        refuse({"--angle", word}, {"--angle", "36000"});
+    for (const std::string word : {"nan", "inf", "", "90deg"})
+        refuse({"--angle", word}, {"--angle", "degrees or max"});
     refuse({"--regions", "0.5,0.6"}, {"--regions", "1.1", "make it 1"});
     refuse({"--regions", "0.5,0.5", "--angles", "40"}, {"--angles", "1 for 2 regions"});
     refuse({"--angles", "40"}, {"--angles", "--regions"});

@@ -99,7 +99,7 @@ TEST_CASE("bad regions: wrong usage, one line, and nothing written") {
              Bad{{"--folds", "1,2"}, "--folds: 2 for 1 region"},
              Bad{{"--folds", "2.5"}, "whole number"},
              Bad{{"--folds", "65"}, "0..64"},
-             Bad{{"--regions", "0.5,0.5", "--angles", "1,40000"}, "40000"},
+             Bad{{"--regions", "0.5,0.5", "--angles", "1,most"}, "'most'"},
              Bad{{"--angles", "10"}, "--regions"},
              Bad{{"--onset", "2"}, "a squeeze"},
          }) {

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <system_error>
@@ -83,9 +84,29 @@ std::filesystem::path place_of(const std::filesystem::path& file) {
     return error ? file : place;
 }
 
-[[noreturn]] void refuse_number(const std::string& option, const std::string& part, const std::string& text) {
-    throw UsageError(option + ": '" + part + "' in '" + text +
-                     "' is not a number; give numbers with commas between them");
+/// Degrees, or an infinity for the largest angle of a body.
+std::optional<double> one_angle(const std::string& text) {
+    constexpr double largest = std::numeric_limits<double>::infinity();
+    if (text == "max") return largest;
+    if (text == "-max") return -largest;
+    const std::optional<double> value = one_number(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+/// What `read` makes of the parts of `text`. `wanted` says in the error what each should be.
+template <class Read>
+std::vector<double> read_list(const std::string& option, const std::string& text, const std::string& wanted,
+                              Read read) {
+    std::vector<double> numbers;
+    std::istringstream parts(text + ",");
+    for (std::string part; std::getline(parts, part, ',');) {
+        const std::optional<double> value = read(part);
+        if (!value)
+            throw UsageError(option + ": '" + part + "' in '" + text + "' is not a number" + wanted +
+                             "; give numbers with commas between them");
+        numbers.push_back(*value);
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -115,16 +136,25 @@ CLI::Validator number_within(double low, double high, const std::string& what) {
 }
 
 std::vector<double> read_numbers(const std::string& option, const std::string& text) {
-    std::vector<double> numbers;
-    std::istringstream parts(text + ",");
-    for (std::string part; std::getline(parts, part, ',');) {
+    const auto finite = [](const std::string& part) {
         const std::optional<double> value = one_number(part);
-        if (!value || !std::isfinite(*value)) {
-            refuse_number(option, part, text);
-        }
-        numbers.push_back(*value);
-    }
-    return numbers;
+        return value && std::isfinite(*value) ? value : std::nullopt;
+    };
+    return read_list(option, text, "", finite);
+}
+
+CLI::Validator angle_word(bool or_max) {
+    const std::string wanted = or_max ? " or max" : "";
+    const auto check = [=](std::string& text) {
+        const std::optional<double> value = one_angle(text);
+        const bool taken = value && (or_max || std::isfinite(*value));
+        return taken ? std::string() : "'" + text + "' is not an angle in degrees" + wanted;
+    };
+    return {check, ""};
+}
+
+std::vector<double> read_angles(const std::string& option, const std::string& text) {
+    return read_list(option, text, " of degrees or max", one_angle);
 }
 
 fit::Amplitude parse_amplitude(const std::string& text) {

@@ -45,6 +45,13 @@ using Action = std::function<void()>;
 /// Finite numbers with commas between them, at least one. `option` begins the error.
 [[nodiscard]] std::vector<double> read_numbers(const std::string& option, const std::string& text);
 
+/// Accepts an angle in degrees, any finite number, and with `or_max` also "max" and "-max".
+[[nodiscard]] CLI::Validator angle_word(bool or_max);
+
+/// Angles as angle_word(true) accepts them, with commas between them: degrees, and infinities for "max" and
+/// "-max". `option` begins the error.
+[[nodiscard]] std::vector<double> read_angles(const std::string& option, const std::string& text);
+
 [[nodiscard]] fit::Amplitude parse_amplitude(const std::string& text);
 [[nodiscard]] fit::Profile parse_profile(const std::string& text);
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "local_area.hpp"
 #include "model.hpp"
 #include "picture.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "suitability.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/base.hpp>
@@ -34,6 +36,7 @@ struct BendOptions {
     int threads = 0;
     std::filesystem::path png;
     bool ghost = false;
+    std::string show;  ///< what the picture's colors stand for; empty: the materials
     std::filesystem::path json;
 };
 
@@ -51,6 +54,8 @@ struct Request {
           threads(usable_threads(options.threads)) {
         if (options.ghost && options.png.empty())
             throw UsageError("--ghost: belongs to a picture; add --png FILE");
+        if (!options.show.empty() && options.png.empty())
+            throw UsageError("--show: belongs to a picture; add --png FILE");
         if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         check_places({{"MODEL", options.model}, {"--fit", options.fit}},
@@ -66,7 +71,8 @@ struct Deformed {
     double microseconds = 0;
 };
 
-Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, const Request& request) {
+Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, const Request& request,
+                std::span<const bend::Pose> poses) {
     Deformed result;
     const bend::Body& body = binding.body;
     const std::size_t count = body.vertex_count();
@@ -74,7 +80,7 @@ Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, con
     result.records.normals.resize(count);
     bend::DeformJob job;
     job.body = &body;
-    job.poses = request.pose.poses;
+    job.poses = poses;
     job.isa = request.isa;
     job.positions = interleaved<3>(&result.records.positions.front().x, count);
     job.normals = interleaved<3>(&result.records.normals.front().x, count);
@@ -107,15 +113,15 @@ void warn_of_foreign_fit(Report& report, const BoundModel& model) {
 }
 
 void report_bend(Report& report, const BendOptions& options, const Request& request, const BoundModel& model,
-                 const Deformed& bent, double area_before) {
+                 const std::vector<Target>& targets, const Deformed& bent, double area_before) {
     const fit::Binding& binding = model.binding;
     std::vector<double> used;
     for (std::size_t r = 0; r < binding.regions.size(); ++r)
-        used.push_back(used_angle(binding.body, r, request.pose.poses[r]));
+        used.push_back(used_angle(binding.body, r, targets[r].pose));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
     const std::optional<double> base_change = fit::base_area_change(binding, used);
     nlohmann::ordered_json& json = report.json;
-    report_poses(report, request.pose, binding);
+    report_poses(report, request.pose, targets, binding);
     json["amplitude"] = options.bind.amplitude;
     json["profile"] = options.bind.profile;
     json["area_before"] = area_before;
@@ -139,19 +145,27 @@ void run_bend(const BendOptions& options) {
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request.bind, options.fit);
     const bend::Body& body = model.binding.body;
-    const Deformed bent = deform(model.binding, model.rest, request);
+    const std::vector<Target> targets = targets_on(body, request.pose);
+    const std::vector<bend::Pose> poses = poses_of(targets);
+    const Deformed bent = deform(model.binding, model.rest, request, poses);
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
     report_fit(report, model.cylinder);
+    report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
-    report_bend(report, options, request, model, bent, area_before);
+    report_bend(report, options, request, model, targets, bent, area_before);
+    report_local_area(report, model, poses, bent.records.positions);
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
-        write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals,
-                       request.pose.poses[0]},
-                      options.ghost, options.png);
+        const bool show = !options.show.empty();
+        const std::vector<glm::vec4> colors =
+            show ? area_colors(model, bent.records.positions) : std::vector<glm::vec4>();
+        write_picture(
+            {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
+            options.ghost, options.png);
+        if (show) report_area_colors(report);
         report.line("picture", options.png.string());
     }
     mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output);
@@ -169,7 +183,8 @@ void add_bend(CLI::App& app, Action& action) {
         ->required();
     command->footer(
         "Angles are absolute: 0 is straight, whatever shape the model has in its file. One that is\n"
-        "bent there gets that shape back from the angle and direction that 'goffer inspect' reports.");
+        "bent there gets that shape back from the angle and direction that 'goffer inspect' reports,\n"
+        "or from --by 0; --by 30 bends it by 30 degrees more. Angles beyond the largest are clamped.");
     add_pose_words(*command, options->pose);
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "auto");
@@ -184,6 +199,10 @@ void add_bend(CLI::App& app, Action& action) {
         ->capture_default_str();
     command->add_option("--png", options->png, "Write a picture, 1280 x 960");
     command->add_flag("--ghost", options->ghost, "Show the rest shape in the picture too, translucent");
+    command
+        ->add_option("--show", options->show,
+                     "Color the picture by: area (its change at every vertex; blue: smaller, red: larger)")
+        ->check(CLI::IsMember({"area"}));
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_bend(*options); }; });
 }

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "model.hpp"
 #include "report.hpp"
+#include "suitability.hpp"
 
 #include <goffer/fit/geometry.hpp>
 
@@ -51,6 +52,7 @@ void run_inspect(const InspectOptions& options) {
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
+    report_suitability(report, model);
     if (options.rest == "auto") report_rest(report, options, request, model);
     const double max_angle = degrees(static_cast<double>(binding.body.max_angle()));
     report.json["max_angle"] = max_angle;

@@ -57,6 +57,10 @@ void write_picture(const BentModel& model, bool ghost, const std::filesystem::pa
     const view::Model bent{
         .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
     std::vector<view::Model> models = part_models(model.mesh, bent, bent.color);
+    for (view::Model& part : models) {
+        part.colors = model.colors;
+        if (!model.colors.empty()) part.color = glm::vec4(1);
+    }
     if (ghost) {
         view::Model rest;
         rest.positions = model.rest.positions;

@@ -22,12 +22,13 @@ struct BentModel {
     const mesh::VertexArrays& rest;  ///< rest positions and triangles
     std::span<const glm::vec3> bent_positions;
     std::span<const glm::vec3> bent_normals;
+    std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
     bend::Pose pose;
 };
 
 /// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
-/// `vertices` has the positions and normals; its triangles are those of all faces, each cut up into a fan, in
-/// their order. The models refer to the same memory.
+/// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts
+/// them, in their order. The models refer to the same memory.
 [[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
                                                    const glm::vec4& plain);
 

@@ -9,8 +9,6 @@
 namespace goffer::cli {
 namespace {
 
-constexpr double max_degrees = 36000;
-
 [[noreturn]] void refuse_count(const std::string& option, std::size_t count, std::size_t regions) {
     throw UsageError(option + ": " + std::to_string(count) + " for " + counted(regions, "region") +
                      "; give one for each");
@@ -28,19 +26,98 @@ std::vector<fit::RegionOptions> read_regions(const std::string& text) {
 }
 
 std::vector<double> read_degrees(const std::string& option, const std::string& text, std::size_t count) {
-    std::vector<double> degrees = read_numbers(option, text);
+    std::vector<double> degrees = read_angles(option, text);
     if (degrees.size() != count) refuse_count(option, degrees.size(), count);
-    for (const double value : degrees) {
-        if (std::fabs(value) > max_degrees) {
-            throw UsageError(option + ": " + number(value) + " is not an angle in degrees within " +
-                             number(-max_degrees) + ".." + number(max_degrees));
-        }
-    }
     return degrees;
 }
 
-CLI::Validator angle_in_degrees() {
-    return number_within(-max_degrees, max_degrees, "an angle in degrees");
+std::vector<double> read_directions(const std::string& text, std::size_t count) {
+    const std::vector<double> degrees = read_numbers("--directions", text);
+    if (degrees.size() != count) refuse_count("--directions", degrees.size(), count);
+    return degrees;
+}
+
+/// A target whose pose floats can hold, whatever the number: angles beyond every body's largest are as good
+/// as far beyond, and directions come around.
+Target target(double angle, double direction) {
+    constexpr double beyond = 2 * bend::WorkingRange::max_angle, around = 36000;
+    const double turned = std::fabs(direction) > around ? std::remainder(direction, 360) : direction;
+    return {angle,
+            direction,
+            {static_cast<float>(std::clamp(radians(angle), -beyond, beyond)),
+             static_cast<float>(radians(turned))}};
+}
+
+/// Angle and direction as the vector (alpha cos theta, alpha sin theta).
+struct Curvature {
+    double x, y;
+};
+
+Curvature curvature(double angle, double direction) {
+    return {angle * std::cos(radians(direction)), angle * std::sin(radians(direction))};
+}
+
+/// `by` degrees in `direction` from the rest pose; infinite: until the angle is `limit`.
+Target moved_from(const Curvature& rest, double by, double direction, double limit) {
+    const Curvature unit = curvature(std::copysign(1.0, by), direction);
+    const double along = rest.x * unit.x + rest.y * unit.y;
+    const double missing = limit * limit - rest.x * rest.x - rest.y * rest.y;
+    const double reach =
+        std::isfinite(by) ? std::fabs(by) : std::sqrt(along * along + std::max(missing, 0.0)) - along;
+    const double x = rest.x + reach * unit.x, y = rest.y + reach * unit.y;
+    return target(std::isfinite(by) ? std::hypot(x, y) : std::fabs(by), degrees(std::atan2(y, x)));
+}
+
+/// A region that is bent at rest, in degrees.
+struct RestPose {
+    double angle, direction;
+};
+
+RestPose rest_pose(const bend::Body& body, std::size_t region) {
+    const bend::RegionInput& input = body.region_inputs()[region];
+    return {degrees(input.rest_angle), degrees(input.rest_direction)};
+}
+
+double largest(const bend::Body& body, std::size_t region) {
+    return degrees(static_cast<double>(body.max_angle(region)));
+}
+
+Target target_from_rest(const bend::Body& body, std::size_t region, double by,
+                        const std::optional<double>& direction) {
+    const RestPose rest = rest_pose(body, region);
+    if (rest.angle == 0) return target(by, direction.value_or(0));
+    if (!direction) return target(rest.angle + by, rest.direction);
+    return moved_from(curvature(rest.angle, rest.direction), by, *direction, largest(body, region));
+}
+
+/// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
+/// no straightening.
+bool straightens(const RestPose& rest, const Target& target) {
+    constexpr double clearly = 0.99, same_way = 0.7;  // cosine of 45 degrees
+    if (!(std::fabs(target.angle) < clearly * rest.angle)) return false;
+    const double turn = std::cos(radians(target.direction - rest.direction));
+    return target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
+}
+
+void report_rest_pose(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+                      const bend::Body& body) {
+    std::size_t straightened = 0;
+    double rest = 0;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        straightened += straightens(rest_pose(body, i), targets[i]) ? 1 : 0;
+        rest += rest_pose(body, i).angle;
+    }
+    report.json["angles_count_from"] = request.from_rest ? "rest" : "straight";
+    report.json["straightens"] = straightened > 0;
+    if (rest == 0) return;
+    report.line("angles", "are absolute: 0 is straight, and " + number(rest) + " toward " +
+                              number(rest_pose(body, 0).direction) + " is the shape of the file");
+    if (straightened == 0 || request.from_rest) return;
+    const std::string which = targets.size() == 1
+                                  ? "the body"
+                                  : std::to_string(straightened) + " of " + counted(targets.size(), "region");
+    report.line("note", "this straightens " + which + ", bent by " + number(rest) +
+                            " degrees at rest; to bend it further from there, use --by D instead of --angle");
 }
 
 }  // namespace
@@ -48,7 +125,8 @@ CLI::Validator angle_in_degrees() {
 void add_angle_words(CLI::App& command, PoseWords& words, const std::string& angle) {
     CLI::Option* const one =
         command.add_option("--angle", words.angle, angle + ". Several regions share it by their lengths")
-            ->check(angle_in_degrees())
+            ->check(angle_word(true))
+            ->type_name("FLOAT|max")
             ->capture_default_str();
     CLI::Option* const regions = command.add_option(
         "--regions", words.regions, "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3");
@@ -59,27 +137,61 @@ void add_angle_words(CLI::App& command, PoseWords& words, const std::string& ang
 
 void add_pose_words(CLI::App& command, PoseWords& words) {
     add_angle_words(command, words,
-                    "Turn the tip by this many degrees from straight; negative: the other way");
+                    "Turn the tip by this many degrees from straight, also where the body is bent at rest; "
+                    "negative: the other way; max: as far as it can");
+    command
+        .add_option(
+            "--by", words.by,
+            "Turn the tip by this many degrees from the rest pose instead, in the plane of the rest arc "
+            "or toward --direction")
+        ->check(angle_word(true))
+        ->type_name("FLOAT|max")
+        ->excludes("--angle")
+        ->excludes("--angles");
     CLI::Option* const toward =
-        command.add_option("--direction", words.direction, "Bend in this direction, degrees about the axis")
-            ->check(angle_in_degrees())
-            ->capture_default_str();
+        command
+            .add_option("--direction", words.direction,
+                        "Bend in this direction, degrees about the axis (default: 0, or "
+                        "with --by that of the rest arc)")
+            ->check(angle_word(false));
     command
         .add_option("--directions", words.directions, "Bend each region in a direction of its own, as 0,0,90")
         ->needs("--regions")
         ->excludes(toward);
 }
 
-PoseRequest::PoseRequest(const PoseWords& words) {
+PoseRequest::PoseRequest(const PoseWords& words) : from_rest(words.by.has_value()) {
     if (words.regions) regions = read_regions(*words.regions);
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
-    if (words.directions) directions = read_degrees("--directions", *words.directions, count);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!words.angles) angles.push_back(words.angle * (regions.empty() ? 1 : regions[i].share));
-        if (!words.directions) directions.push_back(words.direction);
-        poses.push_back({static_cast<float>(radians(angles[i])), static_cast<float>(radians(directions[i]))});
+    const double shared = read_angles(from_rest ? "--by" : "--angle", words.by.value_or(words.angle))[0];
+    directions.assign(count, words.direction);
+    if (words.directions) {
+        const std::vector<double> each = read_directions(*words.directions, count);
+        directions.assign(each.begin(), each.end());
     }
+    for (std::size_t i = 0; i < count && !words.angles; ++i)
+        angles.push_back(shared * (regions.empty() ? 1 : regions[i].share));
+}
+
+std::vector<Target> targets_from_straight(const PoseRequest& request) {
+    std::vector<Target> targets;
+    for (std::size_t i = 0; i < request.angles.size(); ++i)
+        targets.push_back(target(request.angles[i], request.directions[i].value_or(0)));
+    return targets;
+}
+
+std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request) {
+    std::vector<Target> targets = targets_from_straight(request);
+    for (std::size_t i = 0; i < targets.size() && request.from_rest; ++i)
+        targets[i] = target_from_rest(body, i, request.angles[i], request.directions[i]);
+    return targets;
+}
+
+std::vector<bend::Pose> poses_of(const std::vector<Target>& targets) {
+    std::vector<bend::Pose> poses;
+    for (const Target& target : targets) poses.push_back(target.pose);
+    return poses;
 }
 
 std::optional<int> read_folds(const std::optional<std::string>& text,
@@ -113,29 +225,34 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
                 ", where the body would fold through itself; " + then);
 }
 
-void report_poses(Report& report, const PoseRequest& request, const fit::Binding& binding) {
+void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+                  const fit::Binding& binding) {
     const bend::Body& body = binding.body;
     nlohmann::ordered_json poses, regions;
     bool clamped = false;
-    for (std::size_t i = 0; i < request.poses.size(); ++i) {
-        const double limit = degrees(static_cast<double>(body.max_angle(i)));
-        const double asked = request.angles[i];
-        const bool beyond = std::fabs(request.poses[i].angle) > body.max_angle(i);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const double limit = largest(body, i), asked = targets[i].angle;
+        const bool all_the_way = std::isinf(asked);
+        const bool beyond = std::fabs(targets[i].pose.angle) > body.max_angle(i);
         const double used = beyond ? std::copysign(limit, asked) : asked;
-        clamped = clamped || beyond;
-        poses.push_back({{"angle", used}, {"direction", request.directions[i]}});
+        const RestPose rest = rest_pose(body, i);
+        clamped = clamped || (beyond && !all_the_way);
+        poses.push_back({{"angle", used},
+                         {"direction", targets[i].direction},
+                         {"rest_angle", rest.angle},
+                         {"rest_direction", rest.direction}});
         regions.push_back({{"length", binding.regions[i].length},
                            {"folds", binding.folds(i)},
                            {"folds_capacity", binding.folds_capacity(i)},
                            {"max_angle", limit},
-                           {"clamped", beyond}});
-        const std::string which = region_words(i, request.poses.size());
+                           {"clamped", beyond && !all_the_way}});
+        const std::string which = region_words(i, targets.size());
         report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
-                                              number(request.directions[i]) + ", at most " + number(limit));
+                                              number(targets[i].direction) + ", at most " + number(limit));
         report.line(i == 0 ? "folds" : "", which + std::to_string(binding.folds(i)) + " of " +
                                                std::to_string(binding.folds_capacity(i)) +
                                                " that the mesh carries");
-        if (beyond) warn_of_angle(report, which, asked, limit, "clamped to it");
+        if (beyond && !all_the_way) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = binding.folds_capacity();
@@ -144,6 +261,7 @@ void report_poses(Report& report, const PoseRequest& request, const fit::Binding
     report.json["folds"] = binding.folds();
     report.json["regions"] = regions;
     report.json["clamped"] = clamped;
+    report_rest_pose(report, request, targets, body);
 }
 
 }  // namespace goffer::cli

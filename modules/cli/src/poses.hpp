@@ -19,8 +19,9 @@ namespace goffer::cli {
 
 /// Words on poses. Lists are numbers with commas between them, from base to tip.
 struct PoseWords {
-    double angle = 90;
-    double direction = 0;
+    std::string angle = "90";
+    std::optional<std::string> by;
+    std::optional<double> direction;
     std::optional<std::string> regions;
     std::optional<std::string> angles;
     std::optional<std::string> directions;
@@ -29,18 +30,36 @@ struct PoseWords {
 /// Adds --angle, --regions and --angles. `angle` says what --angle is; `words` must outlive `command`.
 void add_angle_words(CLI::App& command, PoseWords& words, const std::string& angle);
 
-/// Adds these, --direction and --directions.
+/// Adds these, --by, --direction and --directions.
 void add_pose_words(CLI::App& command, PoseWords& words);
 
-/// Such words, understood: one pose per region. Throws UsageError.
+/// Such words, understood. Throws UsageError.
 struct PoseRequest {
     std::vector<fit::RegionOptions> regions;  ///< none: the body is one region
-    std::vector<double> angles;               ///< degrees, one per region
-    std::vector<double> directions;           ///< degrees, one per region
-    std::vector<bend::Pose> poses;            ///< the same, in radians
+    bool from_rest = false;                   ///< angles count from the rest pose (--by), not from straight
+    std::vector<double> angles;               ///< degrees, one per region; an infinity: as far as it can
+    std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
 
     explicit PoseRequest(const PoseWords& words);
 };
+
+/// Where a region is bent to. Angle and direction are degrees, the angle counts from straight.
+struct Target {
+    double angle = 0;  ///< as asked for: it may be beyond the largest
+    double direction = 0;
+    bend::Pose pose = {};  ///< the same, in radians
+};
+
+/// Returns the targets of `request`, one per region, as if no body were bent at rest; the largest angle is
+/// beyond that of every body. For a crowd, whose models differ.
+[[nodiscard]] std::vector<Target> targets_from_straight(const PoseRequest& request);
+
+/// Returns the targets of `request` for `body`, which has its regions. Angles that count from the rest pose
+/// are added to it in its own plane or, with a direction, as vectors (alpha cos theta, alpha sin theta).
+[[nodiscard]] std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request);
+
+/// The targets' poses.
+[[nodiscard]] std::vector<bend::Pose> poses_of(const std::vector<Target>& targets);
 
 /// "3", or a list of one number of folds per region: the one, or into `regions`. Nothing for no text. Throws
 /// UsageError.
@@ -58,7 +77,9 @@ struct PoseRequest {
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then);
 
-/// Says what each region was bent by, and warns of those that were clamped.
-void report_poses(Report& report, const PoseRequest& request, const fit::Binding& binding);
+/// Says what each region was bent to, and warns of those that were clamped. Of a body that is bent at rest it
+/// also says what angles count from, and whether it is straightened.
+void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+                  const fit::Binding& binding);
 
 }  // namespace goffer::cli

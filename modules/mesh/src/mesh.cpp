@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "face_cutter.hpp"
 #include "format.hpp"
 #include "text.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 
 struct Key {
-    std::uint32_t vertex = none, normal = none, tangent = none;
+    std::uint32_t vertex = none, normal = none, tangent = none, uv = none;
     auto operator<=>(const Key&) const = default;
 };
 
@@ -29,25 +30,28 @@ struct Split {
     std::vector<std::uint32_t> corners;
 };
 
-Key key_of(const Mesh& mesh, std::size_t corner) {
+Key key_of(const Mesh& mesh, const Attribute<glm::vec2>& uvs, std::size_t corner) {
     const std::uint32_t vertex = mesh.corners[corner];
-    return {vertex, value_at(mesh.normals, corner, vertex), value_at(mesh.tangents, corner, vertex)};
+    return {vertex, value_at(mesh.normals, corner, vertex), value_at(mesh.tangents, corner, vertex),
+            value_at(uvs, corner, vertex)};
 }
 
 /// The key of a vertex that no face uses: it has an attribute only where that is one per vertex.
-Key key_of_loose(const Mesh& mesh, std::uint32_t vertex) {
-    const bool normal = !mesh.normals.empty() && mesh.normals.per_vertex();
-    const bool tangent = !mesh.tangents.empty() && mesh.tangents.per_vertex();
-    return {vertex, normal ? vertex : none, tangent ? vertex : none};
+Key key_of_loose(const Mesh& mesh, const Attribute<glm::vec2>& uvs, std::uint32_t vertex) {
+    const auto index = [&](const auto& attribute) {
+        return attribute.per_vertex() && !attribute.empty() ? vertex : none;
+    };
+    return {vertex, index(mesh.normals), index(mesh.tangents), index(uvs)};
 }
 
-Split split(const Mesh& mesh) {
+/// Splits by normals, tangents and `uvs`, which are without values where they do not count.
+Split split(const Mesh& mesh, const Attribute<glm::vec2>& uvs) {
     Split out;
     out.keys.resize(mesh.positions.size());
     out.corners.resize(mesh.corners.size());
     std::map<Key, std::uint32_t> further;
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
-        const Key key = key_of(mesh, c);
+        const Key key = key_of(mesh, uvs, c);
         Key& first = out.keys[key.vertex];
         if (first.vertex == none) first = key;
         if (first == key) {
@@ -59,17 +63,17 @@ Split split(const Mesh& mesh) {
         out.corners[c] = entry->second;
     }
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-        if (out.keys[v].vertex == none) out.keys[v] = key_of_loose(mesh, v);
+        if (out.keys[v].vertex == none) out.keys[v] = key_of_loose(mesh, uvs, v);
     return out;
 }
 
-std::vector<std::uint32_t> fans(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
+std::vector<std::uint32_t> cut_up(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
     std::vector<std::uint32_t> triangles;
     triangles.reserve(3 * triangle_count(mesh));
+    FaceCutter cut(mesh);
     std::size_t first = 0;
     for (const std::uint32_t size : mesh.faces) {
-        for (std::size_t k = 1; k + 1 < size; ++k)
-            triangles.insert(triangles.end(), {corners[first], corners[first + k], corners[first + k + 1]});
+        for (const std::size_t corner : cut(first, size)) triangles.push_back(corners[corner]);
         first += size;
     }
     return triangles;
@@ -93,8 +97,36 @@ std::array<std::uint32_t, n> bits(const glm::vec<n, float>& value) {
     return out;
 }
 
+/// A set of texture coordinates in which corners with the same value have the same index, so that only what
+/// differs splits a vertex.
+Attribute<glm::vec2> merged(Attribute<glm::vec2> uvs) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> known;
+    for (std::uint32_t& corner : uvs.corners)
+        if (corner != none) corner = known.try_emplace(bits(uvs.values[corner]), corner).first->second;
+    return uvs;
+}
+
+/// The set that splits the vertices; empty where there is none.
+Attribute<glm::vec2> splitting_uvs(const Mesh& mesh, std::size_t set) {
+    return set < mesh.uvs.size() ? merged(mesh.uvs[set]) : Attribute<glm::vec2>();
+}
+
+VertexArrays arrays(const Mesh& mesh, const Attribute<glm::vec2>& uvs) {
+    const Split parts = split(mesh, uvs);
+    VertexArrays out;
+    out.triangles = cut_up(mesh, parts.corners);
+    out.normals = gather(mesh.normals, parts.keys, &Key::normal);
+    out.tangents = gather(mesh.tangents, parts.keys, &Key::tangent);
+    out.uvs = gather(uvs, parts.keys, &Key::uv);
+    for (const Key& key : parts.keys) {
+        out.positions.push_back(mesh.positions[key.vertex]);
+        out.vertex.push_back(key.vertex);
+    }
+    return out;
+}
+
 /// Puts each entry's new value into the attribute: in the old value's place if the entry is the first to use
-/// it or agrees with the first, else in a copy behind the others.
+/// it or agrees with the first, else in a copy behind the others; a value per vertex cannot have any.
 template <glm::length_t n>
 void scatter(Attribute<glm::vec<n, float>>& attribute, const Split& split, std::uint32_t Key::*index,
              const std::vector<glm::vec<n, float>>& bent) {
@@ -110,7 +142,7 @@ void scatter(Attribute<glm::vec<n, float>>& attribute, const Split& split, std::
         if (!taken[old]) {
             taken[old] = true;
             values[old] = bent[r];
-        } else if (bits(values[old]) != bits(bent[r])) {
+        } else if (!attribute.per_vertex() && bits(values[old]) != bits(bent[r])) {
             const auto next = static_cast<std::uint32_t>(values.size());
             const auto [copy, is_new] = copies.try_emplace({old, bits(bent[r])}, next);
             if (is_new) values.push_back(bent[r]);
@@ -161,15 +193,12 @@ void check_finite(const std::vector<glm::vec3>& values, const char* what, const 
 }  // namespace
 
 VertexArrays vertex_arrays(const Mesh& mesh) {
-    const Split parts = split(mesh);
-    VertexArrays out;
-    out.triangles = fans(mesh, parts.corners);
-    out.normals = gather(mesh.normals, parts.keys, &Key::normal);
-    out.tangents = gather(mesh.tangents, parts.keys, &Key::tangent);
-    for (const Key& key : parts.keys) {
-        out.positions.push_back(mesh.positions[key.vertex]);
-        out.vertex.push_back(key.vertex);
-    }
+    return arrays(mesh, {});
+}
+
+VertexArrays vertex_arrays_with_uvs(const Mesh& mesh, std::size_t set) {
+    VertexArrays out = arrays(mesh, splitting_uvs(mesh, set));
+    out.uv_set = set;
     return out;
 }
 
@@ -178,11 +207,12 @@ std::size_t triangle_count(const Mesh& mesh) {
 }
 
 std::vector<std::uint32_t> triangles(const Mesh& mesh) {
-    return fans(mesh, mesh.corners);
+    return cut_up(mesh, mesh.corners);
 }
 
 Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {
-    const Split parts = split(mesh);
+    const Split parts =
+        split(mesh, bent.uvs.empty() ? Attribute<glm::vec2>() : splitting_uvs(mesh, bent.uv_set));
     const auto enough = [&](const auto& stream) { return stream.size() >= parts.keys.size(); };
     if (!enough(bent.positions) || (!mesh.normals.empty() && !enough(bent.normals)) ||
         (!mesh.tangents.empty() && !enough(bent.tangents)))

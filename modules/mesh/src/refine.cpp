@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "face_cutter.hpp"
 #include "interpolate.hpp"
 
 #include <algorithm>
@@ -125,15 +126,16 @@ void refine(Attribute<T>& attribute, const Cut& cut, F between) {
 }  // namespace
 
 Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pieces) {
+    FaceCutter cut(mesh);
     std::size_t first = 0;
-    fans_.reserve(3 * triangle_count(mesh));
+    triangles_.reserve(3 * triangle_count(mesh));
     for (const std::uint32_t size : mesh.faces) {
-        for (std::size_t k = 1; k + 1 < size; ++k)
-            fans_.insert(fans_.end(), {first, first + k, first + k + 1});
+        const auto own = cut(first, size);
+        triangles_.insert(triangles_.end(), own.begin(), own.end());
         first += size;
     }
     check_vertices();
-    const std::size_t triangles = fans_.size() / 3;
+    const std::size_t triangles = triangles_.size() / 3;
     if (pieces.triangles.size() != 3 * pieces.parents.size())
         refuse(std::to_string(pieces.triangles.size()) + " corners for " +
                std::to_string(pieces.parents.size()) + " triangles");
@@ -163,9 +165,9 @@ void Cut::check_vertices() const {
 }
 
 void Cut::check_piece(std::size_t piece) const {
-    const std::size_t* fan = &fans_[3 * std::size_t{pieces_.parents[piece]}];
+    const std::size_t* parent = &triangles_[3 * std::size_t{pieces_.parents[piece]}];
     const auto in_parent = [&](std::uint32_t vertex) {
-        return std::any_of(fan, fan + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
+        return std::any_of(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
     };
     for (const std::uint32_t vertex : pieces_.triangles.subspan(3 * piece, 3)) {
         const std::size_t next = vertex - mesh_.positions.size();
@@ -195,9 +197,9 @@ bool Cut::is_cut(std::size_t triangle) const {
 }
 
 std::array<PieceCorner, 3> Cut::corners(std::size_t piece) const {
-    const std::size_t* fan = &fans_[3 * std::size_t{pieces_.parents[piece]}];
+    const std::size_t* parent = &triangles_[3 * std::size_t{pieces_.parents[piece]}];
     const auto corner_of = [&](std::uint32_t vertex) {
-        return *std::find_if(fan, fan + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
+        return *std::find_if(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
     };
     std::array<PieceCorner, 3> out;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -67,7 +67,7 @@ private:
 
     const Mesh& mesh_;
     Subdivision pieces_;
-    std::vector<std::size_t> fans_;         ///< the mesh's corners of each triangle, 3 each
+    std::vector<std::size_t> triangles_;    ///< the mesh's corners of each triangle, 3 each
     std::vector<std::size_t> first_piece_;  ///< of each triangle, and the number of pieces
 };
 

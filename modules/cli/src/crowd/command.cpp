@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace goffer::cli {
@@ -45,15 +46,17 @@ bend::Stores parse_stores(const std::string& text) {
 /// Everything that can be refused by looking at the words alone.
 struct CrowdRequest {
     PoseRequest pose;
+    std::vector<Target> targets;
     BindRequest bind;
     CrowdPlan plan;
     int threads;
 
     explicit CrowdRequest(const CrowdOptions& options)
         : pose(options.pose),
+          targets(targets_from_straight(pose)),
           bind(options.bind, pose.regions),
           plan{.instances = options.instances,
-               .poses = pose.poses,
+               .poses = poses_of(targets),
                .layout = parse_layout(options.streams, options.normals),
                .isa = parse_isa_option(options.isa),
                .stores = parse_stores(options.stores)},
@@ -76,26 +79,26 @@ std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindReque
 }
 
 /// Of what a model's regions are asked for and cannot do.
-void warn_of_regions(Report& report, const CrowdOptions& options, const PoseRequest& pose,
+void warn_of_regions(Report& report, const CrowdOptions& options, std::span<const Target> targets,
                      const BoundModel& model, const std::string& where) {
     const bend::Body& body = model.binding.body;
     std::vector<double> used;
-    for (std::size_t r = 0; r < pose.poses.size(); ++r) {
-        used.push_back(used_angle(body, r, pose.poses[r]));
-        if (std::fabs(pose.poses[r].angle) <= body.max_angle(r)) continue;
-        warn_of_angle(report, where + region_words(r, pose.poses.size()), pose.angles[r],
+    for (std::size_t r = 0; r < targets.size(); ++r) {
+        used.push_back(used_angle(body, r, targets[r].pose));
+        if (std::fabs(targets[r].pose.angle) <= body.max_angle(r) || std::isinf(targets[r].angle)) continue;
+        warn_of_angle(report, where + region_words(r, targets.size()), targets[r].angle,
                       degrees(static_cast<double>(body.max_angle(r))), "it is bent so far at most");
     }
     warn_of_folds(report, options.bind, model, used, where);
 }
 
-void report_models(Report& report, const CrowdOptions& options, const PoseRequest& pose,
+void report_models(Report& report, const CrowdOptions& options, std::span<const Target> targets,
                    std::span<const BoundModel> models) {
     for (const BoundModel& model : models) {
         const bend::Body& body = model.binding.body;
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
-        warn_of_regions(report, options, pose, model, where);
+        warn_of_regions(report, options, targets, model, where);
         nlohmann::ordered_json regions;
         int folds = 0;
         double limit = 0;
@@ -144,7 +147,9 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
     json["streams"] = options.streams;
     json["normals"] = normals;
     json["stores"] = options.stores;
-    json["angles"] = request.pose.angles;
+    for (const double angle : request.pose.angles)
+        json["angles"].push_back(std::isfinite(angle) ? nlohmann::ordered_json(angle)
+                                                      : nlohmann::ordered_json(angle > 0 ? "max" : "-max"));
     json["ms_median"] = timing.frame_median;
     json["ms_p99"] = timing.frame_p99;
     json["ns_per_vertex"] = per_vertex;
@@ -179,7 +184,7 @@ void run_crowd(const CrowdOptions& options) {
     const Timing timing = measure(crowd, options.frames, request.threads);
     progress.reset();
     report_crowd(report, options, request, crowd, timing);
-    report_models(report, options, request.pose, models);
+    report_models(report, options, request.targets, models);
     if (!options.png.empty()) {
         const Progress rendering("rendering " + options.png.string());
         const std::size_t shown = write_crowd_picture(crowd, models, options.png);
@@ -209,8 +214,10 @@ void add_crowd(CLI::App& app, Action& action) {
     command->add_option("--frames", options->frames, "Measure this many frames")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    add_angle_words(*command, options->pose,
-                    "Swing between straight and this many degrees; negative: the other way");
+    add_angle_words(
+        *command, options->pose,
+        "Swing between straight and this many degrees; negative: the other way; max: as far as each "
+        "model can");
     options->bind.amplitude = "paper";  // the factors of `mesh` cost time in each frame
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "off");

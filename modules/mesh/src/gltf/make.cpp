@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "face_cutter.hpp"
 #include "format.hpp"
 #include "gltf.hpp"
 
@@ -202,13 +203,12 @@ Json Maker::attributes() {
     return result;
 }
 
-/// Adds the indices of a part's triangles, polygons as fans. `corner` moves behind the part.
+/// Adds the indices of a part's triangles. `corner` moves behind the part.
 std::size_t Maker::add_indices(const Part& part, std::size_t& corner) {
     std::vector<std::uint32_t> indices;
+    FaceCutter cut(mesh_);
     for (std::uint32_t f = part.first_face; f < part.first_face + part.face_count; ++f) {
-        const std::uint32_t* face = &split_.corners[corner];
-        for (std::uint32_t k = 1; k + 1 < mesh_.faces[f]; ++k)
-            indices.insert(indices.end(), {face[0], face[k], face[k + 1]});
+        for (const std::size_t own : cut(corner, mesh_.faces[f])) indices.push_back(split_.corners[own]);
         corner += mesh_.faces[f];
     }
     // glTF reserves the largest index.

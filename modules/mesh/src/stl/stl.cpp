@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "binary.hpp"
+#include "face_cutter.hpp"
 #include "format.hpp"
 #include "refine.hpp"
 #include "text.hpp"
@@ -282,11 +283,13 @@ std::string write_anew(const Mesh& mesh) {
     std::string out = "goffer";
     out.resize(80);
     append_bytes(out, std::endian::little, static_cast<std::uint32_t>(triangle_count(mesh)));
+    FaceCutter cut(mesh);
     std::size_t first = 0;
     for (const std::uint32_t size : mesh.faces) {
-        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.corners[first + k]]; };
-        for (std::size_t k = 1; k + 1 < size; ++k) {
-            append_facet(out, {corner(0), corner(k), corner(k + 1)});
+        const auto own = cut(first, size);
+        const auto place = [&](std::size_t k) { return mesh.positions[mesh.corners[own[k]]]; };
+        for (std::size_t k = 0; k < own.size(); k += 3) {
+            append_facet(out, {place(k), place(k + 1), place(k + 2)});
             out.append(2, '\0');  // no attributes
         }
         first += size;

@@ -102,28 +102,44 @@ void save(const Mesh& mesh, const std::filesystem::path& file);
 
 /// A mesh as a deformer wants it: arrays with one position, one normal and one tangent per entry, and
 /// triangles that index these. Entry i of the first Mesh::positions.size() is vertex i of the mesh. A vertex
-/// that occurs with several normals or tangents, as in OBJ, has further entries behind all of these. A normal
-/// or tangent that the mesh lacks for a vertex is zero.
+/// that occurs with several normals or tangents, as in OBJ, has further entries behind all of these, in the
+/// order in which the faces' corners first ask for them. A normal or tangent that the mesh lacks for a vertex
+/// is zero.
 struct VertexArrays {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;        ///< empty if the mesh has none
     std::vector<glm::vec4> tangents;       ///< empty if the mesh has none
-    std::vector<std::uint32_t> triangles;  ///< 3 entries each; a polygon is a fan of triangles
+    std::vector<glm::vec2> uvs;            ///< empty, or of set `uv_set`: see vertex_arrays_with_uvs()
+    std::size_t uv_set = 0;                ///< which of Mesh::uvs they are of
+    std::vector<std::uint32_t> triangles;  ///< 3 entries each; polygons are cut as triangles() does
     std::vector<std::uint32_t> vertex;     ///< for each entry, which vertex of the mesh it is
 };
 
 /// Makes the arrays of `mesh`, which must fit together as a loaded one does.
 [[nodiscard]] VertexArrays vertex_arrays(const Mesh& mesh);
 
+/// Makes the arrays of `mesh` as an engine draws them: each entry also has one texture coordinate, of set
+/// `set`, so that a vertex on a seam has an entry for each of its coordinates. The order is that of
+/// vertex_arrays(): entry i is vertex i of the mesh with what its first corner has, and further entries are
+/// behind all of these, in the order of use. Equal coordinates under several indices are one. As everywhere
+/// in a Mesh, v points up; a coordinate that the mesh lacks for a corner is 0, 0. Where the mesh does not
+/// have the set, these are the arrays of vertex_arrays(). with_vertex_arrays() takes either kind back.
+[[nodiscard]] VertexArrays vertex_arrays_with_uvs(const Mesh& mesh, std::size_t set = 0);
+
 /// Returns the number of triangles, a face of n corners being n - 2.
 [[nodiscard]] std::size_t triangle_count(const Mesh& mesh);
 
-/// Returns the vertices of the triangles, 3 each: face after face, each a fan around its first corner.
+/// Returns the vertices of the triangles, 3 each: face after face, wound as the faces are. A convex face is a
+/// fan around its first corner. A concave one is cut along diagonals that lie in it, so that its triangles
+/// have its area, in a time that grows with the square of its corners. It is a fan too if it crosses itself,
+/// has no area, or has more than 4096 corners.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
 
 /// Returns `mesh` with the positions, normals and tangents of `bent`, whose entries are those of
-/// vertex_arrays(mesh), in the same order. Of several entries of one vertex, the first one's position counts.
-/// Streams that the mesh does not have are ignored. Values of attributes keep their places; one that several
+/// vertex_arrays(mesh), or of vertex_arrays_with_uvs(mesh, bent.uv_set) if it has uvs, in the same order. Its
+/// texture coordinates are not looked at: bending does not change them. Of several entries of one vertex, the
+/// first one's position counts, and its normal and tangent where the mesh has these per vertex. Streams that
+/// the mesh does not have are ignored. Values of attributes with indices keep their places; one that several
 /// entries share and that is no longer the same for all is split, its copies behind the others. Keeps
 /// `source`, so that save() gives the file back. Throws Error if `bent` has too few entries.
 [[nodiscard]] Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent);

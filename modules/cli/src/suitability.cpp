@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "suitability.hpp"
+
+#include <goffer/fit/suitability.hpp>
+
+#include <string>
+
+namespace goffer::cli {
+namespace {
+
+// Found by looking at models: see tests/cli/suitability.cpp.
+constexpr double mostly = 0.5;   // share of the area: spurs and claws that lie side by side are no reason
+constexpr double flat = 3;       // as many times as wide as thick
+constexpr double far_off = 0.6;  // rms distance of the surface from the base cylinder, in radii
+
+std::string warning(const fit::Suitability& found, double residual) {
+    if (found.side_by_side_share > mostly)
+        return std::to_string(found.side_by_side) + " of its " + std::to_string(found.shells) +
+               " separate parts lie side by side, and all are bent about one axis between them; cut the "
+               "model "
+               "into its parts and bend each";
+    if (found.flatness > flat)
+        return "it is flat, " + number(found.flatness) +
+               " times as wide as thick, and wrinkles are made for a round body; bend it across its thin "
+               "side "
+               "with --direction, or try --amplitude none";
+    if (residual > far_off)
+        return "its surface is " + number(residual) +
+               " radii (rms) from the base cylinder, and a round body has 0; cut it into longish parts and "
+               "bend "
+               "each, or name another axis with --axis";
+    return {};
+}
+
+}  // namespace
+
+void report_suitability(Report& report, const BoundModel& model) {
+    const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
+    const fit::Suitability found = fit::suitability_of(geometry, model.cylinder);
+    report.json["suitability"] = {{"shells", found.shells},
+                            {"side_by_side", found.side_by_side},
+                            {"side_by_side_share", found.side_by_side_share},
+                            {"flatness", found.flatness}};
+    const std::string why = warning(found, model.cylinder.residual);
+    if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "rest.hpp"
+#include "surface.hpp"
+
+#include <goffer/fit/suitability.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <vector>
+
+namespace goffer::fit {
+namespace {
+
+/// Sets of vertices that are joined by triangles.
+class Joined {
+public:
+    explicit Joined(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+    [[nodiscard]] std::uint32_t set_of(std::uint32_t vertex) {
+        while (parent_[vertex] != vertex) {
+            parent_[vertex] = parent_[parent_[vertex]];
+            vertex = parent_[vertex];
+        }
+        return vertex;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) { parent_[set_of(a)] = set_of(b); }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Joins vertices of one triangle, and vertices in one place.
+Joined joined(const Geometry& geometry) {
+    Joined sets(geometry.positions.size());
+    std::vector<std::uint32_t> order(geometry.positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto place = [&](std::uint32_t v) {
+        const glm::vec3& p = geometry.positions[v];
+        return std::array{p.x, p.y, p.z};
+    };
+    std::ranges::sort(order, {}, place);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (place(order[i]) == place(order[i - 1])) sets.join(order[i], order[i - 1]);
+    for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
+        sets.join(geometry.triangles[t], geometry.triangles[t + 1]);
+        sets.join(geometry.triangles[t], geometry.triangles[t + 2]);
+    }
+    return sets;
+}
+
+glm::dvec2 across(const paper::Cylindrical& at) {
+    return at.rho * glm::dvec2(std::cos(at.beta), std::sin(at.beta));
+}
+
+/// A shell in the straightened body: sums over its triangles, weighted by area.
+struct Shell {
+    double area = 0, low = std::numeric_limits<double>::infinity(), high = -low, square = 0;
+    glm::dvec2 sum{0};
+
+    void add(double own, const paper::Cylindrical& at) {
+        area += own;
+        low = std::min(low, at.z);
+        high = std::max(high, at.z);
+        square += own * at.rho * at.rho;
+        sum += own * across(at);
+    }
+
+    [[nodiscard]] glm::dvec2 middle() const { return sum / area; }
+    /// The root mean square distance from the shell's own middle, which is the radius of a tube.
+    [[nodiscard]] double radius() const {
+        return std::sqrt(std::max(square / area - glm::dot(middle(), middle()), 0.0));
+    }
+};
+
+bool beside(const Shell& a, const Shell& b) {
+    const double shared = std::min(a.high, b.high) - std::max(a.low, b.low);
+    const double shorter = std::min(a.high - a.low, b.high - b.low);
+    return shared > shorter / 2 && glm::distance(a.middle(), b.middle()) > a.radius() + b.radius();
+}
+
+/// The middles of a triangle's edges: a third of its area at each of them gives it its second moments.
+std::array<glm::dvec3, 3> edge_middles(const Geometry& geometry, std::size_t triangle) {
+    std::array<glm::dvec3, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = geometry.positions[geometry.triangles[3 * triangle + i]];
+    return {(p[0] + p[1]) / 2.0, (p[1] + p[2]) / 2.0, (p[2] + p[0]) / 2.0};
+}
+
+std::vector<Shell> shells_of(const Geometry& geometry, const Straightening& straightening) {
+    Joined sets = joined(geometry);
+    std::map<std::uint32_t, Shell> shells;
+    double whole = 0;
+    for (std::size_t t = 0; 3 * t < geometry.triangles.size(); ++t) {
+        const std::array<glm::dvec3, 3> middle = edge_middles(geometry, t);
+        // The triangle of the middles has a quarter of the area.
+        const double area = 2 * glm::length(glm::cross(middle[1] - middle[0], middle[2] - middle[0]));
+        Shell& shell = shells[sets.set_of(geometry.triangles[3 * t])];
+        for (const glm::dvec3& place : middle) shell.add(area / 3, straightening.vertex(place));
+        whole += area;
+    }
+    constexpr double counts = 0.02;  // of the area, so that there are at most 50 to compare
+    std::vector<Shell> result;
+    for (const auto& [set, shell] : shells)
+        if (shell.area >= counts * whole) result.push_back(shell);
+    return result;
+}
+
+/// Larger over smaller spread of the sections, each about its own middle.
+double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straightening& straightening) {
+    constexpr std::size_t samples = 8192, slices = 24;
+    std::vector<std::uint32_t> triangles;
+    const Body body = sampled_surface(body_of(geometry), samples, triangles);
+    struct Section {
+        double count = 0, xx = 0, xy = 0, yy = 0;
+        glm::dvec2 sum{0};
+    };
+    std::array<Section, slices> sections;
+    for (std::size_t i = 0; i < body.points.size(); i += 3) {
+        const paper::Cylindrical at =
+            straightening.vertex(from_eigen(body.middle + body.size * body.points[i]));
+        const double slice = std::clamp(at.z / cylinder.length * slices, 0.0, slices - 1.0);
+        Section& section = sections[static_cast<std::size_t>(slice)];
+        const glm::dvec2 p = across(at) / cylinder.radius;
+        section.count += 1;
+        section.sum += p;
+        section.xx += p.x * p.x;
+        section.xy += p.x * p.y;
+        section.yy += p.y * p.y;
+    }
+    double xx = 0, xy = 0, yy = 0;
+    for (const Section& section : sections) {
+        if (section.count == 0) continue;
+        xx += section.xx - section.sum.x * section.sum.x / section.count;
+        xy += section.xy - section.sum.x * section.sum.y / section.count;
+        yy += section.yy - section.sum.y * section.sum.y / section.count;
+    }
+    const double middle = (xx + yy) / 2, off = std::hypot((xx - yy) / 2, xy);
+    return std::sqrt((middle + off) / std::max(middle - off, 1e-6 * middle));
+}
+
+}  // namespace
+
+Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
+    check(geometry);
+    check(cylinder);
+    const Straightening straightening(cylinder);
+    const std::vector<Shell> shells = shells_of(geometry, straightening);
+    Suitability found;
+    found.shells = shells.size();
+    double whole = 0, side_by_side = 0;
+    for (const Shell& shell : shells) {
+        whole += shell.area;
+        const auto beside_it = [&](const Shell& other) { return beside(shell, other); };
+        if (!std::ranges::any_of(shells, beside_it)) continue;
+        side_by_side += shell.area;
+        ++found.side_by_side;
+    }
+    if (whole > 0) found.side_by_side_share = side_by_side / whole;
+    found.flatness = flatness(geometry, cylinder, straightening);
+    return found;
+}
+
+}  // namespace goffer::fit

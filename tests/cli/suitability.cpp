@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "support/models.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+/// Bodies that are no cylinders: they are bent, and one line says why that may look odd.
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* begin = "the body is no cylinder and may look odd when bent: ";
+
+/// Base cylinders of radius 1 and length 10, at these places.
+mesh::Mesh rods(const Folder& folder, const std::vector<glm::vec3>& places) {
+    const mesh::Mesh one = mesh::load(folder / base(folder, "rod.ply", {"--columns", "16", "--rows", "41"}));
+    mesh::Mesh all;
+    for (const glm::vec3& place : places) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        for (const glm::vec3& p : one.positions) all.positions.push_back(p + place);
+        for (const std::uint32_t corner : one.corners) all.corners.push_back(first + corner);
+        all.faces.insert(all.faces.end(), one.faces.begin(), one.faces.end());
+    }
+    return all;
+}
+
+/// The warning of a model, which inspect and bend share; empty: none.
+std::string warning(const Folder& folder, const mesh::Mesh& mesh, const std::string& name = "model.ply") {
+    mesh::save(mesh, folder / name);
+    const auto of = [&](const Words& words) {
+        std::string found;
+        const json all = report(folder, words);
+        for (const std::string text : all["warnings"]) {
+            if (!text.starts_with(begin)) continue;
+            CHECK(found.empty());
+            found = text;
+        }
+        return found;
+    };
+    const std::string inspected = of({"inspect", name, "--axis", "z"});
+    CHECK(of({"bend", name, "--axis", "z", "-o", "out.ply"}) == inspected);
+    return inspected;
+}
+
+/// What is said of a real model: nothing, or a line that holds `said`.
+void check_model(const char* name, const std::string& said) {
+    const auto file = model(name);
+    if (file.empty()) return;
+    const Folder folder;
+    const json all = report(folder, {"inspect", file.string()});
+    std::string found;
+    for (const std::string text : all["warnings"])
+        if (text.starts_with(begin)) found = text;
+    CAPTURE(found);
+    CHECK(said.empty() == found.empty());
+    CHECK(found.find(said) != found.npos);
+}
+
+}  // namespace
+
+TEST_CASE("suitability: a cylinder is one, whatever its file says of seams") {
+    const Folder folder;
+    CHECK(warning(folder, rods(folder, {{0, 0, 0}})).empty());
+    CHECK(warning(folder, rods(folder, {{0, 0, 0}}), "soup.stl").empty());
+    const json shape = report(folder, {"inspect", "soup.stl"})["suitability"];
+    CHECK(shape["shells"] == 1);
+    CHECK(shape["side_by_side"] == 0);
+    CHECK(std::abs(shape["flatness"].get<double>() - 1) < 0.05);
+}
+
+TEST_CASE("suitability: parts side by side") {
+    const Folder folder;
+    const std::string said = warning(folder, rods(folder, {{0, 0, 0}, {3, 0, 0}, {1.5, 3, 1}}));
+    CHECK(said.find("3 of its 3 separate parts lie side by side") != said.npos);
+    CHECK(said.find("cut the model into its parts") != said.npos);
+    // One within another, and one behind another, are not.
+    CHECK(warning(folder, rods(folder, {{0, 0, 0}, {0, 0, 10.5}})).empty());
+    CHECK(warning(folder, rods(folder, {{0, 0, 0}, {0.5, 0, 0}})).find("parts") == std::string::npos);
+    CHECK(report(folder, {"inspect", "model.ply", "--axis", "z"})["suitability"]["shells"] == 2);
+}
+
+TEST_CASE("suitability: a flat body") {
+    const Folder folder;
+    const auto squashed = [&](float by) {
+        mesh::Mesh mesh = rods(folder, {{0, 0, 0}});
+        for (glm::vec3& p : mesh.positions) p.y /= by;
+        return warning(folder, mesh);
+    };
+    CHECK(squashed(2).find("flat") == std::string::npos);
+    const std::string said = squashed(6);
+    CHECK(said.find("it is flat, ") != said.npos);
+    CHECK(said.find("--direction") != said.npos);
+}
+
+TEST_CASE("suitability: a body far from any cylinder") {
+    const Folder folder;
+    mesh::Mesh mesh = rods(folder, {{0, 0, 0}});
+    for (glm::vec3& p : mesh.positions) {  // four fins
+        const float fin = 0.15f + 2 * std::pow(std::fabs(std::cos(2 * std::atan2(p.y, p.x))), 6.0f);
+        p.x *= fin;
+        p.y *= fin;
+    }
+    const std::string said = warning(folder, mesh);
+    CHECK(said.find("radii (rms) from the base cylinder") != said.npos);
+    CHECK(said.find("--axis") != said.npos);
+}
+
+// The limits were found by looking at these. Of the models that bend well, blub_open.obj, a fish with fins,
+// is the farthest from a cylinder (0.51 radii), and cushion_02.glb the flattest (2.2). insect_leg.glb has
+// spurs beside its claws.
+
+TEST_CASE("suitability: blub_open.obj") {
+    check_model("blub_open.obj", "");
+}
+
+TEST_CASE("suitability: cushion_02.glb") {
+    check_model("cushion_02.glb", "");
+}
+
+TEST_CASE("suitability: insect_leg.glb") {
+    check_model("insect_leg.glb", "");
+}
+
+TEST_CASE("suitability: koala.obj") {
+    check_model("koala.obj", "");
+}
+
+TEST_CASE("suitability: banana.obj") {
+    check_model("banana.obj", "");
+}
+
+TEST_CASE("suitability: l_arista.stl, a feathery antenna") {
+    check_model("l_arista.stl", "radii (rms) from the base cylinder");
+}
