@@ -28,14 +28,19 @@ glm::dvec3 random_vector(Random& random) {
     return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
 }
 
-/// A curve that turns by a right angle or so, about as long as `length`.
-void set_smooth(Random& random, double length, Control& control) {
+/// A curve that turns by a right angle or so, about as long as `length`. Its control points lie between
+/// `nearest` and `farthest` thirds of the length apart.
+void set_curve(Random& random, double length, double nearest, double farthest, Control& control) {
     glm::dvec3 point = random_vector(random), direction = glm::normalize(random_vector(random));
     for (glm::vec3& p : control) {
         p = glm::vec3(point);
         direction = glm::normalize(direction + 0.8 * random_vector(random));
-        point += direction * (length / 3 * uniform(random, 0.7, 1.5));
+        point += direction * (length / 3 * uniform(random, nearest, farthest));
     }
+}
+
+void set_smooth(Random& random, double length, Control& control) {
+    set_curve(random, length, 0.7, 1.5, control);
 }
 
 glm::dvec3 point_of(const Control& control, double t) {
@@ -195,6 +200,30 @@ TEST_CASE("a path may hold any bits") {
                 CHECK(fit.error == std::numeric_limits<float>::infinity());
         }
     }
+}
+
+// Where a curve is run through so unevenly, the nearest points are found only by a search that begins near
+// them.
+TEST_CASE("the error is right, too, along curves with crowded control points that end before the body") {
+    Random random(95);
+    double worst = 0, sum = 0;
+    int trials = 0;
+    for (const std::size_t regions : {1u, 2u, 3u, 5u, 8u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions);
+        for (int trial = 0; trial < 100; ++trial, ++trials) {
+            Control control;
+            set_curve(random, uniform(random, 0.3, 1.2) * body.length(), 0.1, 2, control);
+            const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+            const double exact = error_of(body, fit, poses, line_of(control, 1000));
+            const double off = std::fabs(static_cast<double>(fit.error) - exact) / (exact + 0.01);
+            worst = std::max(worst, off);
+            sum += off;
+        }
+    }
+    MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average");
+    CHECK(worst < 0.03);
+    CHECK(sum / trials < 1e-4);
 }
 
 }  // namespace goffer::test

@@ -204,3 +204,24 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
         CHECK(std::abs(fit::surface_area(sorted, soup.triangles) / rest - 1) < 1e-3);
     }
 }
+
+TEST_CASE("amplitude mesh: triangles without area change nothing") {
+    std::mt19937 random(8);
+    const test::Solid solid = test::cylinder({.columns = 24, .rows = 64}, random);
+    const Soup plain{solid.positions, solid.triangles};
+    Soup folded = plain;
+    for (std::size_t t = 0; t < 300; t += 3) {
+        const std::uint32_t a = plain.triangles[t], b = plain.triangles[t + 1];
+        folded.triangles.insert(folded.triangles.end(), {a, a, b});
+    }
+    const fit::Cylinder cylinder = fit::fit_cylinder(plain.geometry());
+    fit::BindOptions options;
+    options.amplitude = paper::Amplitude::mesh;
+    options.folds = 3;
+    const fit::Binding one = fit::bind(plain.geometry(), cylinder, options);
+    const fit::Binding other = fit::bind(folded.geometry(), cylinder, options);
+    for (const float direction : {0.0f, 1.0f, 2.5f}) {
+        const bend::Pose pose{1.2f, direction};
+        CHECK(bent_area(one, plain, pose) == bent_area(other, plain, pose));
+    }
+}

@@ -112,6 +112,11 @@ class Gate(support.Case):
         self.assertEqual(self.gate(base, str(head), "--skip-same"), 0)
         self.assertIn("same program", (self.folder / "r.md").read_text())
 
+    def test_another_program_is_measured(self):
+        self.assertEqual(self.gate(self.fake("base", ONE), self.fake("head", ONE, spread=0.011), "--skip-same"), 0)
+        self.assertEqual(list(self.report()[1]), list(ONE))
+        self.assertNotIn("same program", (self.folder / "r.md").read_text())
+
     def test_wrong_usage(self):
         self.assertEqual(self.gate("a", "b", "--pairs", "3"), 2)
         for words in (["--only", "paris"], ["--only", ""], ["--cases", "("]):
