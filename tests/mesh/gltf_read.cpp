@@ -109,6 +109,15 @@ TEST_CASE("gltf: a mirror turns triangles round and keeps normals looking outwar
     }
 }
 
+TEST_CASE("gltf: what a node presses flat keeps its sides") {
+    const Mesh rest = load_document(tetra()), flat = nodes(R"([{"mesh": 0, "scale": [1, 1, 0]}])");
+    CHECK(flat.corners == rest.corners);
+    CHECK(flat.normals.values[3] == glm::vec3(0, 0, 1));
+    CHECK(flat.tangents.values[2] == glm::vec4(1, 0, 0, -1));
+    REQUIRE(flat.warnings.size() == 1);
+    CHECK(flat.warnings[0].find("flat") != std::string::npos);
+}
+
 TEST_CASE("gltf: the default scene is read, or the first, or all nodes where there is none") {
     Document document =
         tetra_with_nodes(R"([{"mesh": 0}, {"mesh": 0, "translation": [10, 0, 0]}, {"children": [0, 1]}])");
