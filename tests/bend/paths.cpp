@@ -93,6 +93,21 @@ std::vector<glm::dvec3> center_line(const bend::Body& body, const bend::PathFit&
     return places;
 }
 
+/// The direction in which the first region ends.
+glm::dvec3 end_direction(const bend::Body& body, const bend::PathFit& fit, const bend::Pose& pose) {
+    const glm::dmat3 axes = glm::dmat3(glm::mat3(fit.transform)) * body.axes();
+    const double angle = static_cast<double>(pose.angle), direction = static_cast<double>(pose.direction);
+    return std::sin(angle) * (std::cos(direction) * axes[0] + std::sin(direction) * axes[1]) +
+           std::cos(angle) * axes[2];
+}
+
+/// The direction of a polyline at a distance from its beginning.
+glm::dvec3 direction_at(std::span<const glm::dvec3> points, double length) {
+    std::size_t i = 0;
+    while ((length -= glm::distance(points[i], points[i + 1])) > 0) ++i;
+    return glm::normalize(points[i + 1] - points[i]);
+}
+
 double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<const bend::Pose> poses,
                 std::span<const glm::dvec3> path) {
     double worst = 0;
@@ -224,6 +239,32 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
     MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average");
     CHECK(worst < 0.03);
     CHECK(sum / trials < 1e-4);
+}
+
+TEST_CASE("the first region ends in the direction that the path has there") {
+    Random random(96);
+    double worst = 0, sum = 0;
+    int trials = 0;
+    for (const std::size_t regions : {1u, 2u, 4u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions);
+        for (int trial = 0; trial < 100; ++trial) {
+            Control control;
+            set_smooth(random, 1.5 * body.length(), control);
+            const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+            if (fit.clamped) continue;
+            const double length = static_cast<double>(body.regions()[0].length) -
+                                  static_cast<double>(poses[0].angle) * body.radius();
+            const double off = glm::distance(end_direction(body, fit, poses[0]),
+                                             direction_at(line_of(control, 2000), length));
+            worst = std::max(worst, off);
+            sum += off;
+            ++trials;
+        }
+    }
+    MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average of ", trials);
+    CHECK(worst < 0.0125);
+    CHECK(sum / trials < 2.7e-4);
 }
 
 }  // namespace goffer::test
