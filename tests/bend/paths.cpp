@@ -267,4 +267,28 @@ TEST_CASE("the first region ends in the direction that the path has there") {
     CHECK(sum / trials < 2.7e-4);
 }
 
+TEST_CASE("beyond its end a polyline goes straight on") {
+    Random random(97);
+    for (const std::size_t regions : {1u, 3u, 8u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions), longer(regions);
+        for (int trial = 0; trial < 20; ++trial) {
+            std::vector<glm::vec3> points;
+            glm::dvec3 point = random_vector(random), direction = glm::normalize(random_vector(random));
+            for (int i = 0; i < 6; ++i) {
+                points.emplace_back(point);
+                direction = glm::normalize(direction + 0.4 * random_vector(random));
+                point += direction * (0.12 * body.length());
+            }
+            const bend::PathFit fit = bend::poses_along(body, points, poses);
+            points.emplace_back(points[5] + 10.0f * (points[5] - points[4]));
+            const bend::PathFit same = bend::poses_along(body, points, longer);
+            CHECK(static_cast<double>(fit.error) ==
+                  doctest::Approx(static_cast<double>(same.error)).epsilon(1e-4).scale(0.01));
+            for (std::size_t r = 0; r < regions; ++r)
+                CHECK(std::fabs(poses[r].angle - longer[r].angle) < 1e-5f);
+        }
+    }
+}
+
 }  // namespace goffer::test
