@@ -291,4 +291,16 @@ TEST_CASE("beyond its end a polyline goes straight on") {
     }
 }
 
+TEST_CASE("a path that turns more sharply than the body can clamps it") {
+    Random random(98);
+    const bend::Body body = body_of(random, 8);
+    std::vector<bend::Pose> poses(8);
+    const float half = 0.5f * static_cast<float>(body.length());
+    const glm::vec3 straight[] = {{0, 0, 0}, {0, 0, half}, {0, 0, 2 * half}};
+    const glm::vec3 there_and_back[] = {{0, 0, 0}, {0, 0, half}, {0.1f, 0, 0}};
+    CHECK_FALSE(bend::poses_along(body, straight, poses).clamped);
+    CHECK(bend::poses_along(body, there_and_back, poses).clamped);
+    for (std::size_t r = 0; r < 8; ++r) CHECK(poses[r].angle <= body.max_angle(r));
+}
+
 }  // namespace goffer::test
