@@ -13,6 +13,7 @@ import unittest.mock
 import support
 from support import CASES
 from gating import command, programs
+from gating.outcome import Unmeasured
 
 
 ONE = {"setup/instance": 60.0}
@@ -121,6 +122,8 @@ class Gate(support.Case):
             opened = os.listdir("/proc/self/fd")
             self.assertIn("setup/instance", programs.Run(program, list(ONE), 0.01).counters())
             programs.Run(self.fake("other", ONE), list(ONE), 0.01).stop()
+            with self.assertRaises(Unmeasured):
+                programs.Run("/nowhere/goffer_bench", list(ONE), 0.01)
             self.assertEqual(os.listdir("/proc/self/fd"), opened)
         self.assertEqual([path.name for path in self.folder.glob("*.json")], [])
 
