@@ -142,7 +142,7 @@ def run(given: argparse.Namespace) -> int:
     results = kept
     for one in Run(trees).all(wanted):
         results = sorted([*results, one], key=lambda one: (one.group, one.mutant))
-        write(given, results)  # each time: it takes hours, and may be interrupted
+        write(given, results)  # each time: it takes an hour, and may be interrupted
     print(write(given, results), end="")
     return 1 if report.tally(results)["all"][3] else 0
 
