@@ -229,7 +229,7 @@ TEST_CASE("amplitude mesh: triangles without area change nothing") {
 TEST_CASE("amplitude mesh: where rows are too few for the folds, wrinkles are at most twice as deep") {
     std::mt19937 random(9);
     double deepest = 0;
-    for (const auto [folds, rows] : {std::pair(3, 8), std::pair(6, 16)}) {
+    for (const auto& [folds, rows] : {std::pair(3, 8), std::pair(6, 16)}) {
         const test::Solid solid = test::cylinder({.columns = 24, .rows = rows}, random);
         const fit::Cylinder cylinder = fit::fit_cylinder(solid.geometry());
         fit::BindOptions options;
