@@ -157,4 +157,25 @@ TEST_CASE("non-temporal pieces write their own vertices alone, in every layout")
     }
 }
 
+TEST_CASE("planes that compete for the cache may be followed by one that begins its lines elsewhere") {
+    Random random(45);
+    constexpr std::size_t count = 300, kilobytes = 512, elsewhere = 3;  // floats
+    LayoutCase test_mesh(random, loose_body(random, count));
+    for (const Isa isa : isas_here()) {
+        INFO(name(isa));
+        test_mesh.make_planes(isa);
+        OutputBuffer other("xyz", count);
+        bend::DeformJob job = test_mesh.job(other);
+        Columns memory(1, 3 * kilobytes);
+        float* const first = memory[0].data();
+        job.positions = {{first, first + kilobytes, first + 2 * kilobytes + elsewhere}, sizeof(float), count};
+        const bend::Batch batch = bend::batch_of(job);
+        bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = bend::Stores::non_temporal, .isa = isa});
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t c = 0; c < 3; ++c)
+                REQUIRE(job.positions.component[c][i] == test_mesh.planes().value("xyz"[c], i));
+        }
+    }
+}
+
 }  // namespace goffer::test

@@ -28,14 +28,19 @@ glm::dvec3 random_vector(Random& random) {
     return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
 }
 
-/// A curve that turns by a right angle or so, about as long as `length`.
-void set_smooth(Random& random, double length, Control& control) {
+/// A curve that turns by a right angle or so, about as long as `length`. Its control points lie between
+/// `nearest` and `farthest` thirds of the length apart.
+void set_curve(Random& random, double length, double nearest, double farthest, Control& control) {
     glm::dvec3 point = random_vector(random), direction = glm::normalize(random_vector(random));
     for (glm::vec3& p : control) {
         p = glm::vec3(point);
         direction = glm::normalize(direction + 0.8 * random_vector(random));
-        point += direction * (length / 3 * uniform(random, 0.7, 1.5));
+        point += direction * (length / 3 * uniform(random, nearest, farthest));
     }
+}
+
+void set_smooth(Random& random, double length, Control& control) {
+    set_curve(random, length, 0.7, 1.5, control);
 }
 
 glm::dvec3 point_of(const Control& control, double t) {
@@ -86,6 +91,21 @@ std::vector<glm::dvec3> center_line(const bend::Body& body, const bend::PathFit&
                 std::sin(angle) * n + std::cos(angle) * t};
     }
     return places;
+}
+
+/// The direction in which the first region ends.
+glm::dvec3 end_direction(const bend::Body& body, const bend::PathFit& fit, const bend::Pose& pose) {
+    const glm::dmat3 axes = glm::dmat3(glm::mat3(fit.transform)) * body.axes();
+    const double angle = static_cast<double>(pose.angle), direction = static_cast<double>(pose.direction);
+    return std::sin(angle) * (std::cos(direction) * axes[0] + std::sin(direction) * axes[1]) +
+           std::cos(angle) * axes[2];
+}
+
+/// The direction of a polyline at a distance from its beginning.
+glm::dvec3 direction_at(std::span<const glm::dvec3> points, double length) {
+    std::size_t i = 0;
+    while ((length -= glm::distance(points[i], points[i + 1])) > 0) ++i;
+    return glm::normalize(points[i + 1] - points[i]);
 }
 
 double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<const bend::Pose> poses,
@@ -195,6 +215,92 @@ TEST_CASE("a path may hold any bits") {
                 CHECK(fit.error == std::numeric_limits<float>::infinity());
         }
     }
+}
+
+// Where a curve is run through so unevenly, the nearest points are found only by a search that begins near
+// them.
+TEST_CASE("the error is right, too, along curves with crowded control points that end before the body") {
+    Random random(95);
+    double worst = 0, sum = 0;
+    int trials = 0;
+    for (const std::size_t regions : {1u, 2u, 3u, 5u, 8u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions);
+        for (int trial = 0; trial < 100; ++trial, ++trials) {
+            Control control;
+            set_curve(random, uniform(random, 0.3, 1.2) * body.length(), 0.1, 2, control);
+            const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+            const double exact = error_of(body, fit, poses, line_of(control, 1000));
+            const double off = std::fabs(static_cast<double>(fit.error) - exact) / (exact + 0.01);
+            worst = std::max(worst, off);
+            sum += off;
+        }
+    }
+    MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average");
+    CHECK(worst < 0.03);
+    CHECK(sum / trials < 1e-4);
+}
+
+TEST_CASE("the first region ends in the direction that the path has there") {
+    Random random(96);
+    double worst = 0, sum = 0;
+    int trials = 0;
+    for (const std::size_t regions : {1u, 2u, 4u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions);
+        for (int trial = 0; trial < 100; ++trial) {
+            Control control;
+            set_smooth(random, 1.5 * body.length(), control);
+            const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+            if (fit.clamped) continue;
+            const double length = static_cast<double>(body.regions()[0].length) -
+                                  static_cast<double>(poses[0].angle) * body.radius();
+            const double off = glm::distance(end_direction(body, fit, poses[0]),
+                                             direction_at(line_of(control, 2000), length));
+            worst = std::max(worst, off);
+            sum += off;
+            ++trials;
+        }
+    }
+    MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average of ", trials);
+    CHECK(worst < 0.0125);
+    CHECK(sum / trials < 2.7e-4);
+}
+
+TEST_CASE("beyond its end a polyline goes straight on") {
+    Random random(97);
+    for (const std::size_t regions : {1u, 3u, 8u}) {
+        const bend::Body body = body_of(random, regions);
+        std::vector<bend::Pose> poses(regions), longer(regions);
+        for (int trial = 0; trial < 20; ++trial) {
+            std::vector<glm::vec3> points;
+            glm::dvec3 point = random_vector(random), direction = glm::normalize(random_vector(random));
+            for (int i = 0; i < 6; ++i) {
+                points.emplace_back(point);
+                direction = glm::normalize(direction + 0.4 * random_vector(random));
+                point += direction * (0.12 * body.length());
+            }
+            const bend::PathFit fit = bend::poses_along(body, points, poses);
+            points.emplace_back(points[5] + 10.0f * (points[5] - points[4]));
+            const bend::PathFit same = bend::poses_along(body, points, longer);
+            CHECK(static_cast<double>(fit.error) ==
+                  doctest::Approx(static_cast<double>(same.error)).epsilon(1e-4).scale(0.01));
+            for (std::size_t r = 0; r < regions; ++r)
+                CHECK(std::fabs(poses[r].angle - longer[r].angle) < 1e-5f);
+        }
+    }
+}
+
+TEST_CASE("a path that turns more sharply than the body can clamps it") {
+    Random random(98);
+    const bend::Body body = body_of(random, 8);
+    std::vector<bend::Pose> poses(8);
+    const float half = 0.5f * static_cast<float>(body.length());
+    const glm::vec3 straight[] = {{0, 0, 0}, {0, 0, half}, {0, 0, 2 * half}};
+    const glm::vec3 there_and_back[] = {{0, 0, 0}, {0, 0, half}, {0.1f, 0, 0}};
+    CHECK_FALSE(bend::poses_along(body, straight, poses).clamped);
+    CHECK(bend::poses_along(body, there_and_back, poses).clamped);
+    for (std::size_t r = 0; r < 8; ++r) CHECK(poses[r].angle <= body.max_angle(r));
 }
 
 }  // namespace goffer::test

@@ -395,6 +395,36 @@ TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") 
     }
 }
 
+TEST_CASE("P10: bounds hold bodies whose onset takes most of their wrinkles, and are not much larger") {
+    Random random(71);
+    float most = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const TestMesh test_mesh = random_mesh(random, uniform(random, 8, 30), 1);
+        fit::BindOptions options;
+        options.folds = 1 + static_cast<int>(random() % 6);
+        options.onset = std::pow(10, uniform(random, -2, 0));
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        const std::size_t count = test_mesh.positions.size();
+        Output out(count);
+        const std::vector<bend::Pose> poses = random_poses(random, binding.body);
+        const bend::DeformJob job = make_job(binding.body, poses, Isa::automatic, out);
+        bend::run(job);
+        const bend::Bounds box = bend::bounds(job);
+        glm::vec3 low(out.position(0)), high = low;
+        for (std::size_t i = 0; i < count; ++i) {
+            low = glm::min(low, glm::vec3(out.position(i)));
+            high = glm::max(high, glm::vec3(out.position(i)));
+        }
+        CAPTURE(*options.onset);
+        CHECK(glm::all(glm::lessThanEqual(box.low, low)));
+        CHECK(glm::all(glm::lessThanEqual(high, box.high)));
+        for (int axis = 0; axis < 3; ++axis)
+            most = std::max(most, (box.high[axis] - box.low[axis]) / (high[axis] - low[axis]));
+    }
+    MESSAGE("at most ", most, " times as long");
+    CHECK(most < 1.5f);
+}
+
 TEST_CASE("a chain is clamped where any region is") {
     Random random(72);
     const Case one = random_case(random, 3, false);

@@ -204,3 +204,58 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
         CHECK(std::abs(fit::surface_area(sorted, soup.triangles) / rest - 1) < 1e-3);
     }
 }
+
+TEST_CASE("amplitude mesh: triangles without area change nothing") {
+    std::mt19937 random(8);
+    const test::Solid solid = test::cylinder({.columns = 24, .rows = 64}, random);
+    const Soup plain{solid.positions, solid.triangles};
+    Soup folded = plain;
+    for (std::size_t t = 0; t < 300; t += 3) {
+        const std::uint32_t a = plain.triangles[t], b = plain.triangles[t + 1];
+        folded.triangles.insert(folded.triangles.end(), {a, a, b});
+    }
+    const fit::Cylinder cylinder = fit::fit_cylinder(plain.geometry());
+    fit::BindOptions options;
+    options.amplitude = paper::Amplitude::mesh;
+    options.folds = 3;
+    const fit::Binding one = fit::bind(plain.geometry(), cylinder, options);
+    const fit::Binding other = fit::bind(folded.geometry(), cylinder, options);
+    for (const float direction : {0.0f, 1.0f, 2.5f}) {
+        const bend::Pose pose{1.2f, direction};
+        CHECK(bent_area(one, plain, pose) == bent_area(other, plain, pose));
+    }
+}
+
+TEST_CASE("amplitude mesh: where rows are too few for the folds, wrinkles are at most twice as deep") {
+    std::mt19937 random(9);
+    double deepest = 0;
+    for (const auto& [folds, rows] : {std::pair(3, 8), std::pair(6, 16)}) {
+        const test::Solid solid = test::cylinder({.columns = 24, .rows = rows}, random);
+        const fit::Cylinder cylinder = fit::fit_cylinder(solid.geometry());
+        fit::BindOptions options;
+        options.folds = folds;
+        const fit::Binding paper = fit::bind(solid.geometry(), cylinder, options);
+        options.amplitude = paper::Amplitude::mesh;
+        const fit::Binding own = fit::bind(solid.geometry(), cylinder, options);
+        for (const float angle : {0.1f, 0.8f, 1.5f}) {
+            const auto bent = [&](const fit::Binding& binding, float wrinkle_weight) {
+                std::vector<glm::vec3> positions(solid.positions.size());
+                bend::DeformJob job;
+                job.body = &binding.body;
+                job.pose = {angle, 0.5f};
+                job.wrinkle_weight = wrinkle_weight;
+                job.positions = interleaved<3>(&positions[0].x, positions.size());
+                bend::run(job);
+                return positions;
+            };
+            const std::vector<glm::vec3> bare = bent(paper, 0), wrinkled = bent(paper, 1),
+                                         deep = bent(own, 1);
+            for (std::size_t i = 0; i < bare.size(); ++i) {
+                const double of_paper = glm::distance(glm::dvec3(wrinkled[i]), glm::dvec3(bare[i]));
+                const double of_own = glm::distance(glm::dvec3(deep[i]), glm::dvec3(bare[i]));
+                if (of_paper > 0.01) deepest = std::max(deepest, of_own / of_paper);
+            }
+        }
+    }
+    CHECK(deepest == doctest::Approx(2).epsilon(1e-4));
+}

@@ -348,6 +348,9 @@ TEST_CASE("refine: growth has a limit, and it is named") {
     CHECK_THROWS_AS(
         (void)fit::refine(solid.geometry(), {{}, {}, {}, 1e-300, 1e-301}, 1 << 20, {.max_triangles = any}),
         fit::Error);
+    // Triangles without end are asked for, but 32 bits do not number so many vertices.
+    const Solid wide = test::cylinder({.columns = 96, .rows = 2, .length = 10}, random);
+    CHECK_THROWS_AS((void)fit::refine(wide.geometry(), base, 1 << 20, {.max_triangles = any}), fit::Error);
 }
 
 TEST_CASE("refine: bad input is named") {

@@ -4,13 +4,16 @@
 import contextlib
 import io
 import json
+import os
 import subprocess
+import tempfile
 import unittest
 import unittest.mock
 
 import support
 from support import CASES
-from gating import command
+from gating import command, programs
+from gating.outcome import Unmeasured
 
 
 ONE = {"setup/instance": 60.0}
@@ -111,6 +114,23 @@ class Gate(support.Case):
         head.chmod(0o755)
         self.assertEqual(self.gate(base, str(head), "--skip-same"), 0)
         self.assertIn("same program", (self.folder / "r.md").read_text())
+
+    def test_a_run_leaves_nothing_behind(self):
+        program = self.fake("head", ONE)
+        with unittest.mock.patch.dict(os.environ, {"TMPDIR": str(self.folder)}), \
+                unittest.mock.patch.object(tempfile, "tempdir", None):
+            opened = os.listdir("/proc/self/fd")
+            self.assertIn("setup/instance", programs.Run(program, list(ONE), 0.01).counters())
+            programs.Run(self.fake("other", ONE), list(ONE), 0.01).stop()
+            with self.assertRaises(Unmeasured):
+                programs.Run("/nowhere/goffer_bench", list(ONE), 0.01)
+            self.assertEqual(os.listdir("/proc/self/fd"), opened)
+        self.assertEqual([path.name for path in self.folder.glob("*.json")], [])
+
+    def test_another_program_is_measured(self):
+        self.assertEqual(self.gate(self.fake("base", ONE), self.fake("head", ONE, spread=0.011), "--skip-same"), 0)
+        self.assertEqual(list(self.report()[1]), list(ONE))
+        self.assertNotIn("same program", (self.folder / "r.md").read_text())
 
     def test_wrong_usage(self):
         self.assertEqual(self.gate("a", "b", "--pairs", "3"), 2)

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Bounds: the best of several tries, and threads on a busy machine."""
 
+import os
 import unittest
 import unittest.mock
 
 import support
-from gating import ratios
+from gating import machine, ratios
 from gating.outcome import Verdict
 
 CASE = "deform/positions/cache/avx2/1"
@@ -55,6 +56,20 @@ class Ratios(support.Case):
         self.assertIn("it went wrong", part.unmeasured)
         self.assertEqual(part.exit_code, 2)
         self.assertEqual(self.judge({}, self.fake("head"))[0].exit_code, 2)
+
+    def test_how_busy_others_are(self):
+        def stat(*ticks):
+            return unittest.mock.mock_open(read_data="cpu  " + " ".join(map(str, ticks)) + "\ncpu0 1 2 3 4 5 6 7 8 9 10\n")
+        second = os.sysconf("SC_CLK_TCK")
+        for column, counts in enumerate((True, True, True, False, False, True, True, True, False, False)):
+            before = [500 * second] * 10
+            after = [ticks + 12 * second * (i == column) for i, ticks in enumerate(before)]
+            with self.subTest(column), unittest.mock.patch.object(machine.time, "monotonic", side_effect=(100, 110)), \
+                    unittest.mock.patch.object(machine, "_own_seconds", side_effect=(1, 3)):
+                with unittest.mock.patch("builtins.open", stat(*before)):
+                    others = machine.Others()
+                with unittest.mock.patch("builtins.open", stat(*after)):
+                    self.assertAlmostEqual(others.processors(), 1.0 if counts else 0.0)
 
     def test_naive_of(self):
         self.assertEqual(ratios.naive_of("deform/interleaved-positions/cache/avx2/1"), "naive/positions")

@@ -71,6 +71,8 @@ TEST_CASE("file: content counts before the ending") {
         CHECK(soup(load(folder / "b")) == soup(mesh));
     }
     CHECK(load_text("a.xyz", "# from somewhere\n\n  " + triangle).positions.size() == 3);
+    CHECK(tells(load_error("a.xyz", "solid ground\nendsolid ground\n"), "no facets"));
+    CHECK(tells(load_error("a.xyz", "solid ground\nis words\n"), "neither the content nor the ending"));
 }
 
 TEST_CASE("file: endings that can be written, in any case") {

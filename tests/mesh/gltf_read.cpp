@@ -109,6 +109,15 @@ TEST_CASE("gltf: a mirror turns triangles round and keeps normals looking outwar
     }
 }
 
+TEST_CASE("gltf: what a node presses flat keeps its sides") {
+    const Mesh rest = load_document(tetra()), flat = nodes(R"([{"mesh": 0, "scale": [1, 1, 0]}])");
+    CHECK(flat.corners == rest.corners);
+    CHECK(flat.normals.values[3] == glm::vec3(0, 0, 1));
+    CHECK(flat.tangents.values[2] == glm::vec4(1, 0, 0, -1));
+    REQUIRE(flat.warnings.size() == 1);
+    CHECK(flat.warnings[0].find("flat") != std::string::npos);
+}
+
 TEST_CASE("gltf: the default scene is read, or the first, or all nodes where there is none") {
     Document document =
         tetra_with_nodes(R"([{"mesh": 0}, {"mesh": 0, "translation": [10, 0, 0]}, {"children": [0, 1]}])");
@@ -135,6 +144,34 @@ TEST_CASE("gltf: primitives that share accessors share vertices, nodes that shar
     CHECK(mesh.parts[3].first_face == 9);
     CHECK(mesh.corners.back() == 7);
     CHECK(mesh.positions[7] == glm::vec3(5, 0, 3));
+}
+
+TEST_CASE("gltf: primitives may have different sets of texture coordinates") {
+    Document document = tetra();
+    const std::size_t points = document.floats(tetra_points, "VEC3"),
+                      uvs = document.floats({0, 0, 0.5f, 0, 0, 0.25f, 1, 1}, "VEC2"),
+                      indices = document.shorts({1, 2, 3});
+    const auto uv = [](const Mesh& mesh, std::size_t set, std::size_t corner) {
+        const auto& all = mesh.uvs.at(set);
+        const std::uint32_t i = all.per_vertex() ? mesh.corners[corner] : all.corners[corner];
+        return i == Attribute<glm::vec2>::none ? glm::vec2(-1) : all.values[i];
+    };
+    for (const bool first : {true, false}) {
+        Document both = document;
+        Json& primitives = both.json["meshes"][0]["primitives"];
+        const Json attributes = {{"POSITION", points}, {"TEXCOORD_0", uvs}, {"TEXCOORD_1", uvs}};
+        const Json other = {{"attributes", attributes}, {"indices", indices}};
+        primitives.insert(first ? primitives.begin() : primitives.end(), other);
+        const Mesh mesh = load_document(both);
+        REQUIRE(mesh.uvs.size() == 2);
+        const std::size_t own = first ? 3 : 0, others = first ? 0 : 12;
+        CHECK(uv(mesh, 0, own + 5) == glm::vec2(0.75f, 0));
+        CHECK(uv(mesh, 1, own + 5) == glm::vec2(-1));
+        for (const std::size_t set : {0u, 1u}) {
+            CHECK(uv(mesh, set, others) == glm::vec2(0.5f, 1));
+            CHECK(uv(mesh, set, others + 1) == glm::vec2(0, 0.75f));
+        }
+    }
 }
 
 TEST_CASE("gltf: strips and fans become triangles, points and lines have vertices only") {

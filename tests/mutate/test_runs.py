@@ -10,7 +10,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 
-from mutating import groups, report, survivors  # noqa: E402
+from mutating import command, groups, report, survivors  # noqa: E402
 from mutating.report import Result  # noqa: E402
 from mutating.sites import Mutant, mutants  # noqa: E402
 from mutating.trees import Outcome  # noqa: E402
@@ -44,6 +44,13 @@ class Picks(unittest.TestCase):
         for total in (1, 7, 200):
             self.assertEqual(sum(groups.counts(total, list(groups.GROUPS)).values()), total)
         self.assertEqual(groups.counts(30, ["fit"]), {"fit": 30})
+
+    def test_no_group_is_kept_for_last(self):
+        wanted = groups.counts(200, list(groups.GROUPS))
+        order = command.spread(wanted)
+        self.assertEqual({name: order.count(name) for name in wanted}, wanted)
+        for name, count in wanted.items():
+            self.assertAlmostEqual(order[:100].count(name), count / 2, delta=1)
 
 
 class Survivors(unittest.TestCase):

@@ -85,6 +85,18 @@ TEST_CASE("nodes of the grid lie on the closed form") {
     }
 }
 
+TEST_CASE("a grid of a larger body is larger") {
+    constexpr double scale = 4;
+    const Pose pose{1.2, 0.7};
+    const Grid grid({length, radius, 3}, 12, 33), large_grid({scale * length, scale * radius, 3}, 12, 33);
+    const BentGrid bent = grid.bend(pose), large = large_grid.bend(pose);
+    for (const Cylindrical& v : vertices(300)) {
+        const Cylindrical large_v{v.beta, scale * v.z, scale * v.rho};
+        CHECK(glm::length(large.position(large_grid.bind(large_v)) - scale * bent.position(grid.bind(v))) <
+              1e-13 * length);
+    }
+}
+
 TEST_CASE("the merge converges to the closed form with the square of the cell size") {
     const double on_column = 2 * std::numbers::pi * 5 / 128;
     const Parameters smooth{length, radius, 3, Profile::smooth}, damped{length, radius, 3, Profile::damped};

@@ -54,6 +54,11 @@ def progress(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
+def spread(counts: dict[str, int]) -> list[str]:
+    """Each name as often as it counts, and evenly, so that what is interrupted has seen of each its share."""
+    return [name for _, name in sorted(((i + 0.5) / count, name) for name, count in counts.items() for i in range(count))]
+
+
 class Run:
     """Mutants on their way through the trees."""
 
@@ -81,9 +86,8 @@ class Run:
             def submit(group):
                 return {pool.submit(self._try, group, left[group].popleft())} if left[group] else set()
             running = set()
-            for group, (_, count) in wanted.items():
-                for _ in range(count):
-                    running |= submit(group)
+            for group in spread({group: count for group, (_, count) in wanted.items()}):
+                running |= submit(group)
             while running:
                 done, running = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
                 for one in (future.result() for future in done):
@@ -138,7 +142,7 @@ def run(given: argparse.Namespace) -> int:
     results = kept
     for one in Run(trees).all(wanted):
         results = sorted([*results, one], key=lambda one: (one.group, one.mutant))
-        write(given, results)  # each time: it takes hours, and may be interrupted
+        write(given, results)  # each time: it takes an hour, and may be interrupted
     print(write(given, results), end="")
     return 1 if report.tally(results)["all"][3] else 0
 

@@ -25,7 +25,8 @@ class Group:
 GROUPS = {
     "kernels": Group(0.35, ("modules/bend/src/kernel/*.hpp", "modules/bend/src/pose/*", "modules/bend/src/output/*",
                             "modules/bend/src/job/*"), ("scalar:test_bend", "vectors:test_bend")),
-    "fit": Group(0.25, ("modules/fit/src/*.cpp",), ("scalar:test_fit",)),
+    # How a body is bound shows when it is bent.
+    "fit": Group(0.25, ("modules/fit/src/*.cpp",), ("scalar:test_fit", "scalar:test_bend")),
     "importers": Group(0.2, ("modules/mesh/src/*/read.cpp", "modules/mesh/src/stl/stl.cpp", "modules/mesh/src/ply/ply.cpp",
                              "modules/mesh/src/text.cpp", "modules/mesh/src/gltf/accessor.cpp",
                              "modules/mesh/src/gltf/document.cpp", "modules/mesh/src/gltf/nodes.cpp",

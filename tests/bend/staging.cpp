@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "output/output_plan.hpp"
+#include "output/staging_buffer.hpp"
+#include "support/layout_case.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// What no output shows: a plane of a staging buffer that ran over would write to what lies behind it.
+
+namespace goffer::test {
+
+TEST_CASE("a staging buffer has room for whole units behind every plane") {
+    Random random(46);
+    LayoutCase test_mesh(random, loose_body(random, 40));
+    for (const std::string_view picture : {"xyz", "xyzuvw", "xyzuvwabcd", "123", "xyz123", "xyzpqr",
+                                           "xyzuvwabcdpqr", "xyzuvwabcdpqr123", "pqr123"}) {
+        CAPTURE(picture);
+        OutputBuffer out(picture, test_mesh.count());
+        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), false);
+        bend::StagingBuffer stage(plan);
+        REQUIRE(stage.capacity() > 0);
+        CHECK(stage.capacity() % bend::line_floats == 0);
+        std::vector<const float*> planes;
+        for (const bend::PassPlan& pass : plan.passes()) {
+            const bend::PlaneOutput output = stage.output(pass, 0);
+            for (const float* const plane : output.position) planes.push_back(plane);
+            for (const float* const plane : output.normal) planes.push_back(plane);
+            for (const float* const plane : output.tangent) planes.push_back(plane);
+        }
+        std::erase(planes, nullptr);
+        CHECK(planes.size() == plan.value_count());
+        std::ranges::sort(planes);
+        planes.push_back(reinterpret_cast<const float*>(&stage + 1));
+        for (std::size_t i = 0; i + 1 < planes.size(); ++i)
+            CHECK(planes[i] + stage.capacity() + bend::max_unit <= planes[i + 1]);
+        CHECK(planes[0] >= reinterpret_cast<const float*>(&stage));
+    }
+}
+
+}  // namespace goffer::test
