@@ -234,6 +234,7 @@ TEST_CASE("amplitude mesh: where rows are too few for the folds, wrinkles are at
         const fit::Cylinder cylinder = fit::fit_cylinder(solid.geometry());
         fit::BindOptions options;
         options.folds = folds;
+        options.profile = paper::Profile::damped;
         const fit::Binding paper = fit::bind(solid.geometry(), cylinder, options);
         options.amplitude = paper::Amplitude::mesh;
         const fit::Binding own = fit::bind(solid.geometry(), cylinder, options);
