@@ -135,8 +135,10 @@ void register_deform(Fixture& fixture) {
         Shape shape;
         float wrinkle_weight;
     };
-    const Like others[] = {
-        {"-regions8", Shape::regions, 1}, {"-arc", Shape::arc, 1}, {"-bare", Shape::plain, 0}};
+    const Like others[] = {{"-regions8", Shape::regions, 1},
+                           {"-arc", Shape::arc, 1},
+                           {"-taper", Shape::taper, 1},
+                           {"-bare", Shape::plain, 0}};
     for (const StreamLayout& layout : measure::stream_layouts()) {
         for (const Named& size : sizes) {
             for (const Isa isa : built_isas()) {

@@ -50,7 +50,8 @@ Model::Model(std::size_t vertices, Shape like) : shape(like) {
     for (std::size_t row = 0; row < grid.rows; ++row) {
         for (std::size_t column = 0; column < grid.columns; ++column) {
             const double beta = grid.beta(column);
-            const double rho = Grid::rho(beta, grid.z(row));
+            const double thickness = shape == Shape::taper ? 1.4 - 0.8 * grid.z(row) / length : 1;
+            const double rho = thickness * Grid::rho(beta, grid.z(row));
             positions.emplace_back(bent.position({beta, grid.z(row), rho}));
             tangents.emplace_back(-std::sin(beta), std::cos(beta), 0, 1);
             if (row + 1 == grid.rows) continue;
@@ -67,7 +68,7 @@ bend::Body bind_model(const Model& model) {
     fit::Cylinder cylinder;
     cylinder.length = length;
     cylinder.radius = radius;
-    fit::BindOptions options;
+    fit::BindOptions options = fit::BindOptions::as_in_paper();
     options.folds = folds;
     if (model.shape == Shape::regions) {
         options.folds = 1;
@@ -77,7 +78,14 @@ bend::Body bind_model(const Model& model) {
         options.folds = 0;
         options.regions.assign(16, {1.0 / 16, std::nullopt});
     }
-    if (model.shape == Shape::arc) cylinder.rest_angle = rest_angle;
+    if (model.shape == Shape::arc) {
+        cylinder.rest_angle = rest_angle;
+        options.onset.reset();
+    }
+    if (model.shape == Shape::taper) {
+        cylinder.radii = {1.4 * radius, 0.6 * radius};
+        options.shape = fit::ShapeMode::automatic;
+    }
     const fit::Geometry geometry{
         .positions = model.positions, .triangles = model.triangles, .tangents = model.tangents};
     return std::move(fit::bind(geometry, cylinder, options).body);

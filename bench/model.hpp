@@ -25,6 +25,7 @@ enum class Shape {
     regions,    ///< eight regions of a fold each
     regions16,  ///< sixteen without folds
     arc,        ///< bent at rest by one radian
+    taper,      ///< straight, 1.4 times as thick at one end as in the middle, 0.6 times at the other
 };
 
 /// The vertices' places: columns about the axis, about four times as many rows along it.

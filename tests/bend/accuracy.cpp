@@ -11,8 +11,8 @@ namespace goffer::test {
 namespace {
 
 /// `area` only with folds of at most two radii: the area of folds that reach past the axis means nothing. And
-/// not with fewer than three folds of the smooth profile, whose factor has a corner near rest that the table
-/// rounds off.
+/// not with even folds or fewer than three of the smooth profile, whose factor has a corner near rest that
+/// the table rounds off.
 fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
     fit::BindOptions options;
     options.folds = static_cast<int>(random() % 13);
@@ -20,7 +20,8 @@ fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
     if (options.profile.kind == paper::Profile::Kind::even) *options.folds *= 2;
     const int oscillations = options.profile.folds_of_length(*options.folds);
     const bool shallow = oscillations * 2 * cylinder.radius >= cylinder.length && cylinder.radii.empty();
-    const bool corner = options.profile == paper::Profile::smooth && *options.folds < 3;
+    const bool corner = options.profile.kind == paper::Profile::Kind::even ||
+                        (options.profile == paper::Profile::smooth && *options.folds < 3);
     options.amplitude =
         shallow && !corner && random() % 2 == 0 ? paper::Amplitude::area : paper::Amplitude::paper;
     return options;

@@ -24,6 +24,7 @@ struct Chain {
 
 Chain random_chain(Random& random, std::size_t regions, bool bent) {
     TestMesh test_mesh = random_mesh(random, uniform(random, 10, 20), 1);
+    if (random() % 2 == 0 && !(bent && regions > 1)) add_radii(test_mesh, random);
     if (bent) test_mesh = bent_at_rest(test_mesh, uniform(random, 0.2, 1.5), uniform(random, -3, 3));
     fit::BindOptions options;
     options.folds = 3;

@@ -30,7 +30,8 @@ public:
                                                  "xyz.uvw.abcd.123.pqr",
                                                  "p q r xyzuvwabcd",
                                                  "wvuzyx"};
-        for (const std::size_t count : {210u, 990u, 1u, 20000u}) bodies_.push_back(loose_body(random, count));
+        for (const std::size_t count : {210u, 990u, 1u, 20000u})
+            bodies_.push_back(count == 990 ? loose_shaped_body(random, count) : loose_body(random, count));
         for (std::size_t i = 0; i < instances; ++i) {
             const bend::Body& body = bodies_[i % 40 == 7 ? 3 : i % 11 == 9 ? 2 : i % 5 == 0 ? 1 : 0];
             outputs_.emplace_back(pictures[random() % std::size(pictures)], body.vertex_count(),

@@ -13,6 +13,8 @@ namespace goffer::fit {
 namespace {
 
 constexpr int squeeze_points = 24;  // squeezes at which eq 7 is solved, for Q(q)
+constexpr double largest_squeeze =
+    0.9;  // of even folds and of bodies with a shape: beyond it, a row's polynomial is off by more than 2e-6
 constexpr int factor_points = 16;  // angles at which m is solved; it is smooth in their root and close to one
 
 bool wrinkles(paper::Amplitude amplitude, int folds) {
@@ -91,8 +93,9 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
     }
     const double outermost = std::max(rho_max, radius);
     const auto search = [&](double own) {
+        const double most = profile.kind == Profile::Kind::even ? largest_squeeze : 1;
         double low = 0;
-        double high = length / (2 * radius);
+        double high = most * length / (2 * radius);
         for (int step = 0; step < 60; ++step) {
             const double alpha = (low + high) / 2;
             const double squeeze = std::min(2 * alpha * radius / length, 1 - 1e-9);
@@ -114,7 +117,7 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
 
 double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude, int folds,
                      double factor) {
-    constexpr double inside = 0.999, largest_squeeze = 0.995;
+    constexpr double inside = 0.999;
     double thickest = 0;
     for (const Girth& girth : girths.slices) thickest = std::max(thickest, girth.scale);
     const bool wrinkled = wrinkles(amplitude, folds);

@@ -41,7 +41,8 @@ struct Bands {
     /// straight line by drift_error at most. 0 without a shape.
     std::array<float, places> drift{};
     float drift_error = 0;
-    float max_scale = 1;  ///< largest s
+    float max_drift_step = 0;  ///< largest difference between neighbors
+    float max_scale = 1;       ///< largest s
 };
 
 /// D / L at a place between the edges of bands: j at edge j.
@@ -65,6 +66,7 @@ struct Bands {
 struct RegionData {
     SetupRegion setup = {};                ///< its rows are those of the input's table
     Squeeze squeeze = Squeeze::none;       ///< what makes its wrinkles
+    Squeeze bare = Squeeze::none;          ///< the kernels that serve instances without any
     const FactorTable* factors = nullptr;  ///< the input's
     Bands bands;
 };

@@ -130,7 +130,7 @@ void write_shape_columns(Columns& storage, std::size_t column, const Making& mak
     const bool compares = compares_with_rest(making.region);
     for (std::size_t i = making.first; i < making.last; ++i) {
         const RestVertex& v = vertices[i];
-        const double factor = compares ? 1 : std::sqrt(v.scale);
+        const double factor = compares ? -1 : std::sqrt(v.scale);
         storage[column + scale][i] = static_cast<float>(v.scale);
         storage[column + drift][i] = static_cast<float>(v.drift / making.region.length);
         storage[column + taper][i] = static_cast<float>(factor * v.wrinkle * v.rho * v.scale_slope / v.scale);
@@ -172,6 +172,8 @@ void set_drift(Bands& bands, const RestColumns& columns, const Making& making, f
             if (away < distance[j]) distance[j] = away, bands.drift[j] = columns.drift[i];
         }
     }
+    for (std::size_t j = 0; j < Bands::count; ++j)
+        bands.max_drift_step = std::max(bands.max_drift_step, std::fabs(bands.drift[j + 1] - bands.drift[j]));
     for (std::size_t i = making.first; i < making.last; ++i) {
         const float at = drift_at(bands, (columns.height[i] - bands.lowest) * per_height);
         bands.drift_error = std::max(bands.drift_error, std::fabs(columns.drift[i] - at));
@@ -209,9 +211,11 @@ Region region_of(const Making& making) {
             {static_cast<float>(input.rest_angle), static_cast<float>(input.rest_direction)}};
 }
 
-Squeeze squeeze_of(const RegionInput& region) {
-    if (region.table.empty()) return Squeeze::none;
-    return compares_with_rest(region) ? Squeeze::relative : Squeeze::plain;
+/// `shape`: the body has one.
+Squeeze squeeze_of(const RegionInput& region, bool shape) {
+    const Squeeze straight = shape ? Squeeze::shaped : Squeeze::plain;
+    if (region.table.empty()) return shape ? Squeeze::shaped : Squeeze::none;
+    return compares_with_rest(region) ? Squeeze::relative : straight;
 }
 
 /// Takes a direction to -pi..pi.
@@ -220,13 +224,14 @@ float reduced(double direction) {
         std::remainder(static_cast<double>(static_cast<float>(direction)), 2 * std::numbers::pi));
 }
 
-SetupRegion setup_of(const RegionInput& region, double radius) {
+SetupRegion setup_of(const RegionInput& region, double radius, bool shape) {
     SetupRegion setup = {};
     setup.length = static_cast<float>(region.length);
     setup.per_length = static_cast<float>(1 / region.length);
     setup.radius = static_cast<float>(radius);
     setup.max_angle = static_cast<float>(region.max_angle);
-    setup.relative = squeeze_of(region) == Squeeze::relative;
+    setup.relative = squeeze_of(region, shape) == Squeeze::relative;
+    setup.shaped = shape;
     setup.onset = static_cast<float>(region.onset);
     setup.rest_angle = static_cast<float>(region.rest_angle);
     setup.rest_direction = reduced(region.rest_direction);
@@ -239,7 +244,9 @@ SetupRegion setup_of(const RegionInput& region, double radius) {
 
 RegionData data_of(const Making& making, const RestColumns& columns) {
     const RegionInput& input = making.region;
-    return {setup_of(input, making.radius), squeeze_of(input), &input.factors, bands_of(columns, making)};
+    const bool shape = columns.scale != nullptr;
+    return {setup_of(input, making.radius, shape), squeeze_of(input, shape),
+            shape ? Squeeze::shaped : Squeeze::none, &input.factors, bands_of(columns, making)};
 }
 
 void add_region(BodyData& data, const Layout& layout, const Making& making,

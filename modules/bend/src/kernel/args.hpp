@@ -32,8 +32,9 @@ enum class Squeeze : unsigned char {
     none,      ///< no wrinkles
     plain,     ///< q = kappa T
     relative,  ///< relative to the rest arc, and with an onset: see WrinkleRow
+    shaped,    ///< q = kappa s T, of a body with a shape; without wrinkles too
 };
-constexpr std::size_t squeeze_count = 3;
+constexpr std::size_t squeeze_count = 4;
 
 /// Which vectors a kernel computes.
 enum class StreamSet : unsigned char {
@@ -141,6 +142,7 @@ struct SetupRegion {
     std::size_t row_count;
     float table_max_angle;
     bool relative;
+    bool shaped;  ///< kernels evaluate amplitudes even where there is no wrinkle: set-up sets them to 0
     float onset, rest_angle, rest_direction;  ///< used if relative; the direction is within -pi..pi
 };
 
@@ -162,7 +164,7 @@ using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::si
 /// One instruction set's kernels.
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
-    RowKernel rows[squeeze_count][stream_set_count];
+    RowKernel rows[squeeze_count][stream_set_count];         ///< null for Squeeze::shaped
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
     Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null where there is none
     CopyLines copy_lines;

@@ -41,13 +41,13 @@ constexpr float per_crease_width = 0.70710678f / crease_width;
 template <class L>
 struct Bent {
     using Vec = typename L::Vec;
-    Vec c, s;          // cos and sin of beta - theta
-    Vec amplitude;     // A; A / S_0 where the squeeze is relative
-    Vec slope;         // its derivative by beta
-    Vec by_scale;      // its derivative by ln(s); set where the body has a shape and slopes are wanted
-    Vec rho_c, rho_s;  // rho' c, rho' s
-    Vec arc_x, arc_z;  // L (1 - cos delta) / alpha, L sin delta / alpha
-    Vec stretch;       // (1 - kappa) - alpha / L rho' c: d(arc) / dz
+    Vec c, s;           // cos and sin of beta - theta
+    Vec amplitude;      // A; A / S_0 where the squeeze is relative
+    Vec slope;          // its derivative by beta
+    Vec less_by_scale;  // minus its derivative by ln(s), up to a factor that is in RestColumns::taper
+    Vec rho_c, rho_s;   // rho' c, rho' s
+    Vec arc_x, arc_z;   // L (1 - cos delta) / alpha, L sin delta / alpha
+    Vec stretch;        // (1 - kappa) - alpha / L rho' c: d(arc) / dz
 };
 
 /// Sine and cosine of the columns' angles minus the instance's. A factor on those of the columns, such as the
@@ -57,6 +57,13 @@ SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction
     const typename L::Vec ct = L::splat(cos_direction);
     const typename L::Vec st = L::splat(sin_direction);
     return {L::nmadd(columns.cosine, st, columns.sine * ct), L::madd(columns.sine, st, columns.cosine * ct)};
+}
+
+/// Whether a body has a shape. Only kernels of relative squeezes have to ask: a branch costs the plain ones
+/// up to a fifth of their speed, in registers.
+template <Squeeze squeeze>
+bool has_shape(const RestColumns& rest) {
+    return squeeze == Squeeze::shaped || (squeeze == Squeeze::relative && rest.scale != nullptr);
 }
 
 /// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa T.
@@ -69,16 +76,17 @@ void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& 
     const Vec t = h * h;
     b.c = t - L::splat(1.0f);
     b.s = h * h_prime;
+    Vec x = t;
+    if constexpr (squeeze == Squeeze::shaped) x = t * L::load(rest.scale + i);
     if constexpr (squeeze == Squeeze::none) return;
     const Vec size = L::abs(h);
-    const Vec x = rest.scale == nullptr ? t : t * L::load(rest.scale + i);
     b.amplitude = size * long_polynomial<L>(k.amplitude, x);
     if constexpr (slope) {
         // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
         const Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
         const Vec per_turn = long_polynomial<L>(k.amplitude_slope, x);
         b.slope = sign * h_prime * per_turn;
-        if (rest.scale != nullptr) b.by_scale = L::nmadd(size, per_turn, L::splat(0.0f));
+        if constexpr (squeeze == Squeeze::shaped) b.less_by_scale = size * per_turn;
     }
 }
 
@@ -110,7 +118,7 @@ void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L
         const Vec per_q = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
                           long_polynomial<L>(k.amplitude_slope, x);
         b.slope = L::madd(b.amplitude, rest_slope, per_q * L::where_less(zero, q, q_slope, zero));
-        if (rest.scale != nullptr) b.by_scale = per_q * q;
+        b.less_by_scale = per_q * q;
     }
 }
 
@@ -119,7 +127,6 @@ template <class L, Squeeze squeeze, bool slope>
 Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i) {
     using Vec = typename L::Vec;
     Bent<L> b;
-    b.by_scale = L::splat(0.0f);
     if constexpr (squeeze == Squeeze::relative) {
         set_relative_wrinkle<L, slope>(rest, k, b, i);
     } else {
@@ -133,11 +140,12 @@ Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i
 }
 
 /// Adds what also depends on its height.
-template <class L>
+template <class L, Squeeze squeeze>
 void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     Vec v = L::load(rest.height + i);
-    if (rest.drift != nullptr) v = L::nmadd(L::splat(k.curvature), L::load(rest.drift + i), v);
+    // To where a cylinder has the same arc angle.
+    if (has_shape<squeeze>(rest)) v = L::nmadd(L::splat(k.curvature), L::load(rest.drift + i), v);
     const Vec vv = v * v;
     b.arc_x = vv * polynomial<L>(k.arc_x, vv);
     b.arc_z = v * polynomial<L>(k.arc_z, vv);
@@ -232,29 +240,37 @@ struct Jacobian {
     typename L::Vec a, b, d;
 };
 
-/// Bent::stretch of a body with a shape, for normals and tangents: the arc angle grows more slowly where the
-/// body is thick.
+/// Takes Bent::stretch of a body with a shape to its value for vectors: the arc angle grows more slowly where
+/// the body is thick.
 template <class L>
 void set_shaped_stretch(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
     const float kappa = 1 - k.one_minus_kappa;
     b.stretch = b.stretch * L::nmadd(L::splat(kappa), L::load(rest.scale + i), L::splat(1 + kappa));
 }
 
-template <class L>
+/// A times d(g w)/dz, and what the body's shape adds.
+template <class L, Squeeze squeeze>
+typename L::Vec along(const RestColumns& rest, const Bent<L>& bent, std::size_t i) {
+    const typename L::Vec plain = bent.amplitude * L::load(rest.slope + i);
+    return has_shape<squeeze>(rest) ? L::nmadd(bent.less_by_scale, L::load(rest.taper + i), plain) : plain;
+}
+
+template <class L, Squeeze squeeze>
+typename L::Vec half_radius(const RestColumns& rest, const Coefficients& k, std::size_t i) {
+    const typename L::Vec half = L::splat(k.half_radius);
+    return has_shape<squeeze>(rest) ? half * L::load(rest.scale + i) : half;
+}
+
+template <class L, Squeeze squeeze>
 Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
     const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
-    Vec half_radius = L::splat(k.half_radius);
-    Vec along = bent.amplitude * L::load(rest.slope + i);
-    if (rest.scale != nullptr) {
-        half_radius = half_radius * L::load(rest.scale + i);
-        along = L::madd(bent.by_scale, L::load(rest.taper + i), along);
-    }
     // Below half the radius the depth weight is proportional to rho, so the wrinkle stretches rho as much as
     // the circle.
-    return {growth, L::where_less(L::load(rest.rho + i), half_radius, growth, L::splat(1.0f)),
-            bent.slope * wrinkle, along};
+    return {growth,
+            L::where_less(L::load(rest.rho + i), half_radius<L, squeeze>(rest, k, i), growth, L::splat(1.0f)),
+            bent.slope * wrinkle, along<L, squeeze>(rest, bent, i)};
 }
 
 template <class L, Squeeze squeeze>
@@ -328,13 +344,13 @@ constexpr bool has_tangents(StreamSet streams) {
 template <class L, Squeeze squeeze, StreamSet streams>
 Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> b, std::size_t i) {
     Results<L> results;
-    set_arc<L>(rest, k, b, i);
+    set_arc<L, squeeze>(rest, k, b, i);
     results.position =
         place<L>(k.matrix, k.offset, L::madd(b.arc_x, b.stretch, b.rho_c), b.rho_s, b.arc_z * b.stretch);
     if constexpr (has_normals(streams)) {
-        if (rest.scale != nullptr) set_shaped_stretch<L>(rest, k, b, i);
+        if (has_shape<squeeze>(rest)) set_shaped_stretch<L>(rest, k, b, i);
         Jacobian<L> j;
-        if constexpr (squeeze != Squeeze::none) j = jacobian<L>(rest, k, b, i);
+        if constexpr (squeeze != Squeeze::none) j = jacobian<L, squeeze>(rest, k, b, i);
         results.normal = bend_normals<L, squeeze>(rest, k, b, j, i);
         if constexpr (has_tangents(streams)) {
             results.tangent = normalized<L>(bend_tangents<L, squeeze>(rest, k, b, j, i));

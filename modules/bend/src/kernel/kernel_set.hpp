@@ -11,8 +11,9 @@ template <class L, Squeeze squeeze, StreamSet streams>
 constexpr void add_kernels(KernelSet& set) {
     set.planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
         &bend_to_planes<L, squeeze, streams>;
-    set.rows[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
-        &bend_to_rows<L, squeeze, streams>;
+    if constexpr (squeeze != Squeeze::shaped)
+        set.rows[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
+            &bend_to_rows<L, squeeze, streams>;
     if constexpr (streams != StreamSet::positions_normals_tangents)
         set.weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
             &bend_to_records<L, squeeze, streams>;
@@ -34,6 +35,7 @@ constexpr KernelSet kernel_set() {
     add_kernels<L, Squeeze::none>(set);
     add_kernels<L, Squeeze::plain>(set);
     add_kernels<L, Squeeze::relative>(set);
+    add_kernels<L, Squeeze::shaped>(set);
     set.weave[3] = &weave<Single, 3>;
     set.weave[6] = &weave<Single, 6>;
     set.weave[7] = &weave<Single, 7>;

@@ -21,8 +21,8 @@ struct RestColumns {
     /// These three are null unless the body has a shape.
     const float* scale = nullptr;  ///< s
     const float* drift = nullptr;  ///< D / L
-    const float* taper =
-        nullptr;  ///< g w (ds / dz) / s; in regions that do not compare_with_rest, times sqrt(s)
+    /// g w (ds / dz) / s, times sqrt(s); in regions that compare_with_rest, times -1.
+    const float* taper = nullptr;
     /// These five are null unless a region of the body compares_with_rest.
     const float* cos_beta = nullptr;
     const float* sin_beta = nullptr;

@@ -347,6 +347,11 @@ void set_relative_amplitude(const RowPlace& row, float kappa, float factor, Coef
 }
 
 template <class L>
+void set_no_amplitude(Coefficients& k) {
+    for (std::size_t n = 0; n < amplitude_terms; ++n) k.amplitude[n] = k.amplitude_slope[n] = 0;
+}
+
+template <class L>
 GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                              const bool* wrinkled, Coefficients* k, std::size_t step) {
     alignas(64) float place[setup_width], scale[setup_width];
@@ -359,9 +364,12 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
             SetupLanes<L, Lanes::some>(region, columns, first, count, k, step).run(place, scale);
         }
     }
-    if (region.rows == nullptr) return;
+    if (region.rows == nullptr && !region.shaped) return;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!wrinkled[i]) continue;
+        if (!wrinkled[i]) {
+            if (region.shaped) set_no_amplitude<L>(k[i * step]);
+            continue;
+        }
         const RowPlace row = row_place<L>(region, place[i]);
         if (region.relative) {
             set_relative_amplitude<L>(row, scale[i], columns.factor[i], k[i * step]);

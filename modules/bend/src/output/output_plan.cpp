@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/output_plan.hpp"
 
+#include "body/body_data.hpp"
 #include "kernel/lines.hpp"
 #include "output/strips.hpp"
 
@@ -60,6 +61,11 @@ private:
     std::size_t count_ = 0;
 };
 
+/// Bodies with a shape do without these: their records are woven.
+bool has_row_kernels(const BodyData& body) noexcept {
+    return body.columns.scale == nullptr;
+}
+
 const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
     return pass.pass == Pass::previous ? batch.previous_positions : batch.positions;
 }
@@ -114,6 +120,7 @@ OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_tem
         pass.way = set_planes(pass, batch) ? Way::planes
                    : set_rows(pass, batch) ? way_of_rows(pass)
                                            : Way::staged;
+        if (pass.way == Way::rows && !has_row_kernels(*batch.body->data())) pass.way = Way::staged;
         staged |= pass.way == Way::staged;
     }
     if (staged) stage_all();

@@ -162,14 +162,6 @@ private:
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
 
-/// How much longer, over the curvature, the shape makes a band's share of the arc at most.
-float largest_step(const Bands& bands) noexcept {
-    float largest = 0;
-    for (std::size_t j = 0; j < Bands::count; ++j)
-        largest = std::max(largest, std::fabs(bands.drift[j + 1] - bands.drift[j]));
-    return largest;
-}
-
 /// How far vertices may be from where the bands' drift puts them.
 float shift_of(const Bands& bands, const Coefficients& k, float amplitude) noexcept {
     if (bands.drift_error == 0) return 0;
@@ -184,7 +176,7 @@ float shift_of(const Bands& bands, const Coefficients& k, float amplitude) noexc
 Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
     const Float4 amplitude = amplitudes(k, squeeze, bands.max_scale);
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
-    const float longest = height + k.curvature * largest_step(bands);
+    const float longest = height + k.curvature * bands.max_drift_step;
     const float length = k.one_minus_kappa * k.arc_z[0] * longest;  // of a band's arc; arc_z[0] is L
     const float turn = k.curvature * k.arc_z[0] * longest;
     const float radius = k.one_minus_kappa / k.curvature;
@@ -196,8 +188,9 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
             continue;
         }
         const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
-        const Float4 drift = splat(k.curvature) * load4(&bands.drift[j]);
-        const CenterLine line = center_line(k, splat(bands.lowest) + place * splat(height) - drift);
+        Float4 at = splat(bands.lowest) + place * splat(height);
+        if (bands.max_drift_step != 0) at = at - splat(k.curvature) * load4(&bands.drift[j]);
+        const CenterLine line = center_line(k, at);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
         for (Extent& extent : extents) extent.take_edges(line, j, sections);
     }

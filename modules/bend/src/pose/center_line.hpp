@@ -62,16 +62,16 @@ inline float relative_amplitude(const Coefficients& k, float max_scale) noexcept
     return 1.001f * largest;
 }
 
-/// The largest amplitude in each sector and those before it, over sqrt(s) where the squeeze is plain. It
+/// The largest amplitude in each sector and those before it, over sqrt(s) where the squeeze is shaped. It
 /// grows with T in tables that fit makes, but a caller's table may hold anything. With a shape, all s up to
 /// `max_scale` count, and the polynomial alone falls with s T.
 inline Float4 amplitudes(const Coefficients& k, Squeeze squeeze, float max_scale) noexcept {
     if (squeeze == Squeeze::none) return splat(0);
     if (squeeze == Squeeze::relative) return splat(relative_amplitude(k, max_scale));
     const Float4 t = {0.5f, 1.0f, 1.5f, 2.0f};
-    Float4 size = abs(polynomial(k.amplitude, t * splat(max_scale)));
-    if (max_scale != 1) {
-        for (const float part : {0.0f, 0.25f, 0.5f, 0.75f})
+    Float4 size = abs(polynomial(k.amplitude, t));
+    if (squeeze == Squeeze::shaped) {
+        for (const float part : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f})
             size = max(size, abs(polynomial(k.amplitude, t * splat(part * max_scale))));
     }
     const Float4 each = size * sqrt(t);

@@ -109,12 +109,13 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
 void PosedGroup::set_poses(std::size_t region) noexcept {
     const Region& limits = body_.regions[region];
     const FactorTable& factors = *body_.details[region].factors;
+    const bool has_table = body_.details[region].setup.rows != nullptr;
     for (std::size_t i = 0; i < count_; ++i) {
         const Pose pose = region < pose_count_[i] ? poses_[i][region] : limits.rest;
         columns_.angle[i] = pose.angle;
         columns_.direction[i] = reduced(pose.direction);
         columns_.factor[i] = weight_[i];
-        wrinkled_[i] = squeeze_ != Squeeze::none && weight_[i] > 0;
+        wrinkled_[i] = has_table && weight_[i] > 0;
         if (factors.empty() || !wrinkled_[i]) continue;
         const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
         columns_.factor[i] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
@@ -130,6 +131,7 @@ void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) n
                         c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
     }
     squeeze_ = details.squeeze;
+    bare_ = details.bare;
     set_poses(region);
     setup_(details.setup, columns_, count_, wrinkled_, k, step);
 }

@@ -56,9 +56,7 @@ public:
     void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
 
     /// Which kernels serve instance i in the region that was set up last.
-    [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {
-        return wrinkled_[i] ? squeeze_ : Squeeze::none;
-    }
+    [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept { return wrinkled_[i] ? squeeze_ : bare_; }
 
 private:
     PoseState add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
@@ -69,7 +67,7 @@ private:
     const BodyData& body_;
     Setup setup_;
     std::size_t count_ = 0;
-    Squeeze squeeze_ = Squeeze::none;
+    Squeeze squeeze_ = Squeeze::none, bare_ = Squeeze::none;  // of the region that was set up last
     const Pose* poses_[setup_width];
     std::size_t pose_count_[setup_width];  // 0: at rest
     float weight_[setup_width];
