@@ -43,6 +43,7 @@ struct Bands {
     float drift_error = 0;
     float max_drift_step = 0;  ///< largest difference between neighbors
     float max_scale = 1;       ///< largest s
+    bool shaped = false;       ///< the body has a shape
 };
 
 /// D / L at a place between the edges of bands: j at edge j.

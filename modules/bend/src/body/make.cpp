@@ -162,6 +162,7 @@ Frame frame_of(const BodyInput& input) {
 
 /// Takes the drift at an edge from the vertex nearest to it.
 void set_drift(Bands& bands, const RestColumns& columns, const Making& making, float per_height) {
+    bands.shaped = true;
     std::array<float, Bands::count + 1> distance;
     distance.fill(std::numeric_limits<float>::max());
     for (std::size_t i = making.first; i < making.last; ++i) {

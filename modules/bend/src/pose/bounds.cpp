@@ -189,7 +189,7 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
         }
         const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
         Float4 at = splat(bands.lowest) + place * splat(height);
-        if (bands.max_drift_step != 0) at = at - splat(k.curvature) * load4(&bands.drift[j]);
+        if (bands.shaped) at = at - splat(k.curvature) * load4(&bands.drift[j]);
         const CenterLine line = center_line(k, at);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
         for (Extent& extent : extents) extent.take_edges(line, j, sections);
