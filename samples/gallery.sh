@@ -21,7 +21,8 @@ goffer bend tentacle.ply --regions 0.25,0.2,0.17,0.15,0.13,0.1 --angles 60,70,80
 
 if [[ -f $models/banana.obj && -f $models/wine_bottle.glb ]]; then
     goffer bend "$models/banana.obj" --angle 0 -o straight.obj --png banana.png --ghost
-    goffer bend "$models/wine_bottle.glb" --refine --folds 6 --angle 90 -o bottle.glb --png bottle.png
+    goffer bend "$models/wine_bottle.glb" --angle 90 -o bottle.glb --png bottle.png
+    goffer bend "$models/wine_bottle.glb" --angle 90 --paper -o paper.glb --png bottle_paper.png
 else
     echo "gallery: no banana.obj and wine_bottle.glb in $models: their pictures stay as they are"
 fi
