@@ -112,7 +112,7 @@ void warn_of_foreign_fit(Report& report, const BoundModel& model) {
                 " % of the length of --fit; is it the fit of this model?");
 }
 
-void report_bend(Report& report, const BendOptions& options, const Request& request, const BoundModel& model,
+void report_bend(Report& report, const Request& request, const BoundModel& model,
                  const std::vector<Target>& targets, const Deformed& bent, double area_before) {
     const fit::Binding& binding = model.binding;
     std::vector<double> used;
@@ -122,8 +122,8 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
     const std::optional<double> base_change = fit::base_area_change(binding, used);
     nlohmann::ordered_json& json = report.json;
     report_poses(report, request.pose, targets, binding);
-    json["amplitude"] = options.bind.amplitude;
-    json["profile"] = options.bind.profile;
+    json["amplitude"] = request.bind.words.amplitude;
+    json["profile"] = request.bind.words.profile;
     json["area_before"] = area_before;
     json["area_after"] = area_after;
     json["base_area_change"] = base_change ? nlohmann::ordered_json(*base_change) : nullptr;
@@ -137,7 +137,7 @@ void report_bend(Report& report, const BendOptions& options, const Request& requ
     report.line("time", number(binding.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
-    warn_of_folds(report, options.bind, model, used);
+    warn_of_folds(report, request.bind, model, used);
 }
 
 void run_bend(const BendOptions& options) {
@@ -154,7 +154,7 @@ void run_bend(const BendOptions& options) {
     report_fit(report, model.cylinder);
     report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
-    report_bend(report, options, request, model, targets, bent, area_before);
+    report_bend(report, request, model, targets, bent, area_before);
     report_local_area(report, model, poses, bent.records.positions);
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     if (!options.png.empty()) {

@@ -5,11 +5,62 @@
 #include "progress.hpp"
 
 #include <goffer/fit/base.hpp>
+#include <goffer/fit/refine.hpp>
 
 #include <algorithm>
 #include <utility>
 
 namespace goffer::cli {
+namespace {
+
+/// `words` with those that --paper stands for.
+BindWords spelled_out(BindWords words) {
+    if (!words.paper) return words;
+    words.profile = "damped";
+    words.shape = "cylinder";
+    words.amplitude = "paper";
+    if (!words.onset) words.onset = 0;
+    return words;
+}
+
+/// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
+std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& model) {
+    options.folds.reset();
+    for (fit::RegionOptions& region : options.regions) region.folds.reset();
+    const std::vector<fit::Stretch> stretches = fit::stretches_of(model.cylinder, options);
+    const std::size_t regions = model.binding.regions.size(), of_region = stretches.size() / regions;
+    std::vector<int> folds;
+    for (std::size_t r = 0; r < regions; ++r)
+        folds.push_back(fold_count(std::span(stretches).subspan(r * of_region, of_region), options.profile));
+    return folds;
+}
+
+/// What to say of a region that nobody asked a number of folds for, of which it has fewer than the `wanted`
+/// ones that would suit it. Empty: nothing.
+std::string too_few(const fit::RegionBinding& region, int wanted, bool even) {
+    const std::string mend = "; use a finer mesh, which goffer refine makes";
+    if (even && region.folds == 0 && region.folds_capacity >= wanted)
+        return "bent without wrinkles: in so long a body folds would be longer than 2.5 radii; cut it into "
+               "--regions";
+    if (region.folds == 0 && wanted > 0) {
+        return "bent without wrinkles: " +
+               (even ? "the mesh's rows are too far apart for folds of 2.5 radii, and "
+                     : "the mesh has vertices for " +
+                           counted(static_cast<std::size_t>(region.folds_capacity), "fold") + ", and ") +
+               std::to_string(wanted) + " would suit its length" + mend + ", or --folds K to insist";
+    }
+    // A fold or two less is nothing to speak of: the others are that much longer.
+    if (even && 4 * region.folds < 3 * wanted) {
+        return "only " + counted(static_cast<std::size_t>(region.folds), "fold") + ", and " +
+               std::to_string(wanted) +
+               " would suit its length: where the mesh's rows are far apart, folds are longer or there are "
+               "none" +
+               mend;
+    }
+    return {};
+}
+
+}  // namespace
 
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
     command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
@@ -75,8 +126,10 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
         ->default_str(usual);
 }
 
-BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions)
-    : axis(parse_axis(words.axis)), rest(words.rest == "auto" ? fit::Rest::automatic : fit::Rest::straight) {
+BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
+    : words(spelled_out(said)),
+      axis(parse_axis(words.axis)),
+      rest(words.rest == "auto" ? fit::Rest::automatic : fit::Rest::straight) {
     options.folds = read_folds(words.folds, regions);
     options.regions = std::move(regions);
     options.onset = words.onset;
@@ -85,13 +138,6 @@ BindRequest::BindRequest(const BindWords& words, std::vector<fit::RegionOptions>
     options.profile.roundness = words.roundness;
     options.fold_length = words.fold_length;
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
-    if (words.paper) {
-        const fit::BindOptions paper = fit::BindOptions::as_in_paper();
-        options.profile = paper.profile;
-        options.shape = paper.shape;
-        options.amplitude = paper.amplitude;
-        if (!options.onset) options.onset = paper.onset;
-    }
     refine = words.refine.empty() ? "on" : words.refine;
     if (refine == "on" && words.folds == "0")
         throw UsageError(
@@ -114,35 +160,41 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     });
     std::optional<Growth> growth;
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
-        growth =
-            in_file(file, [&] { return refine(mesh, cylinder, request.options, request.refine == "auto"); });
-        rest = mesh::vertex_arrays(mesh);
-        geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
+        const bool automatic = request.refine == "auto";
+        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options, automatic); });
+        if (growth->triangles_after != growth->triangles_before) {
+            rest = mesh::vertex_arrays(mesh);
+            geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
+        } else if (automatic) {
+            growth.reset();
+        }
     }
     fit::Binding binding =
         in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, request.options); });
-    return {file, std::move(mesh), std::move(rest), cylinder, std::move(binding), growth};
+    const fit::Cylinder base = binding.cylinder;
+    return {file, std::move(mesh), std::move(rest), base, std::move(binding), growth};
 }
 
-void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
+void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
                    std::span<const double> angles, const std::string& where) {
     const fit::Binding& binding = model.binding;
+    const bool even = binding.profile.kind == fit::Profile::Kind::even;
+    const bool asked = request.words.folds.has_value(), none = binding.amplitude == fit::Amplitude::none;
+    const std::vector<int> wanted = suitable_folds(request.options, model);
     for (std::size_t r = 0; r < angles.size(); ++r) {
-        const fit::Cylinder stretch = fit::stretch_of(model.cylinder, binding.regions[r].length);
         const std::string which = where + region_words(r, angles.size());
-        const int wanted = fit::sensible_folds(stretch, fit::BindOptions::max_folds);
-        const auto capacity = static_cast<std::size_t>(binding.folds_capacity(r));
-        if (binding.folds(r) > binding.folds_capacity(r)) {
-            report.warn(which + "the mesh has vertices for " + counted(capacity, "fold") + ", not " +
-                        std::to_string(binding.folds(r)) +
-                        ": wrinkles are coarse, and the area is not kept; goffer refine adds vertices");
-        } else if (!words.folds && binding.folds(r) == 0 && wanted > 0 && words.amplitude != "none") {
-            report.warn(which + "bent without wrinkles: the mesh has vertices for " +
-                        counted(capacity, "fold") + ", and " + std::to_string(wanted) +
-                        " would suit its length; use a finer mesh, which goffer refine makes, or --folds K "
-                        "to insist");
+        const std::string few = asked || none ? "" : too_few(binding.regions[r], wanted[r], even);
+        if (asked && binding.folds(r) > binding.folds_capacity(r)) {
+            const std::string area =
+                binding.amplitude == fit::Amplitude::mesh ? "" : ", and the area is not kept";
+            report.warn(which + "the mesh has vertices for " +
+                        counted(static_cast<std::size_t>(binding.folds_capacity(r)), "fold") + ", not " +
+                        std::to_string(binding.folds(r)) + ": wrinkles are coarse" + area +
+                        "; goffer refine adds vertices");
+        } else if (!few.empty()) {
+            report.warn(which + few);
         }
-        if (fit::wrinkle_depth(binding, r, angles[r]) > stretch.radius) {
+        if (fit::wrinkle_depth(binding, r, angles[r]) > model.cylinder.radius) {
             report.warn(which +
                         "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "
                         "axis; use more folds");

@@ -46,13 +46,14 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
 
 /// Such words, understood. Throws UsageError.
 struct BindRequest {
+    BindWords words;  ///< with those that --paper stands for
     std::optional<glm::dvec3> axis;
     fit::Rest rest;
     fit::BindOptions options;
     std::string refine;
 
     /// `regions`: as PoseRequest's; none for a body of one region.
-    explicit BindRequest(const BindWords& words, std::vector<fit::RegionOptions> regions = {});
+    explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
 };
 
 /// A model read, fitted, refined where that was asked for, and bound. Vertex i of the body is record
@@ -61,9 +62,9 @@ struct BoundModel {
     std::filesystem::path file;
     mesh::Mesh mesh;
     mesh::VertexArrays rest;
-    fit::Cylinder cylinder;
+    fit::Cylinder cylinder;  ///< the base that it is bound to
     fit::Binding binding;
-    std::optional<Growth> growth = {};  ///< where the mesh was refined
+    std::optional<Growth> growth = {};  ///< where the mesh was refined, or was to be with --refine on
 };
 
 /// Reads, fits, refines and binds `file`; says so on a terminal where that takes long. `fit`: a report that
@@ -80,10 +81,10 @@ void put_in_model_order(std::vector<T>& values, const fit::Binding& binding) {
     values = std::move(sorted);
 }
 
-/// Warns of folds that the mesh cannot carry and of those that reach past the axis when regions are bent by
-/// `angles` (radians, >= 0; one per region). `where` begins each warning: empty, or which of several models
-/// is meant.
-void warn_of_folds(Report& report, const BindWords& words, const BoundModel& model,
+/// Warns of folds that the mesh cannot carry, of those that are missing for want of rows, and of those that
+/// reach past the axis when regions are bent by `angles` (radians, >= 0; one per region). `where` begins each
+/// warning: empty, or which of several models is meant.
+void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
                    std::span<const double> angles, const std::string& where = {});
 
 }  // namespace goffer::cli

@@ -68,13 +68,18 @@ std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const f
 
 }  // namespace
 
+int fold_count(std::span<const fit::Stretch> stretches, fit::Profile profile) {
+    const double halves = profile.kind == fit::Profile::Kind::even ? 2 : 1;
+    double folds = 0;
+    for (const fit::Stretch& stretch : stretches) folds += halves * stretch.folds;
+    return static_cast<int>(std::round(folds));
+}
+
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
               bool sparing) {
     Growth growth;
     const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
-    double folds = 0;
-    for (const fit::Stretch& stretch : wanted) folds += stretch.folds;
-    growth.folds = static_cast<int>(std::round(folds));
+    growth.folds = fold_count(wanted, options.profile);
     growth.vertices_before = mesh.positions.size();
     growth.triangles_before = mesh::triangle_count(mesh);
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
@@ -82,7 +87,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     const std::optional<fit::Refinement> found = refinement(geometry, cylinder, wanted, sparing);
     growth.vertices_after = growth.vertices_before;
     growth.triangles_after = growth.triangles_before;
-    if (!found) return growth;
+    if (!found || found->vertices.empty()) return growth;
     const fit::Refinement& made = *found;
     std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
@@ -116,8 +121,10 @@ void add_refine(CLI::App& app, Action& action) {
     command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
         ->required();
     command
-        ->add_option("--folds", options->folds,
-                     "Make room for this many folds per half length (default: what suits the body)")
+        ->add_option(
+            "--folds", options->folds,
+            "Make room for this many folds over the length, as --profile even counts them; the paper's, "
+            "over half of it, need twice as many (default: what suits the body)")
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
     add_fit_words(*command, options->axis, options->rest);
     command->add_option("--fit", options->fit,

@@ -79,9 +79,10 @@ std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindReque
 }
 
 /// Of what a model's regions are asked for and cannot do.
-void warn_of_regions(Report& report, const CrowdOptions& options, std::span<const Target> targets,
-                     const BoundModel& model, const std::string& where) {
+void warn_of_regions(Report& report, const CrowdRequest& request, const BoundModel& model,
+                     const std::string& where) {
     const bend::Body& body = model.binding.body;
+    const std::vector<Target>& targets = request.targets;
     std::vector<double> used;
     for (std::size_t r = 0; r < targets.size(); ++r) {
         used.push_back(used_angle(body, r, targets[r].pose));
@@ -89,16 +90,15 @@ void warn_of_regions(Report& report, const CrowdOptions& options, std::span<cons
         warn_of_angle(report, where + region_words(r, targets.size()), targets[r].angle,
                       degrees(static_cast<double>(body.max_angle(r))), "it is bent so far at most");
     }
-    warn_of_folds(report, options.bind, model, used, where);
+    warn_of_folds(report, request.bind, model, used, where);
 }
 
-void report_models(Report& report, const CrowdOptions& options, std::span<const Target> targets,
-                   std::span<const BoundModel> models) {
+void report_models(Report& report, const CrowdRequest& request, std::span<const BoundModel> models) {
     for (const BoundModel& model : models) {
         const bend::Body& body = model.binding.body;
         const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
-        warn_of_regions(report, options, targets, model, where);
+        warn_of_regions(report, request, model, where);
         nlohmann::ordered_json regions;
         int folds = 0;
         double limit = 0;
@@ -184,7 +184,7 @@ void run_crowd(const CrowdOptions& options) {
     const Timing timing = measure(crowd, options.frames, request.threads);
     progress.reset();
     report_crowd(report, options, request, crowd, timing);
-    report_models(report, options, request.targets, models);
+    report_models(report, request, models);
     if (!options.png.empty()) {
         const Progress rendering("rendering " + options.png.string());
         const std::size_t shown = write_crowd_picture(crowd, models, options.png);
