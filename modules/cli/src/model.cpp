@@ -49,8 +49,8 @@ std::string too_few(const fit::RegionBinding& region, int wanted, bool even) {
                            counted(static_cast<std::size_t>(region.folds_capacity), "fold") + ", and ") +
                std::to_string(wanted) + " would suit its length" + mend + ", or --folds K to insist";
     }
-    // A fold or two less is nothing to speak of: the others are that much longer.
-    if (even && 4 * region.folds < 3 * wanted) {
+    // Folds that are somewhat longer have their depth all the same.
+    if (even && 3 * region.folds < 2 * wanted) {
         return "only " + counted(static_cast<std::size_t>(region.folds), "fold") + ", and " +
                std::to_string(wanted) +
                " would suit its length: where the mesh's rows are far apart, folds are longer or there are "
@@ -58,6 +58,15 @@ std::string too_few(const fit::RegionBinding& region, int wanted, bool even) {
                mend;
     }
     return {};
+}
+
+/// Takes a word of --refine. Since it may have none, a file after it looks like one.
+CLI::Validator refine_word() {
+    const auto check = [](const std::string& word) {
+        const bool known = word == "auto" || word == "on" || word == "off";
+        return known ? std::string() : "'" + word + "' is not auto, on or off; a MODEL goes before --refine";
+    };
+    return {check, ""};
 }
 
 }  // namespace
@@ -119,11 +128,11 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
     words.refine = usual;
     command
         .add_option("--refine", words.refine,
-                    "Add vertices along the body until its mesh carries the folds: off, on, auto (where that "
-                    "takes no more than a million triangles)")
+                    "Add vertices along the body until its mesh carries the folds: off, on (also without a "
+                    "word), auto (where that takes no more than a million triangles) (default: " +
+                        usual + ")")
         ->expected(0, 1)
-        ->check(CLI::IsMember({"auto", "on", "off"}))
-        ->default_str(usual);
+        ->check(refine_word());
 }
 
 BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
