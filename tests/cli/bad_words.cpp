@@ -55,7 +55,14 @@ TEST_CASE("bad words: numbers and names out of range") {
         place.refuse_bend({"--folds", word}, {"--folds"});
     for (const std::string word : {"-1", "1025", "x"}) place.refuse_bend({"--threads", word}, {"--threads"});
     place.refuse_bend({"--amplitude", "wavy"}, {"--amplitude", "wavy", "paper", "area", "mesh", "none"});
-    place.refuse_bend({"--profile", "round"}, {"--profile", "round", "damped", "smooth"});
+    place.refuse_bend({"--profile", "round"}, {"--profile", "round", "even", "damped", "smooth"});
+    for (const std::string word : {"0", "-1", "nan", "11", "long", ""})
+        place.refuse_bend({"--fold-length", word}, {"--fold-length", "radii", "0.05..10"});
+    for (const std::string word : {"0.6", "-0.1", "nan", "round", ""})
+        place.refuse_bend({"--roundness", word}, {"--roundness", "0..0.5"});
+    place.refuse_bend({"--shape", "round"}, {"--shape", "round", "auto", "cylinder"});
+    place.refuse_bend({"--refine", "maybe"}, {"--refine", "maybe", "auto", "on", "off"});
+    place.refuse_bend({"--refine", "base.ply"}, {"base.ply", "a MODEL goes before --refine"});
     place.refuse_bend({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});
 }
 
@@ -63,6 +70,9 @@ TEST_CASE("bad words: what does not go together") {
     const Place place;
     place.refuse_bend({"--ghost"}, {"--ghost", "--png"});
     place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
+    place.refuse_bend({"--paper", "--profile", "even"}, {"--profile", "--paper"});
+    place.refuse_bend({"--paper", "--shape", "cylinder"}, {"--shape", "--paper"});
+    place.refuse_bend({"--paper", "--amplitude", "paper"}, {"--amplitude", "--paper"});
 }
 
 TEST_CASE("bad words: no or another command, unknown options, too many words") {

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A base cylinder that carries five folds, of few vertices.
+/// A base cylinder that carries ten folds, of few vertices.
 constexpr std::size_t vertices = 24 * 81;
 
 std::string small_base(const Folder& folder, const std::string& name = "base.ply") {
@@ -55,10 +55,10 @@ TEST_CASE("crowd: every field, with its type") {
     REQUIRE(all["models"].size() == 1);
     CHECK(all["models"][0]["file"] == "base.ply");
     CHECK(all["models"][0]["vertices"] == vertices);
-    CHECK(all["models"][0]["folds"] == 5);
+    CHECK(all["models"][0]["folds"] == 10);
     CHECK(all["models"][0]["max_angle"].get<double>() > 180);
     REQUIRE(all["models"][0]["regions"].size() == 1);
-    CHECK(all["models"][0]["regions"][0]["folds"] == 5);
+    CHECK(all["models"][0]["regions"][0]["folds"] == 10);
     const std::string bits = all["hash"];
     CHECK(bits.size() == 16);
     CHECK(bits.find_first_not_of("0123456789abcdef") == bits.npos);
@@ -184,7 +184,12 @@ TEST_CASE("crowd: a coarse model is given the vertices of its folds") {
     const json all = crowd(folder, {"--refine"});
     CHECK(all["warnings"] == json::array());
     CHECK(all["models"][0]["vertices"].get<int>() > 24 * 9);
-    CHECK(all["models"][0]["folds"] == 5);
+    CHECK(all["models"][0]["folds"] == 13);
+    CHECK(crowd(folder, {"--refine", "--paper"})["models"][0]["folds"] == 5);
+    const json rough = crowd(folder, {});
+    CHECK(rough["models"][0]["vertices"] == 24 * 9);
+    CHECK(rough["models"][0]["folds"] == 0);
+    CHECK(rough["warnings"].size() == 1);
 }
 
 TEST_CASE("crowd: a warning says which of several models is meant") {
@@ -209,7 +214,7 @@ TEST_CASE("crowd: what a person reads") {
     small_base(folder);
     const std::string said = well(folder, {"crowd", "base.ply", "--instances", "3", "--frames", "3"});
     for (const std::string piece : {"3 instances", "5832 vertices a frame", "per second", "ms (median)",
-                                    "ms (p99)", " ns\n", "GB/s", "of the floor", "5 folds"}) {
+                                    "ms (p99)", " ns\n", "GB/s", "of the floor", "10 folds"}) {
         CAPTURE(piece);
         CHECK(said.find(piece) != said.npos);
     }

@@ -21,7 +21,8 @@ void check_same_mesh(const mesh::Mesh& bent, const mesh::Mesh& rest) {
     CHECK(bent.colors == rest.colors);
 }
 
-/// At 30, 90 and the largest angle, into the format that it came in.
+/// At 30, 90 and the largest angle, into the format that it came in: its own triangles, and those that it is
+/// given for its folds.
 void check_bends(const char* name, const char* axis = "auto") {
     const std::filesystem::path file = model(name);
     if (file.empty()) return;
@@ -30,12 +31,19 @@ void check_bends(const char* name, const char* axis = "auto") {
     for (const std::string angle : {"30", "90", "36000"}) {
         CAPTURE(angle);
         const auto all = report(folder, {"bend", file.string(), "-o", name, "--axis", axis, "--angle", angle,
-                                         "--direction", "25"});
+                                         "--direction", "25", "--refine", "off"});
         CHECK(all["vertices"] == rest.positions.size());
         CHECK(all["triangles"] == mesh::triangle_count(rest));
         CHECK(std::isfinite(all["area_after"].get<double>()));
         CHECK(all["clamped"] == (std::abs(std::stod(angle)) > all["max_angle"].get<double>()));
         check_same_mesh(mesh::load(folder / name), rest);  // which refuses what is not finite
+        const auto fine = report(folder, {"bend", file.string(), "-o", name, "--axis", axis, "--angle", angle,
+                                          "--direction", "25"});
+        const mesh::Mesh refined = mesh::load(folder / name);
+        CHECK(fine["triangles"] == mesh::triangle_count(refined));
+        CHECK(fine.contains("refined") == (mesh::triangle_count(refined) > mesh::triangle_count(rest)));
+        CHECK(refined.parts.size() == rest.parts.size());
+        CHECK(fine["folds"].get<int>() > 0);
     }
     CHECK(folder.files() == 1);
 }

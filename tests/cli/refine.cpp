@@ -51,35 +51,44 @@ void check_model(const char* name) {
 TEST_CASE("refine: a bare cylinder gets the rows of its folds") {
     const Folder folder;
     coarse(folder);
-    const json all = report(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--folds", "6"});
-    CHECK(all["refined"]["folds"] == 6);
+    const json all = report(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--folds", "12"});
+    CHECK(all["refined"]["folds"] == 12);
     CHECK(all["refined"]["vertices_before"] == 130);
     CHECK(all["refined"]["vertices_after"] == 130 + 2 * 64 * 95);
     CHECK(all["refined"]["triangles_before"] == 4 * 64);
     CHECK(all["refined"]["triangles_after"] == 2 * 64 + 2 * 64 * 191);
     CHECK(all["vertices"] == all["refined"]["vertices_after"]);
     CHECK(all["triangles"] == all["refined"]["triangles_after"]);
-    CHECK(all["folds_capacity"] == 6);
+    CHECK(all["folds_capacity"] == 12);
     CHECK(all["warnings"] == json::array());
     const mesh::Mesh fine = mesh::load(folder / "fine.ply");
     CHECK(begins_with(fine, mesh::load(folder / "coarse.ply"), 0));
     CHECK(open_edges(fine) == 0);
     CHECK(report(folder, {"inspect", "coarse.ply"})["folds_capacity"] == 0);
-    CHECK(report(folder, {"inspect", "fine.ply"})["folds_capacity"] == 6);
+    CHECK(report(folder, {"inspect", "fine.ply"})["folds_capacity"] == 12);
+    // The paper counts them over half the length.
+    CHECK(report(folder, {"bend", "fine.ply", "-o", "out.ply", "--paper"})["folds_capacity"] == 6);
 }
 
 TEST_CASE("refine: without a number, for the folds that suit the body") {
     const Folder folder;
     coarse(folder);
-    CHECK(report(folder, {"refine", "coarse.ply", "-o", "fine.ply"})["refined"]["folds"] == 5);
+    CHECK(report(folder, {"refine", "coarse.ply", "-o", "fine.ply"})["refined"]["folds"] == 13);
     const json bent = report(folder, {"bend", "coarse.ply", "-o", "bent.ply", "--refine"});
-    CHECK(bent["folds"] == 5);
-    CHECK(bent["folds_capacity"] == 5);
-    CHECK(bent["refined"]["folds"] == 5);
+    CHECK(bent["folds"] == 13);
+    CHECK(bent["folds_capacity"] == 13);
+    CHECK(bent["refined"]["folds"] == 13);
     CHECK(bent["warnings"] == json::array());
-    // a body too short for a fold
+    const json paper = report(folder, {"bend", "coarse.ply", "-o", "bent.ply", "--refine", "--paper"});
+    CHECK(paper["folds"] == 5);
+    CHECK(paper["folds_capacity"] == 5);
+    CHECK(paper["refined"]["folds"] == 5);
+    CHECK(paper["warnings"] == json::array());
+    // a body too short for a fold of the paper's on either side of its middle
     base(folder, "ring.ply", {"--length", "1", "--radius", "2", "--rows", "2"});
-    const json ring = report(folder, {"refine", "ring.ply", "-o", "out.ply", "--axis", "z"});
+    CHECK(report(folder, {"refine", "ring.ply", "-o", "out.ply", "--axis", "z"})["refined"]["folds"] == 1);
+    const json ring = report(
+        folder, {"bend", "ring.ply", "-o", "out.ply", "--axis", "z", "--angle", "10", "--refine", "--paper"});
     CHECK(ring["refined"]["triangles_after"] == ring["refined"]["triangles_before"]);
     REQUIRE(ring["warnings"].size() == 1);
     CHECK(ring["warnings"][0].get<std::string>().find("too short") != std::string::npos);
@@ -92,19 +101,22 @@ TEST_CASE("refine: bend --refine is refine, then bend") {
     const Words pose{"--fit", "fit.json", "--folds", "4", "--angle", "70", "--direction", "20"};
     const std::string out = well(folder, Words{"bend", "coarse.ply", "-o", "one.ply", "--refine"} + pose);
     CHECK(
-        out.find("refined           from 256 to 16384 triangles, from 130 to 8194 vertices, for 4 folds\n") !=
+        out.find("refined           from 256 to 8192 triangles, from 130 to 4098 vertices, for 4 folds\n") !=
         out.npos);
     well(folder, {"refine", "coarse.ply", "-o", "fine.ply", "--fit", "fit.json", "--folds", "4"});
     well(folder, Words{"bend", "fine.ply", "-o", "two.ply"} + pose);
     CHECK(bytes_of(folder / "one.ply") == bytes_of(folder / "two.ply"));
 }
 
-TEST_CASE("refine: what has its rows is left as it is, and without the word nothing is refined") {
+TEST_CASE("refine: what has its rows is left as it is, and only with the word is it said") {
     const Folder folder;
     base(folder);
     well(folder, {"refine", "base.ply", "-o", "same.ply", "--folds", "10"});
     CHECK(bytes_of(folder / "same.ply") == bytes_of(folder / "base.ply"));
-    CHECK(!report(folder, {"bend", "base.ply", "-o", "out.ply"}).contains("refined"));
+    for (const Words& words : {Words{}, {"--refine", "auto"}, {"--refine", "off"}, {"--folds", "0"}})
+        CHECK(!report(folder, Words{"bend", "base.ply", "-o", "none.ply"} + words).contains("refined"));
+    const std::string said = well(folder, {"bend", "base.ply", "-o", "out.ply"});
+    CHECK(said.find("refined") == said.npos);
     const json all = report(folder, {"bend", "base.ply", "-o", "refined.ply", "--refine"});
     CHECK(all["refined"]["triangles_after"] == all["refined"]["triangles_before"]);
     CHECK(bytes_of(folder / "out.ply") == bytes_of(folder / "refined.ply"));
@@ -126,18 +138,52 @@ TEST_CASE("refine: a coarse mesh keeps its area as the base does") {
     coarse(folder, "128");
     for (const std::string angle : {"30", "90", "150"}) {
         CAPTURE(angle);
-        const Words words{"bend", "coarse.ply", "-o", "out.ply", "--angle", angle, "--folds", "6"};
+        const Words words{"bend", "coarse.ply", "-o", "out.ply", "--angle", angle, "--folds", "6", "--paper"};
         const auto change = [](const json& all) {
             return all["area_after"].get<double>() / all["area_before"].get<double>() - 1;
         };
-        const json fine = report(folder, words + Words{"--refine"});
+        const json fine = report(folder, words + Words{"--refine", "on"});
         CHECK(fine["warnings"] == json::array());
         CHECK(std::abs(change(fine)) < 0.01);
-        const json rough = report(folder, words);
+        const json rough = report(folder, words + Words{"--refine", "off"});
         CHECK(std::abs(change(rough)) > 0.04);
         REQUIRE(rough["warnings"].size() == 1);
         CHECK(rough["warnings"][0].get<std::string>().find("goffer refine") != std::string::npos);
+        // Without a word it is refined, and keeps its own area.
+        const json plain = report(folder, {"bend", "coarse.ply", "-o", "out.ply", "--angle", angle});
+        CHECK(plain["warnings"] == json::array());
+        CHECK(plain["refined"]["folds"] == 13);
+        CHECK(std::abs(change(plain)) < 5e-5);
     }
+}
+
+TEST_CASE("refine: a mesh that stays coarse has fewer folds or none, and it is said") {
+    const Folder folder;
+    const auto folds = [&](const std::string& rows, const std::string& said) {
+        CAPTURE(rows);
+        base(folder, "coarse.ply", {"--columns", "24", "--rows", rows});
+        const json all = report(folder, {"bend", "coarse.ply", "-o", "out.ply", "--refine", "off"});
+        CHECK_FALSE(all.contains("refined"));
+        const json warnings = all["warnings"];
+        CHECK(warnings.size() == (said.empty() ? 0 : 1));
+        if (warnings.size() == 1 && !said.empty()) {
+            const std::string warning = warnings[0];
+            CHECK(warning.starts_with(said));
+            CHECK(warning.find("13 would suit its length") != warning.npos);
+            CHECK(warning.find("goffer refine") != warning.npos);
+        }
+        return all["folds"].get<int>();
+    };
+    CHECK(folds("9", "bent without wrinkles: the mesh's rows are too far apart") == 0);
+    CHECK(folds("41", "only 5 folds, and ") == 5);
+    CHECK(folds("81", "") == 10);
+    CHECK(folds("161", "") == 13);
+    // Too long for its folds: rows would not help.
+    base(folder, "long.ply", {"--columns", "8", "--length", "500", "--rows", "6001"});
+    const json all = report(folder, {"bend", "long.ply", "-o", "out.ply", "--refine", "off"});
+    CHECK(all["folds"] == 0);
+    REQUIRE(all["warnings"].size() == 1);
+    CHECK(all["warnings"][0].get<std::string>().find("--regions") != std::string::npos);
 }
 
 TEST_CASE("refine: wine_bottle.glb carries six folds at 90 degrees, and what was closed is closed") {
@@ -186,7 +232,7 @@ TEST_CASE("refine: bad words, bad files, and more than there is room for") {
     refused(folder, 2, {"refine", "coarse.ply", "-o", "coarse.ply"}, {"coarse.ply"});
     refused(folder, 2, refine + Words{"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
     refused(folder, 1, {"refine", "none.ply", "-o", "out.ply"}, {"none.ply", "no such file"});
-    base(folder, "wide.ply", {"--columns", "30000", "--rows", "2"});
+    base(folder, "wide.ply", {"--columns", "60000", "--rows", "2"});
     refused(
         folder, 1, {"refine", "wide.ply", "-o", "out.ply", "--folds", "64"},
         {"wide.ply: refined, the mesh would have", "more than the 50000000 allowed; ask for fewer folds"});

@@ -115,10 +115,12 @@ TEST_CASE("bend: amplitude mesh keeps the mesh's own area, and an onset costs so
         const json all = report(folder, Words{"bend", "base.ply", "-o", "out.ply", "--angle", "100"} + words);
         return std::abs(all["area_after"].get<double>() / all["area_before"].get<double>() - 1);
     };
-    const double plain = change({}), mesh = change({"--amplitude", "mesh"});
+    const Words damped{"--profile", "damped", "--shape", "cylinder"};
+    const double plain = change({"--paper"}), mesh = change(damped + Words{"--amplitude", "mesh"});
     CHECK(plain > 1e-3);
     CHECK(mesh < 1e-6);
-    const double gentle = change({"--onset", "0.05"});
+    CHECK(change({}) < 2e-6);
+    const double gentle = change({"--paper", "--onset", "0.05"});
     CHECK(gentle > plain);
     CHECK(gentle < 0.05);
 }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "support/models.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/// What wrinkles are like without a word about them, and the words that choose others.
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+/// The bytes that bending `file` writes.
+std::string bent(const Folder& folder, const std::string& file, const Words& words) {
+    (void)report(folder, Words{"bend", file, "-o", "out.glb"} + words);
+    return bytes_of(folder / "out.glb");
+}
+
+int folds(const Folder& folder, const Words& words) {
+    return report(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words)["folds"];
+}
+
+void check_kept(const char* name) {
+    const std::filesystem::path file = model(name);
+    if (file.empty()) return;
+    const Folder folder;
+    const json all = report(folder, {"bend", file.string(), "-o", "out.glb"});
+    REQUIRE(all["fit"]["rest_angle"] == 0.0);
+    CHECK(all["pose"]["angle"] == 90.0);
+    CHECK(std::abs(all["area_after"].get<double>() / all["area_before"].get<double>() - 1) < 2e-4);
+}
+
+}  // namespace
+
+TEST_CASE("wrinkles: --paper is what the words say that it stands for") {
+    const std::filesystem::path file = model("wine_bottle.glb");
+    if (file.empty()) return;
+    const Folder folder;
+    const Words words{"--profile", "damped", "--shape", "cylinder", "--amplitude", "paper", "--onset", "0"};
+    const std::string paper = bent(folder, file.string(), {"--paper"});
+    CHECK((bent(folder, file.string(), words) == paper));
+    CHECK_FALSE((bent(folder, file.string(), {}) == paper));
+    const json all = report(folder, {"bend", file.string(), "-o", "out.glb", "--paper"});
+    CHECK(all["amplitude"] == "paper");
+    CHECK(all["profile"] == "damped");
+    CHECK_FALSE(all["fit"].contains("radii"));
+    CHECK(all["base_area_change"].is_number_float());
+    // An onset of one's own is kept.
+    const Words gentle{"--onset", "0.01"};
+    CHECK_FALSE((bent(folder, file.string(), gentle + Words{"--paper"}) == paper));
+}
+
+TEST_CASE("wrinkles: folds half as long are twice as many") {
+    const Folder folder;
+    base(folder);
+    CHECK(folds(folder, {}) == 13);
+    CHECK(folds(folder, {"--fold-length", "0.75"}) == 13);
+    CHECK(folds(folder, {"--fold-length", "0.375"}) == 27);
+    CHECK(folds(folder, {"--fold-length", "2"}) == 5);
+    CHECK(folds(folder, {"--paper"}) == 5);
+    CHECK(folds(folder, {"--paper", "--fold-length", "0.5"}) == 10);
+}
+
+TEST_CASE("wrinkles: round crests are others") {
+    const Folder folder;
+    base(folder);
+    const std::string usual = bent(folder, "base.ply", {});
+    CHECK((bent(folder, "base.ply", {"--profile", "even", "--roundness", "0.25"}) == usual));
+    for (const std::string roundness : {"0", "0.5"})
+        CHECK_FALSE((bent(folder, "base.ply", {"--profile", "even", "--roundness", roundness}) == usual));
+}
+
+TEST_CASE("wrinkles: a body is as thick as it is, and its report can be read again") {
+    const std::filesystem::path file = model("wine_bottle.glb");
+    if (file.empty()) return;
+    const Folder folder;
+    const auto fit = [&](const Words& words) {
+        return report(folder, Words{"bend", file.string(), "-o", "out.glb"} + words)["fit"];
+    };
+    CHECK_FALSE(fit({"--shape", "cylinder"}).contains("radii"));
+    const json found = fit({});
+    REQUIRE(found.contains("radii"));
+    const auto radii = found["radii"].get<std::vector<double>>();
+    const auto [thinnest, thickest] = std::ranges::minmax(radii);
+    CHECK(thickest > 2 * thinnest);  // than the neck
+    CHECK(thickest > found["radius"].get<double>());
+    const std::string fitted = bent(folder, file.string(), {});
+    for (const std::string command : {"inspect", "bend"}) {
+        CAPTURE(command);
+        Words words{command, file.string(), "--json", "fit.json"};
+        if (command == "bend") words = words + Words{"-o", "out.glb"};
+        well(folder, words);
+        CHECK((bent(folder, file.string(), {"--fit", "fit.json"}) == fitted));
+    }
+    CHECK_FALSE(fit({"--fit", "fit.json", "--shape", "cylinder"}).contains("radii"));
+    const std::string said = well(folder, {"inspect", file.string()});
+    CHECK(said.find("\nshape             radii from ") != said.npos);
+}
+
+TEST_CASE("wrinkles: wine_bottle.glb keeps its area without a word") {
+    check_kept("wine_bottle.glb");
+}
+
+TEST_CASE("wrinkles: log_01.glb keeps its area without a word") {
+    check_kept("log_01.glb");
+}
+
+TEST_CASE("wrinkles: fuze.ply keeps its area without a word") {
+    check_kept("fuze.ply");
+}
