@@ -194,12 +194,11 @@ void warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
         const std::string which = where + region_words(r, angles.size());
         const std::string few = asked || none ? "" : too_few(binding.regions[r], wanted[r], even);
         if (asked && binding.folds(r) > binding.folds_capacity(r)) {
-            const std::string area =
-                binding.amplitude == fit::Amplitude::mesh ? "" : ", and the area is not kept";
+            const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
             report.warn(which + "the mesh has vertices for " +
                         counted(static_cast<std::size_t>(binding.folds_capacity(r)), "fold") + ", not " +
-                        std::to_string(binding.folds(r)) + ": wrinkles are coarse" + area +
-                        "; goffer refine adds vertices");
+                        std::to_string(binding.folds(r)) + ": wrinkles are coarse, and the area " + area +
+                        " kept; goffer refine adds vertices");
         } else if (!few.empty()) {
             report.warn(which + few);
         }
