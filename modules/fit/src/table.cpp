@@ -13,7 +13,7 @@ namespace goffer::fit {
 namespace {
 
 constexpr int squeeze_points = 24;  // squeezes at which eq 7 is solved, for Q(q)
-constexpr double largest_squeeze =
+constexpr double max_even_squeeze =
     0.9;  // of even folds and of bodies with a shape: beyond it, a row's polynomial is off by more than 2e-6
 constexpr int factor_points = 16;  // angles at which m is solved; it is smooth in their root and close to one
 
@@ -93,7 +93,7 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
     }
     const double outermost = std::max(rho_max, radius);
     const auto search = [&](double own) {
-        const double most = profile.kind == Profile::Kind::even ? largest_squeeze : 1;
+        const double most = profile.kind == Profile::Kind::even ? max_even_squeeze : 1;
         double low = 0;
         double high = most * length / (2 * radius);
         for (int step = 0; step < 60; ++step) {
@@ -122,11 +122,11 @@ double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplit
     for (const Girth& girth : girths.slices) thickest = std::max(thickest, girth.scale);
     const bool wrinkled = wrinkles(amplitude, folds);
     const double per_length = 1 / girths.length;
-    const Chebyshev q_part = wrinkled ? smooth_amplitude(profile, folds, largest_squeeze)
+    const Chebyshev q_part = wrinkled ? smooth_amplitude(profile, folds, max_even_squeeze)
                                       : Chebyshev(0, 1, 1, [](double) { return 0.0; });
-    double low = 0, high = largest_squeeze * girths.length / (2 * girths.radius * thickest);
+    double low = 0, high = max_even_squeeze * girths.length / (2 * girths.radius * thickest);
     const auto fits = [&](double alpha, const Girth& girth) {
-        const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, largest_squeeze);
+        const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, max_even_squeeze);
         const double lift =
             wrinkled ? factor * girth.depth * girths.length / 2 * std::sqrt(q) * q_part(q) : 0;
         return girths.length / alpha - girths.radius > girth.rho + lift;

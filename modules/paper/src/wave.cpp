@@ -79,7 +79,7 @@ std::vector<double> pieces(Profile profile, int folds) {
     ends.insert(ends.begin(), 0);
     ends.push_back(1);
     const auto too_near = [](double a, double b) { return b - a < 1e-9; };
-    ends.erase(std::ranges::unique(ends, too_near).begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end(), too_near), ends.end());
     ends.back() = 1;
     return ends;
 }
