@@ -38,9 +38,9 @@ void report_suitability(Report& report, const BoundModel& model) {
     const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
     const fit::Suitability found = fit::suitability_of(geometry, model.cylinder);
     report.json["suitability"] = {{"shells", found.shells},
-                            {"side_by_side", found.side_by_side},
-                            {"side_by_side_share", found.side_by_side_share},
-                            {"flatness", found.flatness}};
+                                  {"side_by_side", found.side_by_side},
+                                  {"side_by_side_share", found.side_by_side_share},
+                                  {"flatness", found.flatness}};
     const std::string why = warning(found, model.cylinder.residual);
     if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
 }

@@ -165,10 +165,9 @@ struct Binding {
 
 /// Returns the largest usable |angle| of a region (radians): 0.999 times the one at which L / alpha - r =
 /// rho_max + A(alpha), where the outermost vertex, lifted by the wrinkle, reaches the center of the arc and
-/// the body begins to fold through itself; with Profile::even at most the one at which the most squeezed column
-/// keeps a tenth of its length. `rho_max` is the largest distance of a vertex from the axis
-/// (counted as the radius if less); `factor` >= 0 multiplies the amplitude, beside the factor of
-/// Amplitude::area.
+/// the body begins to fold through itself; with Profile::even at most the one at which the most squeezed
+/// column keeps a tenth of its length. `rho_max` is the largest distance of a vertex from the axis (counted
+/// as the radius if less); `factor` >= 0 multiplies the amplitude, beside the factor of Amplitude::area.
 ///
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, or rho_max
 /// is negative or not finite. Thread-safe. See modules/paper/README.md, "Limits".

@@ -11,8 +11,9 @@
 
 namespace goffer::fit {
 
-/// What suitability_of() found. Shells are parts of the surface that do not touch; one with less than a fiftieth of
-/// the area does not count. Vertices in one place are one, so that seams and triangle soups hold together.
+/// What suitability_of() found. Shells are parts of the surface that do not touch; one with less than a
+/// fiftieth of the area does not count. Vertices in one place are one, so that seams and triangle soups hold
+/// together.
 struct Suitability {
     std::size_t shells = 0;
     /// How many of the shells lie beside another: at the same heights, over half of the shorter one or more,
