@@ -44,8 +44,9 @@ double wrinkle_depth(const Binding& binding, std::size_t region, double angle) {
     const int folds = binding.folds(region);
     if (folds == 0) return 0;
     constexpr double most = 0.999;  // of eq 7's domain; the largest angle is below it
-    const double per_scale = 2 * std::fabs(angle) * binding.cylinder.radius / length;
     const auto& shape = binding.regions[region].shape;
+    const double radius = shape ? shape->radius() : binding.cylinder.radius;
+    const double per_scale = 2 * std::fabs(angle) * radius / length;
     const double trough = binding.profile.trough();
     if (!shape) return trough * paper::amplitude(binding.profile, folds, length, std::min(per_scale, most));
     const paper::Wave wave(binding.profile, folds, std::min(per_scale * shape->max_scale(), most));
@@ -56,7 +57,7 @@ double wrinkle_depth(const Binding& binding, std::size_t region, double angle) {
         const double amplitude = wave.column(std::min(per_scale * scale, most)).amplitude * length / 2;
         deepest = std::max(deepest, trough * amplitude * shape->depth(z) / scale);
     }
-    return deepest;
+    return deepest * binding.cylinder.radius / radius;
 }
 
 }  // namespace goffer::fit

@@ -51,9 +51,8 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
 
 /// The base that `options` ask for.
 Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
-    const bool plain = options.shape == ShapeMode::cylinder || options.amplitude == paper::Amplitude::area ||
-                       (cylinder.rest_angle != 0 && regions_of(options).size() > 1);
-    if (!plain) return cylinder.radii.empty() ? fit_shape(geometry, cylinder) : cylinder;
+    if (!has_one_radius(cylinder, options))
+        return cylinder.radii.empty() ? fit_shape(geometry, cylinder) : cylinder;
     Cylinder base = cylinder;
     base.radii.clear();
     return base;

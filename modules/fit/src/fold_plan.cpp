@@ -32,9 +32,10 @@ std::size_t knots_of(const Cylinder& cylinder, double length) {
     return static_cast<std::size_t>(std::clamp(quarters, 4.0, max_knots)) + 1;
 }
 
-/// Full up to `full` radii, 0 from `longest` on.
-double fade_of(double radii) {
-    const double t = std::clamp((longest - radii) / (longest - full), 0.0, 1.0);
+/// Full up to `full` radii, 0 from `longest` on; both a radius beyond what was asked for if that is longer.
+double fade_of(double radii, double asked) {
+    const double excess = radii - std::max(asked - full, 0.0);
+    const double t = std::clamp((longest - excess) / (longest - full), 0.0, 1.0);
     return t * t * (3 - 2 * t);
 }
 
@@ -74,10 +75,10 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         row_limit = widened(row_limit);
         bool same = cylinder.radii.empty();
         for (std::size_t i = 0; i < knots; ++i) {
-            shape.fold_length.push_back(
-                std::clamp(row_limit[i], in_radii * radii[i], std::max(longest, in_radii) * radii[i]));
+            shape.fold_length.push_back(std::clamp(row_limit[i], in_radii * radii[i],
+                                                   std::max(longest, in_radii + longest - full) * radii[i]));
             const double excess = std::max(row_limit[i], in_radii * radii[i]) / radii[i];
-            shape.weight.push_back(in_radii > full ? 1 : fade_of(excess));
+            shape.weight.push_back(fade_of(excess, in_radii));
             same = same && std::fabs(shape.fold_length[i] / shape.fold_length[0] - 1) < 1e-3 &&
                    shape.weight[i] == shape.weight[0];
         }
@@ -86,9 +87,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         plan.folds = static_cast<int>(std::clamp<double>(folds, 1, max_even_folds));
         // A body that is too long for so many has longer ones.
         const double longer = std::max(folds / max_even_folds, 1.0);
-        if (longer > 1 && in_radii <= full) {
-            for (double& weight : shape.weight) weight = std::min(weight, fade_of(longer * in_radii));
-        }
+        for (double& weight : shape.weight) weight = std::min(weight, fade_of(longer * in_radii, in_radii));
         if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
         if (same && shape.weight[0] == 1) shape.fold_length.clear(), shape.weight.clear();
     }

@@ -267,7 +267,7 @@ void check_heights(std::span<const double> heights, std::size_t vertices) {
 /// Adds stretches that a region of Profile::even needs: folds are as long as the body is thick.
 void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const BindOptions& options,
               double start, double length, std::optional<int> asked) {
-    const bool round = cylinder.radii.empty() || options.shape == ShapeMode::cylinder;
+    const bool round = cylinder.radii.empty() || has_one_radius(cylinder, options);
     const int pieces = round ? 1 : 64;
     const double step = length / pieces;
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));

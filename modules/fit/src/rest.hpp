@@ -36,6 +36,12 @@ struct RestRegion {
 [[nodiscard]] std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double radius,
                                                            const std::vector<double>& factors);
 
+/// Whether bind() takes one radius for a body, whatever radii its cylinder has.
+[[nodiscard]] inline bool has_one_radius(const Cylinder& cylinder, const BindOptions& options) {
+    return options.shape == ShapeMode::cylinder || options.amplitude == paper::Amplitude::area ||
+           (cylinder.rest_angle != 0 && options.regions.size() > 1);
+}
+
 /// Returns the shape of all of `cylinder`; null where it has no radii.
 [[nodiscard]] std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder);
 

@@ -157,7 +157,8 @@ struct SetupColumns {
 };
 
 /// Computes the coefficients of one region for `count` instances: all that depends on the pose and not on the
-/// vertex. Those of instance i go to k[i * step]. Sets amplitudes only where wrinkled[i].
+/// vertex. Those of instance i go to k[i * step]. Sets amplitudes where wrinkled[i]; elsewhere to 0 if the
+/// region is shaped.
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 

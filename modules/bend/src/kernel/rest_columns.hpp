@@ -14,14 +14,14 @@ struct RestColumns {
     const float* radial_offset = nullptr;  ///< g w S: rho' = rho + amplitude * radial_offset
     const float* height = nullptr;         ///< z / L - 1/2, of its region
     const float* wrinkle = nullptr;        ///< g w S / rho
-    const float* slope = nullptr;          ///< d(g w S) / dz; without a rest arc d(g w) / dz sqrt(s)
+    const float* slope = nullptr;          ///< d(g w S) / dz; without relative squeezes sqrt(s) d(g w) / dz
     const float* normal[3] = {};           ///< along e_rho, e_beta, e_z
     const float* tangent[3] = {};          ///< likewise; null if the body has no tangents, as is tangent_sign
     const float* tangent_sign = nullptr;
     /// These three are null unless the body has a shape.
     const float* scale = nullptr;  ///< s
     const float* drift = nullptr;  ///< D / L
-    /// g w (ds / dz) / s, times sqrt(s); in regions that compare_with_rest, times -1.
+    /// g w (ds / dz) / s, times -1 in regions that compare_with_rest, and times sqrt(s) in others.
     const float* taper = nullptr;
     /// These five are null unless a region of the body compares_with_rest.
     const float* cos_beta = nullptr;

@@ -45,8 +45,8 @@ struct DeformJob {
     Pose pose = {};              ///< for a body of one region
     /// One per region of the body, from base to tip; `pose` is then not read. Empty: `pose`.
     std::span<const Pose> poses = {};
-    /// Factor on the depth of all wrinkles, 0..1. 1 keeps the area; 0 is the bare bend, which takes less
-    /// time. Lets distant instances fade their wrinkles out.
+    /// Factor on the depth of all wrinkles, 0..1. 1 is the depth that was bound; 0 is the bare bend, which
+    /// takes less time unless the body has a shape. Lets distant instances fade their wrinkles out.
     float wrinkle_weight = 1;
     /// From model space to the space of all outputs: an instance's model matrix, if vertices are wanted in
     /// world space. Numbers up to 1e18; may scale, shear and mirror. Costs nothing per vertex.

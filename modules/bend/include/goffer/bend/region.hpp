@@ -19,7 +19,7 @@ inline constexpr std::size_t max_regions = 32;
 /// What a region is made from. WorkingRange limits the numbers further.
 struct RegionInput {
     double length = 0;             ///< L > 0 of its outer line, model units
-    double max_angle = 0;          ///< radians, > 0, at most length / (2 radius) with a tolerance of 1e-6
+    double max_angle = 0;          ///< radians, > 0, at most length / (2 radius max_scale), within 1e-6 of it
     double rest_angle = 0;         ///< alpha_0 of its arc at rest, radians, 0..max_angle
     double rest_direction = 0;     ///< theta_0 of its arc at rest, radians
     double onset = 0;              ///< q0, 0..1: see WrinkleRow

@@ -26,7 +26,10 @@ namespace goffer::bend {
 ///
 ///     q = max(0, 1 - S / S_0),   q' = q^2 / (q + q0),   A = S_0 sqrt(q') P(q' / kappa).
 ///
-/// See modules/paper/README.md, "Bodies bent at rest".
+/// In a region with a shape, s T stands for T in all of this, with s = RestVertex::scale, and kappa is that
+/// of the region's mean radius. The polynomial must hold for s T from 0 to 2 max_scale.
+///
+/// See modules/paper/README.md, "Bodies bent at rest" and "Shaped bodies".
 using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 
 /// Rows from angle 0 to `max_angle`, at equal steps of the angle's root, in which the area factor is smooth:

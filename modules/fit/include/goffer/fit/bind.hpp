@@ -41,9 +41,10 @@ struct RegionOptions {
 struct BindOptions {
     /// Folds k of a region: per half length, 0..max_folds, or over the whole length with Profile::even,
     /// 0..2 max_folds. More than the mesh has vertices for are allowed. Unset: folds of fold_length. With
-    /// Profile::even they are longer where the mesh has fewer rows than 8 for one, and fade where that would
-    /// make them longer than 1.5 to 2.5 radii. Otherwise sensible_folds() of each region, with a capacity of
-    /// at most max_folds: none where a region is longer than 256 radii.
+    /// Profile::even folds are longer where the mesh has fewer rows than 8 for one, or where the region is
+    /// too long for so many. They fade where that makes them 1.5 to 2.5 radii long, or up to a radius longer
+    /// than a fold_length above 1.5. Otherwise sensible_folds() of each region, with a capacity of at most
+    /// max_folds: with the default fold_length none where a region is longer than 256 radii.
     std::optional<int> folds = {};
     /// Length of a fold, in radii of the body where it stands, > 0. Depth goes with it: half as long, half as
     /// deep. Has no effect where folds are given. Unset: default_fold_length().
@@ -63,7 +64,7 @@ struct BindOptions {
     std::optional<double> onset = {};
 
     /// Returns the options with which bodies bend as in the paper: Profile::damped, Amplitude::paper, one
-    /// radius, no onset.
+    /// radius, no onset. A base that is bent at rest stays so: fit it with Rest::straight.
     [[nodiscard]] static BindOptions as_in_paper();
 
     static constexpr int max_folds = 64;
@@ -155,9 +156,10 @@ struct Binding {
 /// Profile::smooth. `max_scale` >= 1: the largest radius over `radius`. Amplitude::mesh has the table of
 /// Amplitude::paper; its factors are solved by bind(). Empty for folds = 0 or Amplitude::none.
 ///
-/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, max_angle
-/// is not above 0 and below length / (2 radius max_scale), or `rows` is out of range. Thread-safe. See
-/// modules/paper/README.md, "Wrinkle table".
+/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
+/// Profile::even 0..2 max_folds), roundness is outside 0..0.5, max_scale is not a finite number of 1 or more,
+/// max_angle is not above 0 and below length / (2 radius max_scale), or `rows` is out of range. Thread-safe.
+/// See modules/paper/README.md, "Wrinkle table".
 [[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude, int folds,
                                                     double length, double radius, double max_angle,
                                                     int rows = BindOptions::default_table_rows,
@@ -169,7 +171,8 @@ struct Binding {
 /// column keeps a tenth of its length. `rho_max` is the largest distance of a vertex from the axis (counted
 /// as the radius if less); `factor` >= 0 multiplies the amplitude, beside the factor of Amplitude::area.
 ///
-/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds, or rho_max
+/// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
+/// Profile::even 0..2 max_folds), roundness is outside 0..0.5, or rho_max
 /// is negative or not finite. Thread-safe. See modules/paper/README.md, "Limits".
 [[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, int folds, double length,
                                    double radius, double rho_max, double factor = 1);

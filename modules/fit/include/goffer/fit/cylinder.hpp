@@ -69,8 +69,9 @@ public:
 
 /// Returns `cylinder` with the radii that the mesh has along it, and with their mean as its radius: the
 /// area-weighted mean distance from the axis, smoothed over half a radius, at least a fifth of the mean. The
-/// length of an arc changes with the radius, its center line does not. Returns `cylinder` as it is, without
-/// radii, if their rms deviation is below a twentieth of the mean. bind() does this by itself.
+/// length of an arc changes with the radius, its center line does not. Returns `cylinder` without radii if
+/// their rms deviation is below a twentieth of the mean, if there is no surface along it, or if the thickest
+/// part is too thick for the rest arc. bind() does this by itself unless its options say otherwise.
 ///
 /// Throws Error as check(geometry) and check(cylinder) do. Thread-safe. See modules/paper/README.md, "Shaped
 /// bodies".

@@ -42,7 +42,8 @@ struct Parameters {
     double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that the body is bent along at rest
     double rest_direction = 0;  ///< theta_0 of that arc
     double onset = 0;           ///< q0 >= 0: the amplitude is that of q^2 / (q + q0)
-    /// How the region differs from a cylinder; null: not at all. Its radius() must be `radius`.
+    /// How the region differs from a cylinder; null: not at all. Its radius() must be `radius`, and it
+    /// must have been made for `length`, which is not checked.
     std::shared_ptr<const Shape> shape = nullptr;
 };
 
