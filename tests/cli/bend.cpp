@@ -16,14 +16,6 @@ namespace {
 
 constexpr double length = 10, radius = 1, degree = std::numbers::pi / 180;
 
-double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
-    REQUIRE(a.positions.size() == b.positions.size());
-    double most = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i)
-        most = std::max(most, double{glm::length(a.positions[i] - b.positions[i])});
-    return most;
-}
-
 /// Where the center of the capped base cylinder's tip goes: it is the mesh's last vertex.
 glm::dvec3 tip(const Folder& folder, const Words& words) {
     well(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words);

@@ -2,6 +2,7 @@
 #include "command.hpp"
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -73,6 +74,14 @@ void refused(const Folder& folder, int code, const Words& words, const Words& pi
 std::string base(const Folder& folder, const std::string& name, const Words& more) {
     well(folder, Words{"base", "-o", name} + more);
     return name;
+}
+
+double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
+    REQUIRE(a.positions.size() == b.positions.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i)
+        most = std::max(most, double{glm::length(a.positions[i] - b.positions[i])});
+    return most;
 }
 
 Words operator+(Words words, const Words& more) {

@@ -43,6 +43,9 @@ void refused(const Folder& folder, int code, const Words& words, const Words& pi
 /// A base cylinder of L = 10, r = 1 (64 columns, 161 rows) in `folder`; returns its name.
 std::string base(const Folder& folder, const std::string& name = "base.ply", const Words& more = {});
 
+/// The largest distance between vertices of the same number; there must be as many of each.
+[[nodiscard]] double farthest(const mesh::Mesh& a, const mesh::Mesh& b);
+
 [[nodiscard]] Words operator+(Words words, const Words& more);
 
 }  // namespace goffer::test

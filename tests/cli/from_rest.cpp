@@ -18,14 +18,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
-    REQUIRE(a.positions.size() == b.positions.size());
-    double most = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i)
-        most = std::max(most, double{glm::length(a.positions[i] - b.positions[i])});
-    return most;
-}
-
 /// A base cylinder that is bent by 70 degrees toward 30 in its file.
 struct Bent {
     Folder folder;

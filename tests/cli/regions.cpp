@@ -18,14 +18,6 @@ mesh::Mesh bent(const Folder& folder, const Words& words) {
     return mesh::load(folder / "out.ply");
 }
 
-double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
-    REQUIRE(a.positions.size() == b.positions.size());
-    double most = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i)
-        most = std::max(most, double{glm::length(a.positions[i] - b.positions[i])});
-    return most;
-}
-
 }  // namespace
 
 TEST_CASE("bend: regions report themselves, one by one") {

@@ -26,7 +26,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 Cylinder fit_to(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
-    return fit::fit_cylinder(solid.geometry(), axis, fit::Rest::automatic);
+    return fit::fit_cylinder(solid.geometry(), axis, fit::RestPose::automatic);
 }
 
 Solid warped(Solid solid, const std::function<glm::dvec3(glm::dvec3)>& map) {
@@ -177,7 +177,7 @@ TEST_CASE("arcs: 1 % noise: angle within 1 degree, direction within 0.6, length 
             " degrees, length ", 100 * worst.length, " %, radius ", 100 * worst.radius, " %");
 }
 
-TEST_CASE("arcs: a straight body stays straight, to the bit what Rest::straight says") {
+TEST_CASE("arcs: a straight body stays straight, to the bit what RestPose::straight says") {
     std::mt19937 random(63);
     const auto bumpy = [](glm::dvec3 p) {
         const double rho = 1 + 0.08 * std::sin(3 * std::atan2(p.y, p.x) + 2 * p.z) * std::sin(1.3 * p.z);
@@ -202,7 +202,7 @@ TEST_CASE("arcs: a straight body stays straight, to the bit what Rest::straight 
                 const Solid solid = test::placed(warped(test::cylinder(recipe, random), shape), placing);
                 const Cylinder fitted = fit_to(solid);
                 const Cylinder straight =
-                    fit::fit_cylinder(solid.geometry(), std::nullopt, fit::Rest::straight);
+                    fit::fit_cylinder(solid.geometry(), std::nullopt, fit::RestPose::straight);
                 CHECK(fitted.rest_angle == 0);
                 CHECK(fitted.rest_direction == 0);
                 CHECK(fitted.axis == straight.axis);

@@ -87,7 +87,7 @@ void check_area(const char* name, double most, std::optional<glm::dvec3> axis = 
         MESSAGE("left out where few rounds are run: ", name);
         return;
     }
-    const fit::Cylinder fitted = fit::fit_cylinder(read.geometry(), axis, fit::Rest::straight);
+    const fit::Cylinder fitted = fit::fit_cylinder(read.geometry(), axis, fit::RestPose::straight);
     const fit::Cylinder cylinder = fit::fit_shape(read.geometry(), fitted);
     const Soup soup = refined(read, cylinder);
     fit::BindOptions options;

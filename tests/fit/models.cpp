@@ -42,7 +42,7 @@ void check_model(const char* name, const Known& known) {
     const std::filesystem::path path = test::model(name);
     if (path.empty()) return;
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
-    const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight);
+    const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::RestPose::straight);
     CHECK_NOTHROW(fit::check(fitted));
     CHECK(test::angle_between(fitted.axis, known.axis) < std::numbers::pi / 180);
     CHECK(std::abs(fitted.length / fitted.radius / known.slender - 1) < 3e-4);
@@ -52,7 +52,7 @@ void check_model(const char* name, const Known& known) {
         CHECK(std::abs(base / volume(records) / known.volume - 1) < 8e-4);
     }
     CHECK(fit::folds_capacity(geometry(records), fitted) == known.capacity);
-    const fit::Cylinder arc = fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::automatic);
+    const fit::Cylinder arc = fit::fit_cylinder(geometry(records), std::nullopt, fit::RestPose::automatic);
     CHECK(std::abs(arc.rest_angle * 180 / std::numbers::pi - known.rest_angle) < 0.01);
     CHECK(std::abs(arc.residual / fitted.residual - known.arc_residual) < 4e-4);
 }
@@ -134,7 +134,7 @@ TEST_CASE("models: softball.obj has no long axis, and is fitted along any that i
     if (path.empty()) return;
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     CHECK_THROWS_WITH_AS(
-        static_cast<void>(fit::fit_cylinder(geometry(records), std::nullopt, fit::Rest::straight)),
+        static_cast<void>(fit::fit_cylinder(geometry(records), std::nullopt, fit::RestPose::straight)),
         doctest::Contains("give an axis"), fit::AxisError);
     for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 1, 1)}) {
         const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), axis);

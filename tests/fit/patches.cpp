@@ -13,23 +13,6 @@ using namespace goffer::test;
 
 namespace {
 
-Solid tube() {
-    std::mt19937 random(1);
-    Recipe recipe;
-    recipe.columns = 64;
-    recipe.rows = 48;
-    recipe.closed = false;
-    return cylinder(recipe, random);
-}
-
-/// The base cylinder of tube(), with the zero of beta along x.
-fit::Cylinder upright() {
-    fit::Cylinder cylinder;
-    cylinder.length = 10;
-    cylinder.radius = 1;
-    return cylinder;
-}
-
 std::string error_of(const auto& work) {
     try {
         (void)work();
@@ -42,7 +25,7 @@ std::string error_of(const auto& work) {
 }  // namespace
 
 TEST_CASE("patches: triangles are where their centroids are, and sides lie about e1, e2, -e1, -e2") {
-    const Solid solid = tube();
+    const Solid solid = tube(64);
     const std::vector<std::uint32_t> patches = fit::patches_of(solid.geometry(), upright());
     REQUIRE(3 * patches.size() == solid.triangles.size());
     CHECK(std::set(patches.begin(), patches.end()).size() == 48);
@@ -57,7 +40,7 @@ TEST_CASE("patches: triangles are where their centroids are, and sides lie about
 }
 
 TEST_CASE("patches: a body that is bent at rest is straightened first") {
-    const Solid solid = tube();
+    const Solid solid = tube(64);
     fit::Cylinder bent = upright();
     bent.rest_angle = 1;
     // About an arc toward x: its center line's radius is L / alpha_0 - r.
@@ -76,7 +59,7 @@ TEST_CASE("patches: a body that is bent at rest is straightened first") {
 }
 
 TEST_CASE("patches: any grid, what lies beyond an end is in the slice there") {
-    const Solid solid = tube();
+    const Solid solid = tube(64);
     fit::Cylinder shorter = upright();
     shorter.origin.z = 2;
     shorter.length = 6;
@@ -115,7 +98,7 @@ TEST_CASE("patches: changes are weighted by area, the worst has its place, no ar
 }
 
 TEST_CASE("patches: what does not fit is refused") {
-    const Solid solid = tube();
+    const Solid solid = tube(64);
     const std::span positions(solid.positions);
     const std::vector<std::uint32_t> patches(solid.triangles.size() / 3);
     CHECK(error_of([&] {

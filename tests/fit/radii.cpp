@@ -191,7 +191,7 @@ TEST_CASE("local area: folds of the body's own size keep it several times better
         if (path.empty()) continue;
         const mesh::VertexArrays read = mesh::vertex_arrays(mesh::load(path));
         const fit::Geometry geometry{read.positions, read.triangles};
-        const fit::Cylinder cylinder = fit::fit_cylinder(geometry, std::nullopt, fit::Rest::straight);
+        const fit::Cylinder cylinder = fit::fit_cylinder(geometry, std::nullopt, fit::RestPose::straight);
         const double paper = rms(read, cylinder, fit::BindOptions::as_in_paper());
         const double here = rms(read, fit::fit_shape(geometry, cylinder), own);
         std::printf("%-16s local area at 90 deg: paper %.1f %%, own %.1f %%\n", name, 100 * paper,

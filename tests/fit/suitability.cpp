@@ -12,21 +12,6 @@ using namespace goffer::test;
 
 namespace {
 
-Solid tube(int columns = 32) {
-    std::mt19937 random(1);
-    Recipe recipe;
-    recipe.columns = columns;
-    recipe.closed = false;
-    return cylinder(recipe, random);
-}
-
-fit::Cylinder upright() {
-    fit::Cylinder cylinder;
-    cylinder.length = 10;
-    cylinder.radius = 1;
-    return cylinder;
-}
-
 /// `solid` with another copy of it, moved and scaled.
 Solid with_copy(Solid solid, const glm::vec3& by, float scale = 1) {
     const auto first = static_cast<std::uint32_t>(solid.positions.size());

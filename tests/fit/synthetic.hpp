@@ -78,6 +78,20 @@ inline Solid cylinder(const Recipe& recipe, std::mt19937& random) {
     return solid;
 }
 
+/// The same, open, as a tube without noise.
+inline Solid tube(int columns = 32) {
+    std::mt19937 random(1);
+    return cylinder({.columns = columns, .closed = false}, random);
+}
+
+/// The base cylinder of tube(), with the zero of beta along x.
+inline fit::Cylinder upright() {
+    fit::Cylinder cylinder;
+    cylinder.length = 10;
+    cylinder.radius = 1;
+    return cylinder;
+}
+
 /// Turned, then scaled, then moved.
 struct Placing {
     glm::dmat3 turn{1};

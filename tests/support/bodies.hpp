@@ -283,7 +283,7 @@ inline void add_radii(TestMesh& test_mesh, Random& random) {
         const double t = 2.0 * i / (knots - 1) - 1;
         c.radii.push_back(c.radius * (1 + taper * t + wave * uniform(random, -1, 1)));
     }
-    c.radius = paper::Spline(c.length, c.radii).integral(c.length) / c.length;
+    c.radius = paper::Spline(c.length, c.radii).mean();
 }
 
 /// The closed form of `test_mesh`'s deformation in double, in model space, from the positions as float holds

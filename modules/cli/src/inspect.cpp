@@ -26,7 +26,7 @@ void report_rest(Report& report, const InspectOptions& options, const BindReques
     const auto straight_residual = [&] {
         const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
         return in_file(options.model, [&] {
-            return fit::fit_cylinder(geometry, request.axis, fit::Rest::straight).residual;
+            return fit::fit_cylinder(geometry, request.axis, fit::RestPose::straight).residual;
         });
     };
     const double straight = bent ? straight_residual() : fitted.residual;

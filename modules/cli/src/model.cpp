@@ -138,7 +138,7 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
 BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
     : words(spelled_out(said)),
       axis(parse_axis(words.axis)),
-      rest(words.rest == "auto" ? fit::Rest::automatic : fit::Rest::straight) {
+      rest(words.rest == "auto" ? fit::RestPose::automatic : fit::RestPose::straight) {
     options.folds = read_folds(words.folds, regions);
     options.regions = std::move(regions);
     options.onset = words.onset;
@@ -178,8 +178,10 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
             growth.reset();
         }
     }
+    fit::BindOptions options = request.options;
+    if (cylinder.radii.empty()) options.shape = fit::ShapeMode::cylinder;  // that was looked for already
     fit::Binding binding =
-        in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, request.options); });
+        in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, options); });
     const fit::Cylinder base = binding.cylinder;
     return {file, std::move(mesh), std::move(rest), base, std::move(binding), growth};
 }

@@ -48,7 +48,7 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
 struct BindRequest {
     BindWords words;  ///< with those that --paper stands for
     std::optional<glm::dvec3> axis;
-    fit::Rest rest;
+    fit::RestPose rest;
     fit::BindOptions options;
     std::string refine;
 

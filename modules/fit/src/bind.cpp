@@ -36,8 +36,7 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
     for (const RegionOptions& region : regions_of(options)) {
         const Cylinder stretch = stretch_of(cylinder, region.share * cylinder.length);
         const double start = rest.empty() ? 0 : rest.back().start + rest.back().length;
-        const int capacity =
-            even ? rows.even_folds(start, start + stretch.length) : rows.folds(stretch.length);
+        const int capacity = rows.folds(options.profile, start, start + stretch.length);
         std::optional<int> asked = region.folds;
         if (options.amplitude == paper::Amplitude::none) asked = 0;
         if (!asked && !even)
@@ -144,25 +143,26 @@ bend::Body make(const Cylinder& cylinder, std::span<const bend::RegionInput> reg
     return std::move(*body);
 }
 
-std::vector<Plan> plans_of(const Cylinder& cylinder, const BindOptions& options,
-                           std::span<const RestRegion> places, const RestMesh& mesh) {
-    std::vector<Plan> plans;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
-        plans.push_back({cylinder, options, places[i], largest_rho(own),
-                         places[i].shape ? girths_of(places[i], options.profile, own) : Girths{}});
-        first += own.size();
-    }
-    return plans;
-}
-
-std::vector<bend::RegionInput> inputs_of(std::span<const Plan> plans, double onset, const RestMesh& mesh) {
+/// All that a body is made from.
+struct Draft {
+    RestMesh mesh;
+    std::vector<Plan> plans;  // of the regions
     std::vector<bend::RegionInput> regions;
-    for (std::size_t i = 0; i < plans.size(); ++i)
-        regions.push_back(region_input(plans[i], onset, mesh.counts[i]));
-    return regions;
-}
+
+    /// `places` must stay where they are.
+    Draft(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
+          std::span<const RestRegion> places)
+        : mesh(rest_mesh(geometry, cylinder, options.profile, places)) {
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
+            plans.push_back({cylinder, options, places[i], largest_rho(own),
+                             places[i].shape ? girths_of(places[i], options.profile, own) : Girths{}});
+            regions.push_back(region_input(plans[i], onset, own.size()));
+            first += own.size();
+        }
+    }
+};
 
 /// Gives each region the weights m(z) with which the slices of the mesh keep their area.
 void weigh_slices(const bend::Body& body, const Geometry& geometry, const RestMesh& mesh,
@@ -231,25 +231,23 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
 
     std::vector<RestRegion> places;
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
-    RestMesh mesh = rest_mesh(geometry, cylinder, options.profile, places);
-    std::vector<Plan> plans = plans_of(cylinder, options, places, mesh);
-    std::vector<bend::RegionInput> regions = inputs_of(plans, onset, mesh);
-    bend::Body body = make(cylinder, regions, mesh);
+    const bool even = options.profile.kind == Profile::Kind::even;
+    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places);
+    bend::Body body = make(cylinder, draft->regions, draft->mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
-        if (options.profile.kind == Profile::Kind::even) {
-            weigh_slices(body, geometry, mesh, places, found);
-            mesh = rest_mesh(geometry, cylinder, options.profile, places);
-            plans = plans_of(cylinder, options, places, mesh);
-            regions = inputs_of(plans, onset, mesh);
-            body = make(cylinder, regions, mesh);
+        if (even) {
+            weigh_slices(body, geometry, draft->mesh, places, found);
+            draft.emplace(geometry, cylinder, options, onset, places);
+            body = make(cylinder, draft->regions, draft->mesh);
         }
+        auto& [mesh, plans, regions] = *draft;
         solve_factors(body, geometry, mesh.order, regions);
         for (std::size_t i = 0; i < regions.size(); ++i)
             regions[i].max_angle =
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
         body = make(cylinder, regions, mesh);
     }
-    return {std::move(body), std::move(found),  std::move(mesh.order),    cylinder,
+    return {std::move(body), std::move(found),  std::move(draft->mesh.order), cylinder,
             options.profile, options.amplitude, milliseconds_since(start)};
 }
 
@@ -267,9 +265,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
         regions[i].vertex_count = mesh.counts[i];
         const double from = places[i].start;
-        found[i].folds_capacity = rig.profile.kind == Profile::Kind::even
-                                      ? rows.even_folds(from, from + found[i].length)
-                                      : rows.folds(found[i].length);
+        found[i].folds_capacity = rows.folds(rig.profile, from, from + found[i].length);
     }
     bend::Body body = make(rig.cylinder, regions, mesh);
     return {std::move(body), std::move(found), std::move(mesh.order),    rig.cylinder,

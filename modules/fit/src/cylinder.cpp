@@ -139,8 +139,7 @@ void check_radii(const Cylinder& cylinder) {
     for (const double radius : cylinder.radii) check_positive(radius, "one of the radii");
     const std::size_t count = cylinder.radii.size();
     if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
-    const double mean =
-        paper::Spline(cylinder.length, cylinder.radii).integral(cylinder.length) / cylinder.length;
+    const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();
     if (std::abs(mean / cylinder.radius - 1) <= 1e-3) return;
     throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " + text(cylinder.radius) +
                 "; make them the same");
@@ -153,16 +152,16 @@ void check_finite(const Vector3d& value, std::string_view name) {
 
 }  // namespace
 
-Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, Rest rest) {
+Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, RestPose rest) {
     check(geometry);
     const Body body = body_of(geometry);
     const Principal principal = principal_axis(body);
     const Vector3d direction = axis ? given_axis(*axis) : long_axis(principal);
     const Line line = settled_near(body, line_through(principal.centroid, direction), false);
-    const bool kept = axis && rest == Rest::straight;
+    const bool kept = axis && rest == RestPose::straight;
     const Line best = kept ? line : straighten(body, line);
     std::optional<Fitted> found;
-    if (rest == Rest::automatic) found = arc_instead(body, principal, best, axis);
+    if (rest == RestPose::automatic) found = arc_instead(body, principal, best, axis);
     if (!found) found = measured(body, axis ? line : best);
     const Cylinder cylinder = cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);

@@ -88,6 +88,13 @@ double solve_square(const Surface& surface, std::span<const std::uint32_t> trian
     return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
 }
 
+/// Where in the body each vertex of the geometry is; empty where the order is the same.
+std::vector<std::uint32_t> places_in(std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> place(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+    return place;
+}
+
 /// The triangles that have two corners or more in the region, as vertices of the body.
 std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> place) {
@@ -121,7 +128,12 @@ public:
     }
 
     /// The body at rest.
-    void rest(std::vector<glm::vec3>& positions) { deform(0, positions); }
+    [[nodiscard]] Surface rest() {
+        Surface surface;
+        deform(0, surface.bare);
+        surface.wrinkle.resize(surface.bare.size());
+        return surface;
+    }
 
 private:
     void deform(float wrinkle_weight, std::vector<glm::vec3>& positions) {
@@ -227,6 +239,17 @@ private:
     std::vector<Slice> places_, slices_;  // of vertices; of triangles
 };
 
+/// A better factor for a slice that gains `gain` area by `factor` and is `missing` so much without a wrinkle.
+double next_factor(double factor, double gain, double missing, double area) {
+    constexpr double least_gain = 2e-3;  // of the area, below which a factor says nothing
+    if (missing <= 0) {
+        factor *= 0.5;
+    } else if (gain > least_gain * area) {
+        factor *= std::clamp(std::sqrt(missing / gain), 0.6, 1.4);  // area is nearly linear in the square
+    }
+    return std::clamp(factor, 0.0, most_slice);
+}
+
 /// The poses in which slices are to keep their area: far, but not as far as the body can be bent. One that is
 /// bent at rest is bent further.
 std::vector<bend::Pose> slice_poses(const bend::Body& body, std::size_t region) {
@@ -251,22 +274,17 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
                                   std::span<const std::uint32_t> order, std::span<const double> heights,
                                   std::size_t region, int folds) {
     constexpr int steps = 6;
-    constexpr double least_gain = 2e-3;  // of a slice's area, below which a factor says nothing
     // Two folds apart at least: a slice that is shorter than a fold would follow its crest and trough.
     const auto knots = static_cast<std::size_t>(std::clamp(folds / 2 + 1, 3, 13));
-    std::vector<std::uint32_t> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
     const std::vector<std::uint32_t> triangles =
-        triangles_of(body.regions()[region], geometry.triangles, place);
+        triangles_of(body.regions()[region], geometry.triangles, places_in(order));
     if (body.region_inputs()[region].table.empty() || triangles.empty()) return {};
     const SliceSolver solver(triangles, heights, body.region_inputs()[region].length, knots);
     std::vector<Surface> surfaces;
     const std::vector<double> none(knots, 0);
     std::vector<double> factors(knots, 1);
     Slices wanted(knots), bare(knots);
-    Surface at_rest;
-    Poser(body).rest(at_rest.bare);
-    at_rest.wrinkle.resize(at_rest.bare.size());
+    const Surface at_rest = Poser(body).rest();
     for (const bend::Pose& pose : slice_poses(body, region)) {
         Poser(body).bend(region, pose, surfaces.emplace_back());
         solver.add_areas(at_rest, none, wanted);
@@ -275,27 +293,16 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     for (int step = 0; step < steps; ++step) {
         Slices now(knots);
         for (const Surface& surface : surfaces) solver.add_areas(surface, factors, now);
-        for (std::size_t i = 0; i < knots; ++i) {
-            const double gain = now[i] - bare[i], missing = wanted[i] - bare[i];
-            if (missing <= 0) {
-                factors[i] *= 0.5;
-            } else if (gain > least_gain * wanted[i]) {
-                // Area is nearly linear in the square.
-                factors[i] *= std::clamp(std::sqrt(missing / gain), 0.6, 1.4);
-            }
-            factors[i] = std::clamp(factors[i], 0.0, most_slice);
-        }
+        for (std::size_t i = 0; i < knots; ++i)
+            factors[i] = next_factor(factors[i], now[i] - bare[i], wanted[i] - bare[i], wanted[i]);
     }
     return factors;
 }
 
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
                    std::span<bend::RegionInput> regions) {
-    std::vector<std::uint32_t> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
-    Surface at_rest;
-    Poser(body).rest(at_rest.bare);
-    at_rest.wrinkle.resize(at_rest.bare.size());
+    const std::vector<std::uint32_t> place = places_in(order);
+    const Surface at_rest = Poser(body).rest();
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const std::vector<std::uint32_t> triangles =
             triangles_of(body.regions()[r], geometry.triangles, place);

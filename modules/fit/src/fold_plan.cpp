@@ -11,7 +11,6 @@
 namespace goffer::fit {
 namespace {
 
-constexpr double rows_of_fold = 8;
 constexpr double longest = 2.5;  // radii of a fold that is too long for wrinkles
 constexpr double full = 1.5;     // radii of a fold up to which they have their depth
 constexpr int max_even_folds = 2 * BindOptions::max_folds;

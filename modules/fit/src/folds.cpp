@@ -17,8 +17,7 @@ namespace {
 constexpr int max_folds = 1 << 20;  // far beyond any use, well inside int
 
 constexpr std::size_t slices = 64;  // in which rows are looked at
-constexpr double rows_of_fold = 8;
-constexpr double rounding = 1e-3;  // a mesh of just enough rows has enough
+constexpr double rounding = 1e-3;   // a mesh of just enough rows has enough
 
 /// How far a triangle reaches along the axis, and its area.
 struct Reach {
@@ -84,23 +83,23 @@ double Rows::reach_at(double z) const {
     return std::max(slices_[i], slices_[std::min<std::size_t>(i + 1, slices - 1)]);
 }
 
-int Rows::even_folds(double low, double high) const {
+double Rows::even_folds(double low, double high) const {
     constexpr int steps = 64;
+    const double step = (high - low) / steps;
     double folds = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double step = (high - low) / steps;
+    for (int i = 0; i < steps; ++i)
         folds += step / (rows_of_fold * std::max(reach_at(low + (i + 0.5) * step), 1e-9 * length_));
-    }
+    return folds;
+}
+
+int Rows::folds(paper::Profile profile, double low, double high) const {
+    const bool even = profile.kind == paper::Profile::Kind::even;
+    const double folds = even ? even_folds(low, high) : (high - low) / (2 * rows_of_fold * reach_);
     return static_cast<int>(std::min<double>(folds * (1 + rounding), max_folds));
 }
 
-int Rows::folds(double length) const {
-    const double folds = (1 + rounding) * length / (2 * rows_of_fold * reach_);
-    return folds < max_folds ? static_cast<int>(folds) : max_folds;
-}
-
 int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
-    return Rows(geometry, cylinder).folds(cylinder.length);
+    return Rows(geometry, cylinder).folds(Profile::damped, 0, cylinder.length);
 }
 
 int sensible_folds(const Cylinder& cylinder, int capacity, std::optional<double> fold_length) {

@@ -18,8 +18,8 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int max_folds = 1 << 20;    // as folds_capacity
-constexpr int rows_per_stretch = 16;  // 8 a fold, folds per half length
+constexpr int max_folds = 1 << 20;                     // as folds_capacity
+constexpr double rows_per_stretch = 2 * rows_of_fold;  // folds per half length
 constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
 
 /// Heights counted in rows: a piecewise linear function, with its inverse.
@@ -28,7 +28,7 @@ public:
     explicit RowScale(std::span<const Stretch> stretches) {
         double z = 0, row = 0;
         for (const Stretch& stretch : stretches) {
-            const double rows = double{rows_per_stretch} * stretch.folds;
+            const double rows = rows_per_stretch * stretch.folds;
             pieces_.push_back({z, row, rows / stretch.length});
             z += stretch.length;
             row += rows;
@@ -269,14 +269,14 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
               double start, double length, std::optional<int> asked) {
     const bool round = cylinder.radii.empty() || has_one_radius(cylinder, options);
     const int pieces = round ? 1 : 64;
+    const paper::Spline radii(cylinder.length,
+                              round ? std::vector<double>(2, cylinder.radius) : cylinder.radii);
     const double step = length / pieces;
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     std::vector<double> folds;
     double sum = 0;
     for (int i = 0; i < pieces; ++i) {
-        const double z = start + (i + 0.5) * step;
-        const double radius = round ? cylinder.radius : paper::Spline(cylinder.length, cylinder.radii)(z);
-        folds.push_back(step / (in_radii * radius));
+        folds.push_back(step / (in_radii * radii(start + (i + 0.5) * step)));
         sum += folds.back();
     }
     // A body has a whole number of them.

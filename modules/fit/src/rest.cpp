@@ -82,20 +82,6 @@ bend::RestVector any_orthogonal(const bend::RestVector& n) {
     return {tangent.x, tangent.y, tangent.z};
 }
 
-/// g and dg/dz at a height of a region.
-struct WaveAt {
-    double shape, slope;
-};
-
-WaveAt wave_at(const RestRegion& region, paper::Profile profile, double z) {
-    if (region.shape)
-        return {region.shape->wave(profile, region.folds, z),
-                region.shape->wave_slope(profile, region.folds, z)};
-    const double u = std::min(std::fabs(2 * z / region.length - 1), 1.0);
-    return {paper::shape(profile, region.folds, u),
-            paper::shape_slope_z(profile, region.folds, region.length, z)};
-}
-
 /// The normals of a geometry: its own, or made ones where it has none or one without length.
 class Normals {
 public:
@@ -121,12 +107,12 @@ std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double ra
                                              const std::vector<double>& factors) {
     paper::Shape::Knots knots = region.shape ? region.shape->knots() : paper::Shape::Knots{};
     const std::size_t count = std::max<std::size_t>(knots.weight.size(), 49);
-    const paper::Spline by_height(region.length, factors);
+    const std::vector<double> own = knots.weight.empty() ? std::vector<double>{1, 1} : knots.weight;
+    const paper::Spline before(1, own), by_height(1, factors);
     std::vector<double> weight;
     for (std::size_t i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-        const double own = knots.weight.empty() ? 1 : paper::Spline(1, knots.weight)(share);
-        weight.push_back(std::max(own * by_height(share * region.length), 0.0));
+        weight.push_back(std::max(before(share) * by_height(share), 0.0));
     }
     knots.weight = std::move(weight);
     return std::make_shared<const paper::Shape>(region.length, radius, knots);
@@ -206,7 +192,7 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
         radius = region.shape->radius() * rest.scale;
     }
     if (region.folds == 0) return rest;
-    const auto [wave, slope] = wave_at(region, profile, z);
+    const auto [wave, slope] = paper::wave_at(region.shape.get(), profile, region.folds, region.length, z);
     const double weight = paper::depth_weight(at.rho, radius);
     const double weight_by_rho = at.rho > 1e-9 * radius ? weight / at.rho : 2 / radius;
     rest.wrinkle = weight_by_rho * wave;

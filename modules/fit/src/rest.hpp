@@ -78,22 +78,24 @@ private:
 /// Returns the region that holds height z; a joint belongs to the region that begins there.
 [[nodiscard]] std::size_t region_at(std::span<const RestRegion> regions, double z);
 
+/// Rows of vertices that a fold needs.
+inline constexpr double rows_of_fold = 8;
+
 /// How far apart a mesh's rows of vertices lie along its base.
 class Rows {
 public:
     Rows(const Geometry& geometry, const Cylinder& cylinder);
 
-    /// The most folds, per half length, that a stretch of `length` can carry (folds_capacity).
-    [[nodiscard]] int folds(double length) const;
-
-    /// The most folds that the heights from `low` to `high` can carry where each may have a length of its
-    /// own.
-    [[nodiscard]] int even_folds(double low, double high) const;
+    /// The most folds that the heights from `low` to `high` can carry, as `profile` counts them: those of
+    /// Profile::even may each have a length of its own (folds_capacity).
+    [[nodiscard]] int folds(paper::Profile profile, double low, double high) const;
 
     /// How far the coarsest triangles that count reach along z about height z.
     [[nodiscard]] double reach_at(double z) const;
 
 private:
+    [[nodiscard]] double even_folds(double low, double high) const;
+
     double length_;
     double reach_;                // of the coarsest triangles that count anywhere
     std::vector<double> slices_;  // of those in each of so many slices

@@ -98,10 +98,6 @@ std::vector<double> mean_radii(const Geometry& geometry, const Cylinder& cylinde
     return profiler.means();
 }
 
-double mean_of(double length, const std::vector<double>& values) {
-    return paper::Spline(length, values).integral(length) / length;
-}
-
 }  // namespace
 
 Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
@@ -111,9 +107,9 @@ Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
     plain.radii.clear();
     std::vector<double> radii = mean_radii(geometry, plain);
     if (radii.empty()) return plain;
-    const double raw_mean = mean_of(plain.length, radii);
+    const double raw_mean = paper::Spline(plain.length, radii).mean();
     for (double& radius : radii) radius = std::max(radius, floor_share * raw_mean);
-    const double mean = mean_of(plain.length, radii);
+    const double mean = paper::Spline(plain.length, radii).mean();
     double square = 0;
     for (const double radius : radii) square += (radius / mean - 1) * (radius / mean - 1);
     if (std::sqrt(square / static_cast<double>(radii.size())) < least_deviation) return plain;

@@ -175,27 +175,18 @@ ClosedForm::LocalShape ClosedForm::shape_at(const Cylindrical& rest) const {
     const double radius = at.scale * body_.radius, weight = depth_weight(rest.rho, radius);
     at.inner = rest.rho < radius / 2;
     if (!wave_) return at;
-    const double u = std::min(std::abs(2 * rest.z / body_.length - 1), 1.0);
-    const double wave = body_.shape ? body_.shape->wave(body_.profile, body_.folds, rest.z)
-                                    : shape(body_.profile, body_.folds, u);
-    const double slope = body_.shape ? body_.shape->wave_slope(body_.profile, body_.folds, rest.z)
-                                     : shape_slope_z(body_.profile, body_.folds, body_.length, rest.z);
+    const auto [wave, slope] = wave_at(body_.shape.get(), body_.profile, body_.folds, body_.length, rest.z);
     at.wave = wave * weight;
     at.wave_slope = slope * weight - (at.inner ? at.wave * at.scale_slope / at.scale : 0);
     at.wave_per_rho = weight_per_rho(rest.rho, radius) * wave;
     return at;
 }
 
-double ClosedForm::wrinkle(const Cylindrical& rest) const {
-    if (!wave_) return 0;
-    const LocalShape shape = shape_at(rest);
-    return column(rest.beta, shape.scale).amplitude * shape.wave;
-}
-
 glm::dvec3 ClosedForm::position(const Cylindrical& rest) const {
-    const Bend bend{body_.length, body_.radius, alpha_, theta_};
-    if (!body_.shape) return bend.position(rest, wrinkle(rest));
-    return bend.position({rest.beta, shape_at(rest).arc_z, rest.rho}, wrinkle(rest));
+    const LocalShape shape = shape_at(rest);
+    const double wrinkle = wave_ ? column(rest.beta, shape.scale).amplitude * shape.wave : 0;
+    return Bend{body_.length, body_.radius, alpha_, theta_}.position({rest.beta, shape.arc_z, rest.rho},
+                                                                     wrinkle);
 }
 
 ClosedForm::Local ClosedForm::local(const Cylindrical& rest) const {

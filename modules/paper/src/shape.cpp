@@ -120,16 +120,12 @@ Shape::Shape(double length, double radius, const Knots& knots)
                                          tiny, huge, "fold_length")),
       weight_(length, checked_range(values_or(knots.weight, 1), 0, 4, "weight")),
       round_(knots.radius.empty()),
-      mean_(round_ ? radius : radius_.integral(length) / length),
+      mean_(round_ ? radius : radius_.mean()),
       max_scale_(0) {
-    const Rule rule = gauss_legendre(8);
     const double step = length / fold_steps;
     folds_.push_back(0);
     for (int i = 0; i < fold_steps; ++i) {
-        double sum = 0;
-        for (std::size_t j = 0; j < rule.at.size(); ++j)
-            sum += rule.weight[j] / fold_length_(step * (i + rule.at[j]));
-        folds_.push_back(folds_.back() + step * sum);
+        folds_.push_back(folds_.back() + folds_between(step * i, step * (i + 1)));
         max_scale_ = std::max({max_scale_, scale(step * i), scale(step * (i + 1))});
     }
 }
@@ -154,16 +150,20 @@ double Shape::unshifted(double arc_z, double curvature) const {
     return z;
 }
 
+double Shape::folds_between(double low, double high) const {
+    static const Rule rule = gauss_legendre(8);
+    double sum = 0;
+    for (std::size_t i = 0; i < rule.at.size(); ++i)
+        sum += rule.weight[i] / fold_length_(low + (high - low) * rule.at[i]);
+    return (high - low) * sum;
+}
+
 double Shape::place(double z) const {
     const double length = radius_.length(), step = length / fold_steps;
     const double at = std::clamp(z, 0.0, length);
     const auto begun = std::min(static_cast<std::size_t>(at / step), folds_.size() - 2);
-    static const Rule rule = gauss_legendre(8);
-    const double rest = at - step * static_cast<double>(begun);
-    double sum = 0;
-    for (std::size_t j = 0; j < rule.at.size(); ++j)
-        sum += rule.weight[j] / fold_length_(at - rest * (1 - rule.at[j]));
-    return 2 * (folds_[begun] + rest * sum) / folds_.back() - 1;
+    const double folds = folds_[begun] + folds_between(step * static_cast<double>(begun), at);
+    return 2 * folds / folds_.back() - 1;
 }
 
 double Shape::depth(double z) const {
@@ -184,6 +184,12 @@ double Shape::wave_slope(Profile profile, int folds, double z) const {
     const double p = std::clamp(place(z), -1.0, 1.0), length = radius_.length();
     return weight_(z) * shape_slope_z(profile, folds, length, (p + 1) / 2 * length) +
            depth_slope(z) * shape(profile, folds, std::abs(p));
+}
+
+WaveAt wave_at(const Shape* shape, Profile profile, int folds, double length, double z) {
+    if (shape != nullptr) return {shape->wave(profile, folds, z), shape->wave_slope(profile, folds, z)};
+    const double u = std::min(std::abs(2 * z / length - 1), 1.0);
+    return {paper::shape(profile, folds, u), shape_slope_z(profile, folds, length, z)};
 }
 
 }  // namespace goffer::paper

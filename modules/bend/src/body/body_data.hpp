@@ -67,7 +67,6 @@ struct Bands {
 struct RegionData {
     SetupRegion setup = {};                ///< its rows are those of the input's table
     Squeeze squeeze = Squeeze::none;       ///< what makes its wrinkles
-    Squeeze bare = Squeeze::none;          ///< the kernels that serve instances without any
     const FactorTable* factors = nullptr;  ///< the input's
     Bands bands;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "body/body_data.hpp"
+#include "body/direction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -219,12 +220,6 @@ Squeeze squeeze_of(const RegionInput& region, bool shape) {
     return compares_with_rest(region) ? Squeeze::relative : straight;
 }
 
-/// Takes a direction to -pi..pi.
-float reduced(double direction) {
-    return static_cast<float>(
-        std::remainder(static_cast<double>(static_cast<float>(direction)), 2 * std::numbers::pi));
-}
-
 SetupRegion setup_of(const RegionInput& region, double radius, bool shape) {
     SetupRegion setup = {};
     setup.length = static_cast<float>(region.length);
@@ -235,7 +230,7 @@ SetupRegion setup_of(const RegionInput& region, double radius, bool shape) {
     setup.shaped = shape;
     setup.onset = static_cast<float>(region.onset);
     setup.rest_angle = static_cast<float>(region.rest_angle);
-    setup.rest_direction = reduced(region.rest_direction);
+    setup.rest_direction = wrapped_direction(static_cast<float>(region.rest_direction));
     if (region.table.empty()) return setup;
     setup.rows = reinterpret_cast<const float(*)[amplitude_terms]>(region.table.rows.front().data());
     setup.row_count = region.table.rows.size();
@@ -246,8 +241,8 @@ SetupRegion setup_of(const RegionInput& region, double radius, bool shape) {
 RegionData data_of(const Making& making, const RestColumns& columns) {
     const RegionInput& input = making.region;
     const bool shape = columns.scale != nullptr;
-    return {setup_of(input, making.radius, shape), squeeze_of(input, shape),
-            shape ? Squeeze::shaped : Squeeze::none, &input.factors, bands_of(columns, making)};
+    return {setup_of(input, making.radius, shape), squeeze_of(input, shape), &input.factors,
+            bands_of(columns, making)};
 }
 
 void add_region(BodyData& data, const Layout& layout, const Making& making,

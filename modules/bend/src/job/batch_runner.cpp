@@ -194,15 +194,15 @@ std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::s
 
 void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last) noexcept {
     if (first >= last) return;
-    if (plan_.has(Way::staged)) return deform_staged(member, Way::staged, first, last);
-    if (plan_.has(Way::records)) deform_records(member, first, last);
-    if (plan_.has(Way::rows)) deform_rows(member, first, last);
-    if (plan_.has(Way::planes)) deform_planes(member, first, last);
+    if (plan_.has(WriteMode::staged)) return deform_staged(member, WriteMode::staged, first, last);
+    if (plan_.has(WriteMode::records)) deform_records(member, first, last);
+    if (plan_.has(WriteMode::rows)) deform_rows(member, first, last);
+    if (plan_.has(WriteMode::planes)) deform_planes(member, first, last);
 }
 
 /// Kernels write the caller's planes. Past the cache, lines that regions share go through the stage.
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
-    each_stretch(member, Way::planes, first, last,
+    each_stretch(member, WriteMode::planes, first, last,
                  [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
                      const std::size_t set = set_of(pass.pass);
                      kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
@@ -212,9 +212,9 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
                  });
 }
 
-/// Kernels write the caller's records, in the same way.
+/// Kernels write the caller's records, likewise.
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
-    each_stretch(member, Way::records, first, last,
+    each_stretch(member, WriteMode::records, first, last,
                  [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
                      const Record& record = plan_.records()[pass.rows[0].record];
                      const std::size_t vertex = members_[member].vertex + begin;
@@ -228,11 +228,11 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
                  });
 }
 
-/// Calls deform(pass, region, begin, end) for each pass that goes the way `way`, and for each stretch of
+/// Calls deform(pass, region, begin, end) for each pass in the mode `mode`, and for each stretch of
 /// vertices of one region. Into the cache, a stretch is all of the region. Past the cache it is whole lines,
 /// except at `first` and `last`, and lines that regions share go through the stage.
 template <class Deform>
-void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, std::size_t last,
+void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {
     const bool non_temporal = plan_.non_temporal();
     std::size_t region = 0;
@@ -243,12 +243,12 @@ void BatchRunner::each_stretch(std::size_t member, Way way, std::size_t first, s
         const std::size_t end = whole ? region_end : line_before(member, region_end);
         if (!whole && end < first + min_direct) {
             const std::size_t joints = joints_end(member, region, first, last);
-            deform_staged(member, way, first, joints);
+            deform_staged(member, mode, first, joints);
             first = joints;
             continue;
         }
         for (const PassPlan& pass : plan_.passes())
-            if (pass.way == way) deform(pass, region, first, end);
+            if (pass.mode == mode) deform(pass, region, first, end);
         first = end;
     }
 }
@@ -279,7 +279,7 @@ void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t
         const std::size_t vertex = members_[member].vertex + first;
         strips_.begin(plan_, vertex);
         for (const PassPlan& pass : plan_.passes()) {
-            if (pass.way != Way::rows) continue;
+            if (pass.mode != WriteMode::rows) continue;
             const std::size_t set = set_of(pass.pass);
             each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
                 kernels_.row_kernel(squeezes(member, set)[region], pass.streams)(
@@ -292,12 +292,13 @@ void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t
     }
 }
 
-/// Kernels of all passes that go the way `way` write planes of the stage, which is then written out.
-void BatchRunner::deform_staged(std::size_t member, Way way, std::size_t first, std::size_t last) noexcept {
+/// Kernels of all passes in the mode `mode` write planes of the stage, which is then written out.
+void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t first,
+                                std::size_t last) noexcept {
     while (first < last) {
         const std::size_t end = block_end(member, first, last, stage_.capacity());
         for (const PassPlan& pass : plan_.passes()) {
-            if (pass.way != way) continue;
+            if (pass.mode != mode) continue;
             const std::size_t set = set_of(pass.pass);
             each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
                 kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
@@ -305,7 +306,7 @@ void BatchRunner::deform_staged(std::size_t member, Way way, std::size_t first, 
                     to - from, Write::staged);
             });
         }
-        stage_.write(plan_, kernels_, way, members_[member].vertex + first, end - first);
+        stage_.write(plan_, kernels_, mode, members_[member].vertex + first, end - first);
         first = end;
     }
 }

@@ -64,10 +64,10 @@ private:
     void deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept;
     template <class Deform>
-    void each_stretch(std::size_t member, Way way, std::size_t first, std::size_t last,
+    void each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                       const Deform& deform) noexcept;
     void deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept;
-    void deform_staged(std::size_t member, Way way, std::size_t first, std::size_t last) noexcept;
+    void deform_staged(std::size_t member, WriteMode mode, std::size_t first, std::size_t last) noexcept;
     [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
                                         std::size_t most) const noexcept;
     [[nodiscard]] RowOutput row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,

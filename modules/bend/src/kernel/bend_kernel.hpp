@@ -82,9 +82,9 @@ void store_signs(const Results<L> (&results)[batches<L>], float* out, std::size_
 /// Addresses of rows at equal distances, asked for in order. Computed in groups of four, each address as one
 /// register plus a small multiple of another.
 template <class L>
-class RowPlaces {
+class RowCursor {
 public:
-    RowPlaces(float* first, std::size_t stride) : at_(reinterpret_cast<std::byte*>(first)), stride_(stride) {}
+    RowCursor(float* first, std::size_t stride) : at_(reinterpret_cast<std::byte*>(first)), stride_(stride) {}
 
     /// The address of row `row`; call it for 0, 1, 2 and so on.
     float* operator()(std::size_t row) {
@@ -103,12 +103,12 @@ template <class L, bool whole, class Rows, class Store>
 void store_rows(const Results<L> (&results)[batches<L>], float* first, std::size_t stride, std::size_t count,
                 const Rows& rows, const Store& store) {
     using Single = typename L::Single;
-    RowPlaces<L> place(first, stride);
+    RowCursor<L> row_at(first, stride);
     std::size_t before = 0;
     for (std::size_t b = 0; b < batches<L>; ++b) {
         for (std::size_t part = 0; part < L::width / Single::width; ++part, before += Single::width) {
             rows(results[b], part, [&](std::size_t row, typename Single::Row values) {
-                float* const at = place(before + row);
+                float* const at = row_at(before + row);
                 if (whole || before + row < count) store(at, values);
             });
         }

@@ -117,21 +117,22 @@ OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_tem
     find_strips();
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
-        pass.way = set_planes(pass, batch) ? Way::planes
-                   : set_rows(pass, batch) ? way_of_rows(pass)
-                                           : Way::staged;
-        if (pass.way == Way::rows && !has_row_kernels(*batch.body->data())) pass.way = Way::staged;
-        staged |= pass.way == Way::staged;
+        pass.mode = set_planes(pass, batch) ? WriteMode::planes
+                    : set_rows(pass, batch) ? mode_of_rows(pass)
+                                            : WriteMode::staged;
+        if (pass.mode == WriteMode::rows && !has_row_kernels(*batch.body->data()))
+            pass.mode = WriteMode::staged;
+        staged |= pass.mode == WriteMode::staged;
     }
     if (staged) stage_all();
-    for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.way)] = true;
-    for (Record& record : std::span(records_, record_count_)) record.way = way_of(record);
+    for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.mode)] = true;
+    for (Record& record : std::span(records_, record_count_)) record.mode = mode_of(record);
     const auto lines = std::ranges::find_if(records(), &Record::in_lines);
     if (lines != records().end()) lines_ = &*lines;
 }
 
 void OutputPlan::stage_all() noexcept {
-    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.way = Way::staged;
+    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.mode = WriteMode::staged;
     for (Record& record : std::span(records_, record_count_)) {
         record.in_lines &= !record.has_gaps();
         record.in_strip = false;
@@ -141,26 +142,26 @@ void OutputPlan::stage_all() noexcept {
 /// Records without gaps are woven from planes in registers, which is faster than narrow stores: by the pass'
 /// own kernels if the record holds the values of the pass, in its order, and nothing else; otherwise from the
 /// stage.
-Way OutputPlan::way_of_rows(const PassPlan& pass) const noexcept {
-    Way way = Way::rows;
+WriteMode OutputPlan::mode_of_rows(const PassPlan& pass) const noexcept {
+    WriteMode mode = WriteMode::rows;
     for (const RowStream& stream : pass.rows) {
-        if (stream.first != nullptr && !records_[stream.record].has_gaps()) way = Way::staged;
+        if (stream.first != nullptr && !records_[stream.record].has_gaps()) mode = WriteMode::staged;
     }
-    if (way == Way::rows || has_tangents(pass)) return way;
+    if (mode == WriteMode::rows || has_tangents(pass)) return mode;
     const Record& record = records_[pass.rows[0].record];
     const bool alone = !record.has_gaps() && record.first == pass.rows[0].first &&
                        record.floats == values_of(pass.streams) &&
                        (!has_normals(pass) || pass.rows[1].first == record.first + 3);
-    return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? Way::records : way;
+    return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? WriteMode::records : mode;
 }
 
-/// Passes that share a record go the same way.
-Way OutputPlan::way_of(const Record& record) const noexcept {
-    Way way = Way::staged;
+/// Passes that share a record have the same mode.
+WriteMode OutputPlan::mode_of(const Record& record) const noexcept {
+    WriteMode mode = WriteMode::staged;
     for (const PassPlan& pass : passes()) {
-        if (pass.value <= components_[record.component].value) way = pass.way;
+        if (pass.value <= components_[record.component].value) mode = pass.mode;
     }
-    return way;
+    return mode;
 }
 
 /// Sorts the components by stride and address. Neighbors within a stride make a record.

@@ -10,7 +10,7 @@
 #include <span>
 
 /// What a batch writes and where, found once for all its instances: which passes of kernels compute it, where
-/// the values go in the caller's memory, and which way they get there.
+/// the values go in the caller's memory, and how they get there.
 
 namespace goffer::bend {
 
@@ -22,13 +22,13 @@ constexpr std::size_t pass_count = 3;
 constexpr std::size_t max_values = 16;
 
 /// How the values of a pass get to the caller's memory.
-enum class Way : std::uint8_t {
+enum class WriteMode : std::uint8_t {
     planes,   ///< kernels write the caller's planes
     records,  ///< kernels write the caller's records, which have no gaps and hold this pass alone
     rows,     ///< kernels write rows of the caller's records or of a strip
     staged,   ///< kernels write planes of a stage, which is then copied to the caller's memory
 };
-constexpr std::size_t way_count = 4;
+constexpr std::size_t write_mode_count = 4;
 
 /// Where one value of each vertex goes. (Has no initial values, nor has Record: plans hold more than they
 /// use.)
@@ -47,7 +47,7 @@ struct Record {
     bool in_lines;          ///< goes past the cache: it has no gaps, or gaps that may be overwritten
     bool in_strip;          ///< in_lines, and assembled in a strip
     std::size_t strip;      ///< where its strip begins in Strips, floats
-    Way way;                ///< the way of the passes that write it
+    WriteMode mode;         ///< that of the passes that write it
     std::size_t component;  ///< its components are [component, component_end)
     std::size_t component_end;
 
@@ -71,9 +71,10 @@ struct PassPlan {
     Pass pass = Pass::current;
     StreamSet streams = StreamSet::positions;
     std::size_t value = 0;    ///< index of its first value among those of all passes
-    PlaneOutput planes = {};  ///< for Way::planes, from vertex 0 on
-    RowStream rows[3] = {};   ///< for Way::rows and records: positions or packed words, normals, tangents
-    Way way = Way::staged;
+    PlaneOutput planes = {};  ///< for WriteMode::planes, from vertex 0 on
+    RowStream rows[3] =
+        {};  ///< for WriteMode::rows and records: positions or packed words, normals, tangents
+    WriteMode mode = WriteMode::staged;
 };
 
 class OutputPlan {
@@ -91,8 +92,8 @@ public:
     /// The number of values per vertex that all passes compute.
     [[nodiscard]] std::size_t value_count() const noexcept { return value_count_; }
     [[nodiscard]] bool non_temporal() const noexcept { return non_temporal_; }
-    /// Whether a pass goes that way. If one is staged, all are.
-    [[nodiscard]] bool has(Way way) const noexcept { return has_[static_cast<std::size_t>(way)]; }
+    /// Whether a pass is written in that mode. If one is staged, all are.
+    [[nodiscard]] bool has(WriteMode mode) const noexcept { return has_[static_cast<std::size_t>(mode)]; }
     /// The number of vertices from vertex `vertex` of the buffer to the first one that begins a cache line,
     /// in the first plane or record that is written as whole lines. 0 if there is no such plane, record or
     /// vertex.
@@ -108,8 +109,8 @@ private:
     template <std::size_t N>
     [[nodiscard]] bool set_rows(RowStream& rows, const Stream<N>& stream) const noexcept;
     [[nodiscard]] bool set_rows(PassPlan& pass, const Batch& batch) const noexcept;
-    [[nodiscard]] Way way_of_rows(const PassPlan& pass) const noexcept;
-    [[nodiscard]] Way way_of(const Record& record) const noexcept;
+    [[nodiscard]] WriteMode mode_of_rows(const PassPlan& pass) const noexcept;
+    [[nodiscard]] WriteMode mode_of(const Record& record) const noexcept;
 
     PassPlan passes_[pass_count];
     std::size_t pass_count_ = 0;
@@ -119,7 +120,7 @@ private:
     std::size_t record_count_ = 0;
     std::size_t value_count_ = 0;
     bool non_temporal_ = false;
-    bool has_[way_count] = {};
+    bool has_[write_mode_count] = {};
     const Record* lines_ = nullptr;  // the first record that is written as whole lines
 };
 

@@ -22,10 +22,10 @@ PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noex
     return out;
 }
 
-void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
-                          std::size_t count) const noexcept {
+void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode,
+                          std::size_t vertex, std::size_t count) const noexcept {
     for (const Record& record : plan.records()) {
-        if (record.way != way) continue;
+        if (record.mode != mode) continue;
         const std::span<const Component> components = plan.components(record);
         if (record.plane()) {
             kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,

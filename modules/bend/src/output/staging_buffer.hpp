@@ -24,8 +24,8 @@ public:
     [[nodiscard]] PlaneOutput output(const PassPlan& pass, std::size_t vertex) noexcept;
 
     /// Writes the first `count` vertices of the block to the caller's buffer, from its vertex `vertex` on:
-    /// the values of passes that go the way `way`.
-    void write(const OutputPlan& plan, const KernelSet& kernels, Way way, std::size_t vertex,
+    /// the values of passes in the mode `mode`.
+    void write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode, std::size_t vertex,
                std::size_t count) const noexcept;
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pose/center_places.hpp"
+#include "pose/center_samples.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -43,12 +43,12 @@ struct BezierStretch {
         const float bend = begin_pace + end_pace - 2;
         return along * (splat(begin_pace) + along * (splat(1 - begin_pace - bend) + along * splat(bend)));
     }
-    /// The vectors from four places of the region, those of places.arc_x[i], to `point`.
-    [[nodiscard]] static Vec3x4 away(const Vec3x4& point, const CenterPlaces& places, int i) noexcept {
+    /// The vectors from four samples of the region, those of samples.arc_x[i], to `point`.
+    [[nodiscard]] static Vec3x4 away(const Vec3x4& point, const CenterSamples& samples, int i) noexcept {
         Vec3x4 away;
         for (int c = 0; c < 3; ++c) {
-            away.c[c] = point.c[c] - places.arc_x[i] * splat(places.across[c]) -
-                        places.arc_z[i] * splat(places.onward[c]);
+            away.c[c] = point.c[c] - samples.arc_x[i] * splat(samples.across[c]) -
+                        samples.arc_z[i] * splat(samples.onward[c]);
         }
         return away;
     }
@@ -98,9 +98,9 @@ public:
         const double t = at(gone_ + ahead).t;
         return t > 0 ? slope(t) : first_;
     }
-    /// Moves on by the length of a region. Returns the largest squared distance of its places from the path,
+    /// Moves on by the length of a region. Returns the largest squared distance of its samples from the path,
     /// which is searched along the region and for about its length before and behind it.
-    [[nodiscard]] double go(const CenterPlaces& places) noexcept;
+    [[nodiscard]] double advance(const CenterSamples& samples) noexcept;
 
 private:
     static constexpr int pieces = 16;  // equal in the parameter
@@ -117,7 +117,7 @@ private:
     [[nodiscard]] glm::dvec3 slope(double t) const noexcept {
         return t > 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
-    [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterPlaces& places) const noexcept;
+    [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterSamples& samples) const noexcept;
 
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
@@ -177,40 +177,40 @@ inline Bezier::Place Bezier::at(double length) noexcept {
     return {t, (from + x * (2 * square + 3 * x * cubic)) * (per_whole / pieces)};
 }
 
-inline BezierStretch Bezier::stretch_to(const Place& to, const CenterPlaces& places) const noexcept {
-    const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / places.length;
+inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& samples) const noexcept {
+    const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / samples.length;
     const double t = std::min(here_.t, 1.0), left = std::max(1 - here_.t, 0.0) * per_span;
     BezierStretch stretch;
-    stretch.from.set(glm::vec3(unit * (point(t) - places.begin)));
+    stretch.from.set(glm::vec3(unit * (point(t) - samples.begin)));
     stretch.linear.set(glm::vec3(unit * span * slope(t)));
     stretch.square.set(glm::vec3(unit * span * span * (square_ + 3.0 * t * cubic_)));
     stretch.cubic.set(glm::vec3(unit * span * span * span * cubic_));
-    stretch.begin_pace = static_cast<float>(std::min(here_.pace * places.length * per_span, 3.0));
-    stretch.end_pace = static_cast<float>(std::min(to.pace * places.length * per_span, 3.0));
+    stretch.begin_pace = static_cast<float>(std::min(here_.pace * samples.length * per_span, 3.0));
+    stretch.end_pace = static_cast<float>(std::min(to.pace * samples.length * per_span, 3.0));
     stretch.least = splat(static_cast<float>(std::max(-t * per_span, -1.0)));
     stretch.most = splat(static_cast<float>(std::min(left, 2.0)));
     stretch.ends = left < 2;
     if (stretch.ends) {
-        stretch.end.set(glm::vec3(unit * (point(1) - places.begin)));
+        stretch.end.set(glm::vec3(unit * (point(1) - samples.begin)));
         stretch.onward.set(glm::vec3(unit * span * onward_));
     }
     return stretch;
 }
 
-inline double Bezier::go(const CenterPlaces& places) noexcept {
+inline double Bezier::advance(const CenterSamples& samples) noexcept {
     constexpr int max_steps = 4;
     // Steps this small end the search: the error that remains is about their square.
     constexpr float near = 0.004f;
-    constexpr int fours = CenterPlaces::fours;
-    gone_ += places.length;
+    constexpr int fours = CenterSamples::fours;
+    gone_ += samples.length;
     const Place to = at(gone_);
-    const BezierStretch stretch = stretch_to(to, places);
+    const BezierStretch stretch = stretch_to(to, samples);
     here_ = to;
     Vec3x4 seen[fours];
     Float4 feet[fours], squares[fours];
     for (int i = 0; i < fours; ++i) {
         const Float4 shares = {0.0625f, 0.125f, 0.1875f, 0.25f};
-        seen[i] = stretch.away(stretch.from, places, i);
+        seen[i] = stretch.away(stretch.from, samples, i);
         feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
     }
     Float4 moved = splat(1);
@@ -226,10 +226,10 @@ inline double Bezier::go(const CenterPlaces& places) noexcept {
     Float4 worst = splat(0);
     for (int i = 0; i < fours; ++i) {
         if (stretch.ends)
-            squares[i] = min(squares[i], stretch.from_line(stretch.away(stretch.end, places, i)));
+            squares[i] = min(squares[i], stretch.from_line(stretch.away(stretch.end, samples, i)));
         worst = max(worst, squares[i]);
     }
-    return places.length * places.length * static_cast<double>(largest(worst));
+    return samples.length * samples.length * static_cast<double>(largest(worst));
 }
 
 }  // namespace goffer::bend

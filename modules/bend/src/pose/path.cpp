@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "body/body_data.hpp"
 #include "pose/bezier.hpp"
-#include "pose/center_places.hpp"
+#include "pose/center_samples.hpp"
 #include "pose/polyline.hpp"
 
 #include <goffer/bend/path.hpp>
@@ -52,25 +52,25 @@ Turn turn_toward(const glm::dmat3& axes, const dvec3& heading, double most) noex
 }
 
 /// A frame that moves along the body's center line.
-struct Way {
+struct MovingFrame {
     dvec3 point;
     glm::dmat3 axes;
 };
 
-/// Moves to the end of a region whose center line has `length` and bends by `turn`. Returns the places
+/// Moves to the end of a region whose center line has `length` and bends by `turn`. Returns the samples
 /// between.
-CenterPlaces go(Way& way, const Turn& turn, double length) noexcept {
-    const dvec3 n = turn.cosine * way.axes[0] + turn.sine * way.axes[1];
-    const dvec3 b = turn.cosine * way.axes[1] - turn.sine * way.axes[0];
-    const dvec3 t = way.axes[2];
+CenterSamples advance(MovingFrame& frame, const Turn& turn, double length) noexcept {
+    const dvec3 n = turn.cosine * frame.axes[0] + turn.sine * frame.axes[1];
+    const dvec3 b = turn.cosine * frame.axes[1] - turn.sine * frame.axes[0];
+    const dvec3 t = frame.axes[2];
     const Arc arc(turn.angle);
-    const CenterPlaces places(way.point, length, n, t, arc);
+    const CenterSamples samples(frame.point, length, n, t, arc);
     const double sine = arc.sine[Arc::doublings], versine = arc.versine[Arc::doublings];
     const dvec3 turned_n = n - versine * n - sine * t;
-    way.axes = {turn.cosine * turned_n - turn.sine * b, turn.sine * turned_n + turn.cosine * b,
-                t + sine * n - versine * t};
-    way.point += length / arc.angle * (versine * n + sine * t);
-    return places;
+    frame.axes = {turn.cosine * turned_n - turn.sine * b, turn.sine * turned_n + turn.cosine * b,
+                  t + sine * n - versine * t};
+    frame.point += length / arc.angle * (versine * n + sine * t);
+    return samples;
 }
 
 /// An approximation of the angle from the axis of `axes` to `heading`, at most `most`: within a hundredth of
@@ -109,10 +109,10 @@ PathFit no_fit(std::span<Pose> poses) noexcept {
     return {.error = std::numeric_limits<float>::infinity()};
 }
 
-glm::mat4x3 transform_to(const Way& way, const Body& body) noexcept {
-    const glm::dmat3 turn = way.axes * glm::transpose(body.axes());
+glm::mat4x3 transform_to(const MovingFrame& frame, const Body& body) noexcept {
+    const glm::dmat3 turn = frame.axes * glm::transpose(body.axes());
     glm::mat4x3 transform{glm::mat3(turn)};
-    transform[3] = glm::vec3(way.point - turn * body.origin());
+    transform[3] = glm::vec3(frame.point - turn * body.origin());
     return transform;
 }
 
@@ -120,8 +120,8 @@ template <class Path>
 PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
     const dvec3 heading = path.heading(0);
     if (heading == dvec3(0)) return straight(body, path.start(), poses);
-    Way way{path.start(), turned_to(body.axes(), glm::normalize(heading))};
-    PathFit fit{.transform = transform_to(way, body)};
+    MovingFrame frame{path.start(), turned_to(body.axes(), glm::normalize(heading))};
+    PathFit fit{.transform = transform_to(frame, body)};
     double farthest = 0, share = 1;  // share: center line / length of the last region
     const std::span<const Region> regions = body.regions();
     const BodyData& data = *body.data();
@@ -131,12 +131,12 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
         const double radius = radius_of(data.inputs[r], data.radius);
         double ahead = share * length;
         for (int steps = r == 0 ? 2 : 1; steps > 0; --steps)
-            ahead = end_of_region(path, way.axes, ahead, length, radius, most);
-        const Turn turn = turn_toward(way.axes, path.heading(ahead), most);
+            ahead = end_of_region(path, frame.axes, ahead, length, radius, most);
+        const Turn turn = turn_toward(frame.axes, path.heading(ahead), most);
         poses[r] = {static_cast<float>(turn.angle), static_cast<float>(std::atan2(turn.sine, turn.cosine))};
         fit.clamped = fit.clamped || turn.clamped;
         const double center = length - turn.angle * radius;
-        farthest = std::max(farthest, path.go(go(way, turn, center)));
+        farthest = std::max(farthest, path.advance(advance(frame, turn, center)));
         share = center / length;
     }
     fit.error = static_cast<float>(std::sqrt(farthest));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pose/center_places.hpp"
+#include "pose/center_samples.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -31,10 +31,10 @@ public:
         while (!is_last(at) && (at.end < gone_ + ahead || at.square == 0)) at = next(at);
         return at.step;
     }
-    /// Moves on by the length of a region. Returns the largest squared distance of its places from the path.
+    /// Moves on by the length of a region. Returns the largest squared distance of its samples from the path.
     /// The foot of each place is searched near that of the place before it and up to half a region beyond, so
     /// each piece is looked at for a few places only.
-    [[nodiscard]] double go(const CenterPlaces& places) noexcept;
+    [[nodiscard]] double advance(const CenterSamples& samples) noexcept;
 
 private:
     /// From a point to the next.
@@ -96,16 +96,16 @@ inline Polyline::Foot Polyline::foot(const glm::dvec3& place, double ahead) cons
     return nearest;
 }
 
-inline double Polyline::go(const CenterPlaces& places) noexcept {
-    const double step = places.length / CenterPlaces::count;
+inline double Polyline::advance(const CenterSamples& samples) noexcept {
+    const double step = samples.length / CenterSamples::count;
     double farthest = 0;
-    for (int i = 0; i < CenterPlaces::count; ++i) {
-        move(near_, gone_ + i * step - places.length);
-        const Foot nearest = foot(places[i], 8 * step);
+    for (int i = 0; i < CenterSamples::count; ++i) {
+        move(near_, gone_ + i * step - samples.length);
+        const Foot nearest = foot(samples[i], 8 * step);
         farthest = std::max(farthest, nearest.square);
         move(near_, nearest.along - 2 * step);
     }
-    gone_ += places.length;
+    gone_ += samples.length;
     move(here_, gone_);
     return farthest;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pose/posed_group.hpp"
 
+#include "body/direction.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -8,24 +10,6 @@
 
 namespace goffer::bend {
 namespace {
-
-/// Takes a finite direction to -pi..pi.
-float reduced(float direction) noexcept {
-    constexpr float half_turn = std::numbers::pi_v<float>;
-    if (std::fabs(direction) <= half_turn) [[likely]]
-        return direction;
-    constexpr double turn = 2 * std::numbers::pi;
-    const double value = static_cast<double>(direction);
-    double rest = 0;
-    if (std::fabs(direction) < 1e9f) {
-        const double turns = value * (1 / turn);
-        const auto whole = static_cast<long long>(turns + (turns < 0 ? -0.5 : 0.5));
-        rest = (turns - static_cast<double>(whole)) * turn;
-    } else {
-        rest = std::remainder(value, turn);
-    }
-    return std::clamp(static_cast<float>(rest), -half_turn, half_turn);
-}
 
 bool finite(std::span<const Pose> poses) noexcept {
     float sum = 0;  // x * 0 is 0 if x is finite, else NaN
@@ -113,7 +97,7 @@ void PosedGroup::set_poses(std::size_t region) noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
         const Pose pose = region < pose_count_[i] ? poses_[i][region] : limits.rest;
         columns_.angle[i] = pose.angle;
-        columns_.direction[i] = reduced(pose.direction);
+        columns_.direction[i] = wrapped_direction(pose.direction);
         columns_.factor[i] = weight_[i];
         wrinkled_[i] = has_table && weight_[i] > 0;
         if (factors.empty() || !wrinkled_[i]) continue;
@@ -131,7 +115,7 @@ void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) n
                         c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
     }
     squeeze_ = details.squeeze;
-    bare_ = details.bare;
+    bare_ = details.setup.shaped ? Squeeze::shaped : Squeeze::none;
     set_poses(region);
     setup_(details.setup, columns_, count_, wrinkled_, k, step);
 }

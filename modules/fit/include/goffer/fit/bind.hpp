@@ -64,7 +64,7 @@ struct BindOptions {
     std::optional<double> onset = {};
 
     /// Returns the options with which bodies bend as in the paper: Profile::damped, Amplitude::paper, one
-    /// radius, no onset. A base that is bent at rest stays so: fit it with Rest::straight.
+    /// radius, no onset. A base that is bent at rest stays so: fit it with RestPose::straight.
     [[nodiscard]] static BindOptions as_in_paper();
 
     static constexpr int max_folds = 64;
@@ -120,8 +120,8 @@ struct Binding {
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
-/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest, has radii or an onset
-/// (use Amplitude::mesh).
+/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset (use
+/// Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
 /// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the

@@ -32,7 +32,7 @@ struct Cylinder {
 };
 
 /// What fit_cylinder may take for a body's shape at rest.
-enum class Rest {
+enum class RestPose {
     automatic,  ///< an arc where one fits clearly better than a straight line
     straight    ///< a straight line, whatever the body
 };
@@ -49,13 +49,13 @@ public:
 /// signed so that its largest component is positive. `zero` of the result is the world axis that is most
 /// nearly orthogonal to its `axis` (x before y before z where they tie), made orthogonal.
 ///
-/// With Rest::automatic the center line may be an arc: rest_angle is then below 2 pi and below length /
+/// With RestPose::automatic the center line may be an arc: rest_angle is then below 2 pi and below length /
 /// (2 radius), rest_direction (-pi..pi) is where it bends toward, and `residual` is measured about the arc.
 /// The direction from base to tip is that of the arc's chord, which is found; an `axis` that is given decides
 /// which end is the base. An arc is taken if its sections are circles about it within 0.3 of the radius, or
 /// 0.2 beyond a half turn, and within 0.8 of what they are about the best straight line (rms of rho within
 /// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; and if a given
-/// `axis` is within about 45 degrees of its chord. Otherwise the result is that of Rest::straight, and
+/// `axis` is within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and
 /// rest_angle is exactly 0.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
@@ -65,7 +65,7 @@ public:
 /// given and the mesh has no long one, the mesh has no surface around the axis or no extent along it, or the
 /// body is too thin for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
-                                    Rest rest = Rest::automatic);
+                                    RestPose rest = RestPose::automatic);
 
 /// Returns `cylinder` with the radii that the mesh has along it, and with their mean as its radius: the
 /// area-weighted mean distance from the axis, smoothed over half a radius, at least a fifth of the mean. The

@@ -93,7 +93,6 @@ private:
     [[nodiscard]] LocalShape shape_at(const Cylindrical& rest) const;
     [[nodiscard]] Depth column(double beta, double scale) const;
     [[nodiscard]] Depth relative_column(double beta, double scale) const;  // with a rest arc, or an onset
-    [[nodiscard]] double wrinkle(const Cylindrical& rest) const;
 
     Parameters body_;
     double alpha_ = 0;

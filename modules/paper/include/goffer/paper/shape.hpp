@@ -25,6 +25,9 @@ public:
     [[nodiscard]] double slope(double z) const;
     [[nodiscard]] double integral(double z) const;
 
+    /// Returns the mean over the length.
+    [[nodiscard]] double mean() const { return sums_.back() / length_; }
+
     [[nodiscard]] double length() const { return length_; }
 
 private:
@@ -83,6 +86,8 @@ public:
     [[nodiscard]] double depth(double z) const;
 
 private:
+    /// The integral of 1 / fold_length from `low` to `high`.
+    [[nodiscard]] double folds_between(double low, double high) const;
     /// Where z is in the count of folds: -1 at z = 0, 1 at the end.
     [[nodiscard]] double place(double z) const;
     [[nodiscard]] double depth_slope(double z) const;
@@ -93,5 +98,14 @@ private:
     double mean_, max_scale_;
     std::vector<double> folds_;  // integrals of 1 / fold_length from 0 to equal steps
 };
+
+/// The shape g of a wrinkle at a height, and dg/dz.
+struct WaveAt {
+    double shape, slope;
+};
+
+/// Returns g and dg/dz at height z of a region of `length`: of its own shape, or of one length of folds where
+/// `shape` is null.
+[[nodiscard]] WaveAt wave_at(const Shape* shape, Profile profile, int folds, double length, double z);
 
 }  // namespace goffer::paper

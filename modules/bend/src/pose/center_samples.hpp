@@ -37,18 +37,18 @@ struct Arc {
     }
 };
 
-/// Sixteen places at equal steps along a region's center line, the last of them at its end.
-struct CenterPlaces {
+/// Sixteen samples at equal steps along a region's center line, the last of them at its end.
+struct CenterSamples {
     static constexpr int fours = 4, count = 4 * fours;
 
     glm::dvec3 begin;                   // where the region begins
     double length;                      // of the center line
     glm::vec3 across, onward;           // at the beginning: toward the arc's center, and along the axis
-    Float4 arc_x[fours], arc_z[fours];  // the places along `across` and `onward`, in units of `length`
+    Float4 arc_x[fours], arc_z[fours];  // the samples along `across` and `onward`, in units of `length`
 
-    /// Adds angles by the addition theorems: the first four places, then twice as many in each step.
-    CenterPlaces(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
-                 const Arc& arc) noexcept
+    /// Adds angles by the addition theorems: the first four samples, then twice as many in each step.
+    CenterSamples(const glm::dvec3& from, double whole, const glm::dvec3& n, const glm::dvec3& t,
+                  const Arc& arc) noexcept
         : begin(from), length(whole), across(n), onward(t) {
         const auto angle = static_cast<float>(arc.angle);
         const double per_angle = 1 / arc.angle;
