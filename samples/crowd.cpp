@@ -110,7 +110,9 @@ void run(const std::filesystem::path& model_file, const std::filesystem::path& f
     const mesh::Mesh model = mesh::load(model_file);
     const mesh::VertexArrays rest = mesh::vertex_arrays(model);
     const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals};
-    const fit::Binding binding = fit::bind(geometry, fit::fit_cylinder(geometry));
+    fit::BindOptions options;
+    options.wrinkle_range = {0, 0.72};  // faces stay smooth
+    const fit::Binding binding = fit::bind(geometry, fit::fit_cylinder(geometry), options);
     const mesh::Mesh all = merge(model, deform(binding.body, make_worms()));
     view::Camera camera;
     camera.toward = {-0.25f, -0.6f, -0.75f};

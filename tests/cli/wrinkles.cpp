@@ -75,6 +75,40 @@ TEST_CASE("wrinkles: round crests are others") {
         CHECK_FALSE((bent(folder, "base.ply", {"--profile", "even", "--roundness", roundness}) == usual));
 }
 
+TEST_CASE("wrinkles: a part of the body stays smooth, and the report says at what cost") {
+    const Folder folder;
+    base(folder);
+    const Words words{"bend", "base.ply", "-o", "out.ply"};
+    const auto ends = [&](const Words& more) {
+        well(folder, words + more);
+        const mesh::Mesh bent = mesh::load(folder / "out.ply"), rest = mesh::load(folder / "base.ply");
+        mesh::Mesh below;
+        for (std::size_t i = 0; i < rest.positions.size(); ++i) {
+            if (rest.positions[i].z > 7) below.positions.push_back(bent.positions[i]);
+        }
+        return below;
+    };
+    const Words range{"--wrinkle-range", "0,0.7"};
+    CHECK(farthest(ends(range), ends({"--folds", "0"})) < 1e-5);
+    CHECK(farthest(ends({}), ends({"--folds", "0"})) > 0.05);
+    const json all = report(folder, words + range);
+    CHECK(all["wrinkle_range"]["last"] == 0.7);
+    CHECK(std::abs(all["wrinkle_range"]["area_change_inside"].get<double>()) < 1e-3);
+    // A bare bend takes alpha r / L.
+    CHECK(all["wrinkle_range"]["area_change_outside"].get<double>() == doctest::Approx(-0.157).epsilon(0.1));
+    CHECK_FALSE(report(folder, words).contains("wrinkle_range"));
+    const std::string said = well(folder, words + range);
+    CHECK(said.find("\nwrinkle range     0 to 0.7 of the length: area ") != said.npos);
+}
+
+TEST_CASE("wrinkles: a range that is too short for folds is named") {
+    const Folder folder;
+    base(folder);
+    const Result result = run(folder, {"bend", "base.ply", "-o", "out.ply", "--wrinkle-range", "0.5,0.55"});
+    CHECK(result.code == 0);
+    CHECK(result.err.find("--wrinkle-range leaves") != result.err.npos);
+}
+
 TEST_CASE("wrinkles: a body is as thick as it is, and its report can be read again") {
     const std::filesystem::path file = model("wine_bottle.glb");
     if (file.empty()) return;

@@ -112,6 +112,24 @@ void warn_of_foreign_fit(Report& report, const BoundModel& model) {
                 " % of the length of --fit; is it the fit of this model?");
 }
 
+/// What it costs that a part of the body stays smooth.
+void report_range(Report& report, const Request& request, const BoundModel& model,
+                  std::span<const glm::vec3> positions) {
+    const auto [first, last] = request.bind.options.wrinkle_range;
+    const fit::Geometry rest{model.rest.positions, model.rest.triangles};
+    const std::vector<std::uint32_t> within = fit::triangles_within(rest, model.cylinder, {first, last});
+    const double inside = fit::surface_area(rest.positions, within);
+    const double outside = fit::surface_area(rest.positions, rest.triangles) - inside;
+    const double bent_inside = fit::surface_area(positions, within);
+    const double bent_outside = fit::surface_area(positions, rest.triangles) - bent_inside;
+    const double change = inside > 0 ? bent_inside / inside - 1 : 0;
+    const double cost = outside > 0 ? bent_outside / outside - 1 : 0;
+    report.json["wrinkle_range"] = {
+        {"first", first}, {"last", last}, {"area_change_inside", change}, {"area_change_outside", cost}};
+    report.line("wrinkle range", number(first) + " to " + number(last) + " of the length: area " +
+                                     percent(change) + " there, " + percent(cost) + " elsewhere");
+}
+
 void report_bend(Report& report, const Request& request, const BoundModel& model,
                  const std::vector<Target>& targets, const Deformed& bent, double area_before) {
     const fit::Binding& binding = model.binding;
@@ -134,6 +152,8 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
 
     report.line("area change", percent(area_after / area_before - 1) + " of the mesh" +
                                    (base_change ? ", " + percent(*base_change) + " of its base" : ""));
+    if (!request.bind.options.wrinkle_range.whole())
+        report_range(report, request, model, bent.records.positions);
     report.line("time", number(binding.milliseconds) + " ms to bind, " + number(bent.microseconds) +
                             " us to deform (" + std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");

@@ -23,6 +23,14 @@ BindWords spelled_out(BindWords words) {
     return words;
 }
 
+fit::WrinkleRange parse_wrinkle_range(const std::string& text) {
+    const std::vector<double> shares = read_numbers("--wrinkle-range", text);
+    if (shares.size() != 2 || !(shares[0] >= 0 && shares[0] < shares[1] && shares[1] <= 1))
+        throw UsageError("--wrinkle-range: '" + text +
+                         "' is not a stretch of the body; give two shares of its length, as in 0.1,0.8");
+    return {shares[0], shares[1]};
+}
+
 /// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
 std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& model) {
     options.folds.reset();
@@ -37,8 +45,14 @@ std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& mode
 
 /// What to say of a region that nobody asked a number of folds for, of which it has fewer than the `wanted`
 /// ones that would suit it. Empty: nothing.
-std::string too_few(const fit::RegionBinding& region, int wanted, bool even) {
+std::string too_few(const fit::RegionBinding& region, int wanted, bool even, bool ranged) {
     const std::string mend = "; use a finer mesh, which goffer refine makes";
+    if (ranged) {
+        return region.folds > 0 || wanted == 0
+                   ? ""
+                   : "bent without wrinkles: what --wrinkle-range leaves of it is too short to fade them in, "
+                     "or too coarse";
+    }
     if (even && region.folds == 0 && region.folds_capacity >= wanted)
         return "bent without wrinkles: in so long a body folds would be longer than 2.5 radii; cut it into "
                "--regions";
@@ -117,6 +131,10 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         ->excludes(command.get_option("--profile"))
         ->excludes(command.get_option("--shape"))
         ->excludes(command.get_option("--amplitude"));
+    command.add_option(
+        "--wrinkle-range", words.wrinkle_range,
+        "Wrinkle this stretch of the body alone, A,B as shares of its length from base to tip, "
+        "as in 0.1,0.8 (default: all of it)");
     command
         .add_option("--onset", words.onset,
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
@@ -146,6 +164,7 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
     options.profile = parse_profile(words.profile);
     options.profile.roundness = words.roundness;
     options.fold_length = words.fold_length;
+    if (words.wrinkle_range) options.wrinkle_range = parse_wrinkle_range(*words.wrinkle_range);
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
     refine = words.refine.empty() ? "on" : words.refine;
     if (refine == "on" && words.folds == "0")
@@ -194,7 +213,9 @@ void warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
     const std::vector<int> wanted = suitable_folds(request.options, model);
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());
-        const std::string few = asked || none ? "" : too_few(binding.regions[r], wanted[r], even);
+        const std::string few = asked || none ? ""
+                                              : too_few(binding.regions[r], wanted[r], even,
+                                                        !request.options.wrinkle_range.whole());
         if (asked && binding.folds(r) > binding.folds_capacity(r)) {
             const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
             report.warn(which + "the mesh has vertices for " +

@@ -28,6 +28,7 @@ struct BindWords {
     double roundness = 0.25;
     std::string shape = "auto";
     bool paper = false;  ///< as the paper has it
+    std::optional<std::string> wrinkle_range = {};
     std::string axis = "auto";
     std::string rest = "auto";
     std::optional<double> onset = {};
@@ -37,8 +38,8 @@ struct BindWords {
 /// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
-/// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --onset, --axis and
-/// --rest. `words` must outlive `command`.
+/// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --wrinkle-range,
+/// --onset, --axis and --rest. `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.

@@ -17,13 +17,24 @@
 namespace goffer::fit {
 namespace {
 
+void check(const WrinkleRange& range) {
+    if (range.first >= 0 && range.first < range.last && range.last <= 1) return;
+    throw Error("wrinkle range: " + text(range.first) + " to " + text(range.last) +
+                " is not a stretch of the body; give two shares of its length, such as 0 and 0.8");
+}
+
 void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     if (!options.regions.empty()) fit::check(options.regions);
     if (!(onset >= 0 && onset <= 1))
         throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
-    if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0)) {
+    check(options.wrinkle_range);
+    const bool whole = options.wrinkle_range.whole();
+    if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +
-                    (onset != 0 ? "with an onset" : "that is bent at rest") + "; use mesh");
+                    (onset != 0 ? "with an onset"
+                     : whole    ? "that is bent at rest"
+                                : "with a wrinkle range") +
+                    "; use mesh");
     }
 }
 
@@ -44,6 +55,15 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
         FoldPlan plan = plan_folds(cylinder, rows, options, start, stretch.length, asked);
         rest.push_back({start, stretch.length, plan.folds, plan.shape});
         found.push_back({stretch.length, plan.folds, capacity, std::move(plan.shape)});
+        if (even && !options.wrinkle_range.whole()) {
+            // Any mesh will do where it stays smooth.
+            const double low = std::max(options.wrinkle_range.first * cylinder.length, start);
+            const double high =
+                std::min(options.wrinkle_range.last * cylinder.length, start + stretch.length);
+            const double smooth = 1 - std::max(high - low, 0.0) / stretch.length;
+            found.back().folds_capacity = static_cast<int>(std::ceil(smooth * rest.back().folds)) +
+                                          (low < high ? rows.folds(options.profile, low, high) : 0);
+        }
     }
     return found;
 }
@@ -210,6 +230,23 @@ std::vector<RegionOptions> regions_of(const BindOptions& options) {
     return regions;
 }
 
+std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cylinder& cylinder,
+                                            const WrinkleRange& range) {
+    check(geometry);
+    check(cylinder);
+    check(range);
+    const Straightening straightening(cylinder);
+    std::vector<std::uint32_t> within;
+    for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
+        const auto corners = geometry.triangles.subspan(t, 3);
+        const double share =
+            std::clamp(straightening.height(centroid(geometry, corners)) / cylinder.length, 0.0, 1.0);
+        if (share >= range.first && share <= range.last)
+            within.insert(within.end(), corners.begin(), corners.end());
+    }
+    return within;
+}
+
 BindOptions BindOptions::as_in_paper() {
     BindOptions options;
     options.profile = Profile::damped;
@@ -241,7 +278,13 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
             body = make(cylinder, draft->regions, draft->mesh);
         }
         auto& [mesh, plans, regions] = *draft;
-        solve_factors(body, geometry, mesh.order, regions);
+        Geometry wrinkled = geometry;  // what is to keep its area
+        std::vector<std::uint32_t> triangles;
+        if (!options.wrinkle_range.whole()) {
+            triangles = triangles_within(geometry, cylinder, options.wrinkle_range);
+            wrinkled.triangles = triangles;
+        }
+        solve_factors(body, wrinkled, mesh.order, regions);
         for (std::size_t i = 0; i < regions.size(); ++i)
             regions[i].max_angle =
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));

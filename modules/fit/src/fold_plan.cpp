@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace goffer::fit {
@@ -25,17 +26,37 @@ std::vector<double> radii_of(const Cylinder& cylinder, double start, double leng
     return radii;
 }
 
-std::size_t knots_of(const Cylinder& cylinder, double length) {
+std::size_t knots_of(const Cylinder& cylinder, double length, const WrinkleRange& range) {
     constexpr double max_knots = 256;
+    const double min_knots = range.whole() ? 4 : 48;  // so that slices' weights need no more: see weighted()
     const double quarters = std::ceil(4 * length / cylinder.radius);
-    return static_cast<std::size_t>(std::clamp(quarters, 4.0, max_knots)) + 1;
+    return static_cast<std::size_t>(std::clamp(quarters, min_knots, max_knots)) + 1;
+}
+
+double smoothstep(double t) {
+    return t * t * (3 - 2 * t);
 }
 
 /// Full up to `full` radii, 0 from `longest` on; both a radius beyond what was asked for if that is longer.
 double fade_of(double radii, double asked) {
     const double excess = radii - std::max(asked - full, 0.0);
-    const double t = std::clamp((longest - excess) / (longest - full), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
+    return smoothstep(std::clamp((longest - excess) / (longest - full), 0.0, 1.0));
+}
+
+/// The weights of wrinkles in `range`: a spline reaches two knots beyond each of its values.
+std::vector<double> window(const WrinkleRange& range, const Cylinder& cylinder, double start, double length,
+                           const std::vector<double>& radii, double in_radii) {
+    const double step = length / static_cast<double>(radii.size() - 1);
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double z = start + step * static_cast<double>(i);
+        double inside = cylinder.length;
+        if (range.first > 0) inside = z - range.first * cylinder.length;
+        if (range.last < 1) inside = std::min(inside, range.last * cylinder.length - z);
+        const double t = std::clamp((inside - 2 * step) / (in_radii * radii[i]), 0.0, 1.0);
+        weights.push_back(smoothstep(t));
+    }
+    return weights;
 }
 
 /// Each value and the larger ones of its neighbors: a fold reaches over several knots.
@@ -57,15 +78,15 @@ double default_fold_length(Profile profile) {
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
     const bool even = options.profile.kind == Profile::Kind::even;
-    const std::size_t knots = knots_of(cylinder, length);
+    const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
     const std::vector<double> radii = radii_of(cylinder, start, length, knots);
     paper::Shape::Knots shape;
     // Of the whole body the same as Straightening has.
     const bool whole = start == 0 && length == cylinder.length;
     if (!cylinder.radii.empty()) shape.radius = whole ? cylinder.radii : radii;
     FoldPlan plan{asked.value_or(0)};
+    const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     if (even && !asked) {
-        const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
         std::vector<double> row_limit;
         for (std::size_t i = 0; i < knots; ++i) {
             const double z = start + length * static_cast<double>(i) / static_cast<double>(knots - 1);
@@ -90,7 +111,14 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
         if (same && shape.weight[0] == 1) shape.fold_length.clear(), shape.weight.clear();
     }
-    if (shape.radius.empty() && shape.fold_length.empty()) return plan;
+    if (!options.wrinkle_range.whole() && plan.folds > 0) {
+        const std::vector<double> inside =
+            window(options.wrinkle_range, cylinder, start, length, radii, in_radii);
+        shape.weight.resize(knots, 1);
+        std::ranges::transform(shape.weight, inside, shape.weight.begin(), std::multiplies());
+        if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
+    }
+    if (shape.radius.empty() && shape.fold_length.empty() && shape.weight.empty()) return plan;
     plan.shape = std::make_shared<const paper::Shape>(length, cylinder.radius, shape);
     return plan;
 }

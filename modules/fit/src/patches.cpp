@@ -53,10 +53,8 @@ std::vector<std::uint32_t> patches_of(const Geometry& geometry, const Cylinder& 
     const Straightening straightening(cylinder);
     std::vector<std::uint32_t> patches;
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
-        glm::dvec3 centroid(0);
-        for (const std::uint32_t corner : geometry.triangles.subspan(t, 3))
-            centroid += glm::dvec3(geometry.positions[corner]) / 3.0;
-        const paper::Cylindrical at = straightening.vertex(centroid);
+        const paper::Cylindrical at =
+            straightening.vertex(centroid(geometry, geometry.triangles.subspan(t, 3)));
         const double turn = at.beta / (2 * std::numbers::pi) + 0.5 / grid.sides;
         patches.push_back(part(at.z / cylinder.length, grid.slices) * static_cast<std::uint32_t>(grid.sides) +
                           part(turn - std::floor(turn), grid.sides));

@@ -268,7 +268,8 @@ void check_heights(std::span<const double> heights, std::size_t vertices) {
 void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const BindOptions& options,
               double start, double length, std::optional<int> asked) {
     const bool round = cylinder.radii.empty() || has_one_radius(cylinder, options);
-    const int pieces = round ? 1 : 64;
+    const WrinkleRange range = options.wrinkle_range;
+    const int pieces = round && range.whole() ? 1 : 64;
     const paper::Spline radii(cylinder.length,
                               round ? std::vector<double>(2, cylinder.radius) : cylinder.radii);
     const double step = length / pieces;
@@ -282,7 +283,11 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
     // A body has a whole number of them.
     const double whole =
         asked ? *asked : std::min(std::max(std::round(sum), 1.0), 2.0 * BindOptions::max_folds);
-    for (const double own : folds) stretches.push_back({step, own * whole / sum / 2});
+    for (int i = 0; i < pieces; ++i) {
+        const double low = (start + i * step) / cylinder.length, high = low + step / cylinder.length;
+        const bool smooth = high < range.first || low > range.last;
+        stretches.push_back({step, smooth ? 0 : folds[i] * whole / sum / 2});
+    }
 }
 
 /// `arc` is that of Refiner's constructor.

@@ -106,13 +106,15 @@ private:
 std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double radius,
                                              const std::vector<double>& factors) {
     paper::Shape::Knots knots = region.shape ? region.shape->knots() : paper::Shape::Knots{};
-    const std::size_t count = std::max<std::size_t>(knots.weight.size(), 49);
+    constexpr std::size_t least = 49;
     const std::vector<double> own = knots.weight.empty() ? std::vector<double>{1, 1} : knots.weight;
+    const std::size_t count = std::max(own.size(), least);
     const paper::Spline before(1, own), by_height(1, factors);
     std::vector<double> weight;
     for (std::size_t i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-        weight.push_back(std::max(before(share) * by_height(share), 0.0));
+        const double value = own.size() == count ? own[i] : before(share);  // a spline would smooth its own
+        weight.push_back(std::max(value * by_height(share), 0.0));
     }
     knots.weight = std::move(weight);
     return std::make_shared<const paper::Shape>(region.length, radius, knots);
@@ -155,6 +157,12 @@ bend::RestVector Straightening::tangent(const glm::dvec3& vector, const paper::C
 
 glm::dvec3 Straightening::in_body(const glm::dvec3& position) const {
     return to_body_ * (position - cylinder_.origin);
+}
+
+glm::dvec3 centroid(const Geometry& geometry, std::span<const std::uint32_t> corners) {
+    glm::dvec3 sum(0);
+    for (const std::uint32_t corner : corners) sum += glm::dvec3(geometry.positions[corner]) / 3.0;
+    return sum;
 }
 
 glm::dmat3 axes_of(const Cylinder& cylinder) {

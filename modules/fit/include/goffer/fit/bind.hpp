@@ -31,6 +31,14 @@ using Profile = paper::Profile;
 /// (automatic), or one radius (cylinder).
 enum class ShapeMode { automatic, cylinder };
 
+/// A stretch of the body that may wrinkle, as shares of its length from base to tip: 0 <= first < last <= 1.
+struct WrinkleRange {
+    double first = 0;
+    double last = 1;
+
+    [[nodiscard]] bool whole() const { return first == 0 && last == 1; }
+};
+
 /// What can be chosen for one region: a stretch of the body that bends along an arc of its own.
 struct RegionOptions {
     double share = 1;  ///< of the body's length, > 0; all regions' shares add up to 1, within 1e-6
@@ -54,6 +62,10 @@ struct BindOptions {
     /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). Of a body that
     /// is bent at rest and has several regions, and with Amplitude::area, the base is a cylinder in any case.
     ShapeMode shape = ShapeMode::automatic;
+    /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
+    /// body; at an end that is not the body's own they fade within a fold and half a radius.
+    /// Amplitude::mesh keeps the area of what lies inside.
+    WrinkleRange wrinkle_range = {};
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions = {};
@@ -85,10 +97,16 @@ void check(std::span<const RegionOptions> regions);
 struct RegionBinding {
     double length = 0;       ///< of the region's outer line, model units
     int folds = 0;           ///< k in use; 0: no wrinkle
-    int folds_capacity = 0;  ///< most folds that the mesh has vertices for
+    int folds_capacity = 0;  ///< most folds that the mesh has vertices for, where it wrinkles
     /// How its radius and its folds change along it; null: not at all.
     std::shared_ptr<const paper::Shape> shape = {};
 };
+
+/// Returns the triangles whose centroids lie in `range`, 3 vertices each, in the order of the geometry's.
+/// What lies beyond an end of the body counts as at that end. Throws Error as check(geometry) and
+/// check(cylinder) do, and where BindOptions::wrinkle_range would be refused. Thread-safe.
+[[nodiscard]] std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cylinder& cylinder,
+                                                          const WrinkleRange& range);
 
 /// Returns BindOptions::fold_length where nobody says: 0.75 for Profile::even, else 1.
 [[nodiscard]] double default_fold_length(Profile profile);
@@ -120,8 +138,8 @@ struct Binding {
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
-/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset (use
-/// Amplitude::mesh).
+/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset or a
+/// wrinkle_range (use Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
 /// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the

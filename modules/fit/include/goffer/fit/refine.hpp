@@ -54,7 +54,8 @@ struct Stretch {
 
 /// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
 /// or else those that suit a region of that length whose mesh is fine enough. A region with Profile::even on
-/// a base with radii is many stretches, each with folds of its own length. Thread-safe.
+/// a base with radii is many stretches, each with folds of its own length, and so is one with a
+/// wrinkle_range: beyond that there are none. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Limits of a refinement.
