@@ -162,4 +162,28 @@ TEST_CASE("bodies that are flat, or flattened, keep their places") {
     }
 }
 
+TEST_CASE("packed: a box that is too thin or too long for float to count its steps") {
+    Random random(5);
+    const bend::Body body = loose_body(random, 40);
+    for (const Isa isa : isas_here()) {
+        for (const float size : {1e-36f, 1e-34f, 1e-32f, 1e36f, 1e38f, 3.4e38f}) {
+            CAPTURE(name(isa));
+            CAPTURE(size);
+            std::vector<bend::PackedVertex> packed(body.vertex_count());
+            bend::Bounds box;
+            bend::DeformJob job{.body = &body, .pose = {.angle = 1}, .isa = isa};
+            for (int axis = 0; axis < 3; ++axis) job.transform[axis][axis] = size;
+            job.packed = {packed.data(), sizeof(bend::PackedVertex), packed.size()};
+            job.bounds = &box;
+            bend::run(job);
+            const bool counted = box.high.x - box.low.x > 1e-33f && box.high.x - box.low.x < 1e38f;
+            std::uint16_t largest = 0;
+            for (const bend::PackedVertex& vertex : packed) largest = std::max(largest, vertex.position[0]);
+            CHECK((largest > 30000) == counted);
+            const glm::vec3 decoded = shader::goffer_position(words(packed[0]), box.low, box.high);
+            CHECK((std::isfinite(decoded.x) || !std::isfinite(box.high.x - box.low.x)));
+        }
+    }
+}
+
 }  // namespace goffer::test

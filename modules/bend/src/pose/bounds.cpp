@@ -103,8 +103,11 @@ class Extent {
 public:
     Extent(const Coefficients& k, int row) noexcept
         : m0_(k.matrix[row]), m2_(k.matrix[8 + row]), across_(splat(std::fabs(k.matrix[4 + row]))) {
-        in_plane_ = std::sqrt(m0_ * m0_ + m2_ * m2_);
-        whole_ = std::sqrt(m0_ * m0_ + m2_ * m2_ + across_[0] * across_[0]);
+        // Of a whole register: compilers take two roots for half of one, and trap on what is in the other.
+        const float square = m0_ * m0_ + m2_ * m2_, both = square + across_[0] * across_[0];
+        const Float4 roots = sqrt(Float4{square, both, square, both});
+        in_plane_ = roots[0];
+        whole_ = roots[1];
     }
 
     /// Takes the four edges from j on.
@@ -179,7 +182,8 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
     const float longest = height + k.curvature * bands.max_drift_step;
     const float length = k.one_minus_kappa * k.arc_z[0] * longest;  // of a band's arc; arc_z[0] is L
     const float turn = k.curvature * k.arc_z[0] * longest;
-    const float radius = k.one_minus_kappa / k.curvature;
+    constexpr float least_turn = 1e-6f;  // below it a band's sagitta is lost in the margin
+    const float radius = length / std::max(turn, least_turn);
     Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
     for (std::size_t j = 0; j < edges; j += 4) {
         if (turn > 3) {  // nearly half a turn: all of the circle

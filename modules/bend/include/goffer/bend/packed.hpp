@@ -15,7 +15,8 @@ namespace goffer::bend {
 /// words, little-endian. In the space of the job's outputs.
 struct PackedVertex {
     /// Position within the instance's bounds(job): low + position / 65535 (high - low) on each axis. Rounding
-    /// adds up to half a step, 1 / 131070 of the bounds' length, to the error of the float kernels.
+    /// adds up to half a step, 1 / 131070 of the bounds' length, to the error of the float kernels. 0 on an
+    /// axis where the bounds are shorter than 1e-33 or longer than 1e38.
     std::uint16_t position[3];
     std::uint16_t unused;  ///< 0
     /// The unit normal in octahedral coordinates: (x, y) / (|x| + |y| + |z|), the lower half folded outward,

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "support/test_batch.hpp"
+
+#include <goffer/bend/capsules.hpp>
+#include <goffer/bend/path.hpp>
+#include <goffer/bend/sockets.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+/// The floating-point environment that a caller may have: traps, rounding modes, flush-to-zero. Traps are
+/// looked for by their status flags.
+
+namespace goffer::test {
+namespace {
+
+constexpr std::string_view planes = "x y z u v w a b c d p q r 123";
+
+/// What every function makes of a pose.
+struct Outputs {
+    OutputBuffer out;
+    bend::Bounds box;
+    std::vector<bend::Capsule> capsules;
+    std::vector<bend::SocketFrame> frames;
+    bend::PathFit path;
+
+    Outputs(bend::DeformJob job, const bend::Sockets& sockets)
+        : out(planes, job.body->vertex_count()),
+          capsules(bend::capsule_count(*job.body, 2)),
+          frames(sockets.count()) {
+        out.attach(job);
+        job.bounds = &box;
+        bend::run(job);
+        bend::capsules(job, 2, capsules);
+        sockets.frames(job, frames);
+        std::vector<bend::Pose> poses(job.body->region_count());
+        const glm::vec3 curve[4] = {{0, 0, 0}, {0.2f, 0, 0.5f}, {0.5f, 0.5f, 1}, {1, 1, 1.5f}};
+        path = bend::poses_along(*job.body, curve, poses);
+        path.error += bend::poses_along_bezier(*job.body, curve, poses).error;
+    }
+
+    /// The largest difference between numbers of streams, bounds and frames; infinite where one is NaN.
+    [[nodiscard]] float from(const Outputs& other) const {
+        float largest = 0;
+        const auto take = [&](float a, float b) {
+            const float off = std::fabs(a - b);
+            largest = off >= 0 ? std::max(largest, off) : std::numeric_limits<float>::infinity();
+        };
+        for (std::size_t i = 0; i < out.count(); ++i) {
+            for (const char c : std::string_view("xyzuvwabcdpqr"))
+                take(out.value(c, i), other.out.value(c, i));
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            take(box.low[axis], other.box.low[axis]);
+            take(box.high[axis], other.box.high[axis]);
+        }
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            take(glm::distance(frames[i].position, other.frames[i].position), 0);
+        take(path.error, other.path.error);
+        return largest;
+    }
+};
+
+/// Another rounding mode, until it goes.
+class Rounding {
+public:
+    explicit Rounding(int mode) : before_(std::fegetround()) { std::fesetround(mode); }
+    Rounding(const Rounding&) = delete;
+    Rounding& operator=(const Rounding&) = delete;
+    ~Rounding() { std::fesetround(before_); }
+
+private:
+    int before_;
+};
+
+/// Status flags that a trap could be set for, by name.
+std::string raised() {
+    std::string names;
+    if (std::fetestexcept(FE_DIVBYZERO) != 0) names += "divide by zero, ";
+    if (std::fetestexcept(FE_INVALID) != 0) names += "invalid, ";
+    if (std::fetestexcept(FE_OVERFLOW) != 0) names += "overflow, ";
+    return names;
+}
+
+/// Bodies of every kind: straight, bent at rest, of several regions, with a shape.
+std::vector<bend::Body> bodies() {
+    Random random(3);
+    const std::vector<std::size_t> counts{30, 7, 40};
+    std::vector<bend::Body> made;
+    for (int i = 0; i < 8; ++i) made.push_back(loose_chain(random, counts));
+    return made;
+}
+
+/// At rest, straight, all but straight, and as far as each region goes.
+std::vector<std::vector<bend::Pose>> poses_of(const bend::Body& body) {
+    std::vector<std::vector<bend::Pose>> poses(6);
+    for (std::size_t r = 0; r < body.region_count(); ++r) {
+        poses[0].push_back(body.rest_pose(r));
+        poses[1].push_back({0, 0});
+        poses[2].push_back({1e-30f, 2});
+        poses[3].push_back({1e-42f, -1});
+        poses[4].push_back({body.max_angle(r), 1});
+        poses[5].push_back({-0.5f * body.max_angle(r), 3});
+    }
+    return poses;
+}
+
+template <class Visit>
+void each_case(const Visit& visit) {
+    for (const bend::Body& body : bodies()) {
+        std::vector<bend::Socket> socket(3);
+        for (std::size_t i = 0; i < socket.size(); ++i)
+            socket[i] = {.region = i, .vertex = {0.3 * static_cast<double>(i), 0.5, 0.1, 0, 0}};
+        const bend::Sockets sockets = *bend::Sockets::make(body, socket);
+        for (const std::vector<bend::Pose>& poses : poses_of(body)) {
+            for (const float weight : {0.0f, 0.5f, 1.0f}) {
+                for (const Isa isa : isas_here()) {
+                    CAPTURE(name(isa));
+                    CAPTURE(poses[0].angle);
+                    CAPTURE(weight);
+                    bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = weight, .isa = isa};
+                    job.previous_poses = poses;
+                    visit(job, sockets);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("floating point: nothing that a trap could be set for") {
+    each_case([](const bend::DeformJob& job, const bend::Sockets& sockets) {
+        std::feclearexcept(FE_ALL_EXCEPT);
+        const Outputs outputs(job, sockets);
+        CHECK(raised() == "");
+    });
+}
+
+TEST_CASE("floating point: nor with transforms as large and as small as the working range has") {
+    each_case([](bend::DeformJob job, const bend::Sockets& sockets) {
+        for (const float size : {1e-6f, 1e6f}) {
+            for (int axis = 0; axis < 3; ++axis) job.transform[axis][axis] = size;
+            job.transform[3] = glm::vec3(-size);
+            std::feclearexcept(FE_ALL_EXCEPT);
+            const Outputs outputs(job, sockets);
+            CHECK(raised() == "");
+        }
+    });
+}
+
+TEST_CASE("floating point: with other rounding modes results are less exact, and no worse") {
+    each_case([](const bend::DeformJob& job, const bend::Sockets& sockets) {
+        const Outputs usual(job, sockets);
+        for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+            const auto rounded = [&] {
+                const Rounding rounding(mode);
+                return Outputs(job, sockets);
+            }();
+            CHECK(rounded.from(usual) < 1e-4f);
+        }
+    });
+}
+
+#if defined(__SSE2__)
+TEST_CASE("floating point: subnormal numbers may be flushed to zero") {
+    constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
+    each_case([&](const bend::DeformJob& job, const bend::Sockets& sockets) {
+        const Outputs usual(job, sockets);
+        const unsigned before = _mm_getcsr();
+        _mm_setcsr(before | flush_to_zero | denormals_are_zero);
+        const Outputs flushed(job, sockets);
+        _mm_setcsr(before);
+        CHECK(flushed.from(usual) < 1e-6f);
+    });
+}
+#endif
+
+}  // namespace goffer::test
