@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
+#include "support/rounds.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -90,7 +91,7 @@ struct Round {
     bool caps;
 };
 
-const Round rounds[] = {
+const Round round_bodies[] = {
     {"cylinder", [](double) { return 1.0; }, false},
     {"capped cylinder", [](double) { return 1.0; }, true},
     {"tapered", [](double u) { return 1 - 0.7 * u; }, false},
@@ -157,11 +158,41 @@ TEST_CASE("P10: bounds hold the vertices of any body, however far from its axis 
     }
 }
 
+TEST_CASE("P10: bounds hold every vertex under transforms of any size") {
+    Random random(107);
+    const auto power = [&](double most) {
+        return static_cast<float>(std::pow(10, uniform(random, -most, most)));
+    };
+    for (int round = 0; round < rounds(20000, 2000); ++round) {
+        const std::vector<std::size_t> counts(1 + random() % 4, 20);
+        const bend::Body body = loose_chain(random, counts);
+        Output out(body.vertex_count());
+        for (int k = 0; k < 20; ++k) {
+            std::vector<bend::Pose> poses;
+            for (std::size_t r = 0; r < counts.size(); ++r)
+                poses.push_back(
+                    {static_cast<float>(uniform(random, -5, 5)), static_cast<float>(uniform(random, -4, 4))});
+            bend::DeformJob job = make_job(body, {}, isas_here()[random() % isas_here().size()], out);
+            job.poses = poses;
+            job.normals = {};
+            job.tangents = {};
+            job.transform = random_transform(random, 1);
+            const float size = power(30);
+            for (int c = 0; c < 3; ++c) job.transform[c] *= size * (random() % 3 == 0 ? power(3) : 1.0f);
+            job.transform[3] *= power(30);
+            const bend::Bounds box = bend::bounds(job);
+            bend::run(job);
+            INFO("round ", round, ", size ", size, ", ", name(job.isa));
+            REQUIRE(holds(box, tight(out)));
+        }
+    }
+}
+
 TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each axis for round bodies") {
     Random random(83);
     double worst[2] = {};  // shallow folds or none; folds deeper than the radius
     std::string where[2];
-    for (const Round& round : rounds) {
+    for (const Round& round : round_bodies) {
         for (int trial = 0; trial < 12; ++trial) {
             const double slenderness =
                 trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 2.5)) : uniform(random, 3, 40);

@@ -94,7 +94,7 @@ inline Support support_of(const Sections& sections, Float4 a, Float4 b, Float4 w
 }
 
 /// The extent of a region along one axis of the streams' space. (m0, m1, m2) are the components of that axis
-/// along n, b and t.
+/// along n, b and t, over the largest of them, so that no square leaves float's range.
 ///
 /// A band sweeps its widest cross-section along its piece of the arc. Each point of the section moves on a
 /// circle. It is farthest at the beginning, at the end, or where it moves at a right angle to the axis, so
@@ -102,7 +102,10 @@ inline Support support_of(const Sections& sections, Float4 a, Float4 b, Float4 w
 class Extent {
 public:
     Extent(const Coefficients& k, int row) noexcept
-        : m0_(k.matrix[row]), m2_(k.matrix[8 + row]), across_(splat(std::fabs(k.matrix[4 + row]))) {
+        : scale_(std::clamp(largest(k.matrix, row), 1e-36f, 1e36f)),
+          m0_(k.matrix[row] / scale_),
+          m2_(k.matrix[8 + row] / scale_),
+          across_(splat(std::fabs(k.matrix[4 + row]) / scale_)) {
         // Of a whole register: compilers take two roots for half of one, and trap on what is in the other.
         const float square = m0_ * m0_ + m2_ * m2_, both = square + across_[0] * across_[0];
         const Float4 roots = sqrt(Float4{square, both, square, both});
@@ -145,18 +148,26 @@ public:
     }
 
     /// Length of the axis: the scale of the transform along it.
-    [[nodiscard]] float whole() const noexcept { return whole_; }
-    [[nodiscard]] float low() const noexcept { return std::min({low_[0], low_[1], low_[2], low_[3]}); }
-    [[nodiscard]] float high() const noexcept { return std::max({high_[0], high_[1], high_[2], high_[3]}); }
+    [[nodiscard]] float whole() const noexcept { return scale_ * whole_; }
+    [[nodiscard]] float low() const noexcept {
+        return scale_ * std::min({low_[0], low_[1], low_[2], low_[3]});
+    }
+    [[nodiscard]] float high() const noexcept {
+        return scale_ * std::max({high_[0], high_[1], high_[2], high_[3]});
+    }
 
 private:
+    [[nodiscard]] static float largest(const float* matrix, int row) noexcept {
+        return std::max({std::fabs(matrix[row]), std::fabs(matrix[4 + row]), std::fabs(matrix[8 + row])});
+    }
+
     void take(const Sections& sections, Float4 at, Float4 a, Float4 whole) noexcept {
         const auto [up, down] = support_of(sections, a, across_, whole);
         high_ = select(sections.none, high_, max(high_, at + up));
         low_ = select(sections.none, low_, min(low_, at - down));
     }
 
-    float m0_, m2_;
+    float scale_, m0_, m2_;
     Float4 across_;
     float in_plane_, whole_;
     float at_[edges], a_[edges],
