@@ -159,6 +159,18 @@ TEST_CASE("bad models: an index out of range") {
     }
 }
 
+TEST_CASE("bad models: a file that is named outside the model's folder, unless that is allowed") {
+    const Place place;
+    std::filesystem::create_directory(place.folder / "in");
+    const std::string name = base(place.folder, "in/base.obj", {"--columns", "16", "--rows", "41"});
+    place.folder.write("secret.mtl", "newmtl a\nKd 1 0 0\n");
+    place.refuse("in/bad.obj", "mtllib ../secret.mtl\nusemtl a\n" + bytes_of(place.folder / name),
+                 {"line 1", "'../secret.mtl'", "--allow-outside"});
+    for (const Words& words : {Words{"inspect", "in/bad.obj"}, Words{"refine", "in/bad.obj", "-o", "out.glb"},
+                               Words{"bend", "in/bad.obj", "-o", "out.glb"}, Words{"crowd", "in/bad.obj"}})
+        CHECK(run(place.folder, words + Words{"--allow-outside"}).code == 0);
+}
+
 TEST_CASE("bad models: many vertices without a triangle are no reason to wait") {
     const Folder folder;
     base(folder, "base.obj", {"--columns", "128", "--rows", "257"});

@@ -15,6 +15,7 @@ struct InspectOptions {
     std::filesystem::path model;
     std::string axis = "auto";
     std::string rest = "auto";
+    mesh::LoadOptions load;
     std::filesystem::path json;
 };
 
@@ -43,6 +44,7 @@ void run_inspect(const InspectOptions& options) {
     BindWords words;
     words.axis = options.axis;
     words.rest = options.rest;
+    words.load = options.load;
     const BindRequest request(words);
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
@@ -72,6 +74,7 @@ void add_inspect(CLI::App& app, Action& action) {
         app.add_subcommand("inspect", "Fit the base cylinder to a model and say what was found");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
     add_fit_words(*command, options->axis, options->rest);
+    add_load_words(*command, options->load);
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_inspect(*options); }; });
 }

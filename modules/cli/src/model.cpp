@@ -85,6 +85,12 @@ CLI::Validator refine_word() {
 
 }  // namespace
 
+void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
+    command.add_flag("--allow-outside", options.allow_outside,
+                     "Read what a model names outside its folder too (buffers, images, material files), and "
+                     "copy it into the output; for models that you trust");
+}
+
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
     command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
@@ -140,6 +146,7 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
+    add_load_words(command, words.load);
 }
 
 void add_refine_word(CLI::App& command, BindWords& words, const std::string& usual) {
@@ -175,7 +182,7 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
 BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                       const std::filesystem::path& fit) {
     const Progress progress("reading " + file.string());
-    mesh::Mesh mesh = mesh::load(file);
+    mesh::Mesh mesh = mesh::load(file, request.words.load);
     mesh::VertexArrays rest = mesh::vertex_arrays(mesh);
     fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     const bool given = !fit.empty();

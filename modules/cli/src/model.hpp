@@ -19,8 +19,9 @@
 
 namespace goffer::cli {
 
-/// Words on how models are fitted and bound.
+/// Words on how models are read, fitted and bound.
 struct BindWords {
+    mesh::LoadOptions load = {};
     std::optional<std::string> folds = {};
     std::optional<double> fold_length = {};
     std::string amplitude = "mesh";
@@ -35,11 +36,14 @@ struct BindWords {
     std::string refine = "off";  ///< split edges until the mesh carries the folds: auto, on, off
 };
 
+/// Adds --allow-outside: what is read of a model. `options` must outlive `command`.
+void add_load_words(CLI::App& command, mesh::LoadOptions& options);
+
 /// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
 /// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --wrinkle-range,
-/// --onset, --axis and --rest. `words` must outlive `command`.
+/// --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.

@@ -24,6 +24,7 @@ struct RefineOptions {
     std::optional<int> folds;
     std::string axis = "auto";
     std::string rest = "auto";
+    mesh::LoadOptions load;
     std::filesystem::path fit;
     std::filesystem::path json;
 };
@@ -32,6 +33,7 @@ void run_refine(const RefineOptions& options) {
     BindWords words;
     words.axis = options.axis;
     words.rest = options.rest;
+    words.load = options.load;
     words.refine = "on";
     BindRequest request(words);
     request.options.folds = options.folds;
@@ -127,6 +129,7 @@ void add_refine(CLI::App& app, Action& action) {
             "over half of it, need twice as many (default: what suits the body)")
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
     add_fit_words(*command, options->axis, options->rest);
+    add_load_words(*command, options->load);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");

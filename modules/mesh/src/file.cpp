@@ -51,19 +51,19 @@ Format format_of_content(std::string_view bytes) {
     return Format::unknown;
 }
 
-Mesh read(const fs::path& file, std::string_view bytes) {
+Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options) {
     Format format = format_of_content(bytes);
     if (format == Format::unknown) format = format_of_ending(file);
     switch (format) {
         case Format::obj:
-            return read_obj(file, bytes);
+            return read_obj(file, bytes, options);
         case Format::ply:
             return read_ply(file, bytes);
         case Format::stl:
             return read_stl(file, bytes);
         case Format::glb:
         case Format::gltf:
-            return read_gltf(file, bytes);
+            return read_gltf(file, bytes, options);
         case Format::unknown:
             break;
     }
@@ -97,9 +97,9 @@ std::string read_bytes(const fs::path& file) {
     return bytes;
 }
 
-Mesh load(const fs::path& file) {
+Mesh load(const fs::path& file, const LoadOptions& options) {
     const std::string bytes = read_bytes(file);
-    Mesh mesh = read(file, bytes);
+    Mesh mesh = read(file, bytes, options);
     check(mesh, file);
     return mesh;
 }

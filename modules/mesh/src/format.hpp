@@ -14,10 +14,12 @@
 
 namespace goffer::mesh {
 
-[[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::string_view bytes);
+[[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::string_view bytes,
+                            const LoadOptions& options);
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::string_view bytes);
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes);
-[[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes);  // .gltf and .glb
+[[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes,
+                             const LoadOptions& options);  // .gltf and .glb
 
 /// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);

@@ -104,12 +104,8 @@ void refuse_compression(const Value& root) {
     }
 }
 
-std::string read_outer(const Value& uri, const std::filesystem::path& folder, std::uint64_t size) {
-    if (!is_relative_uri(uri.text())) {
-        uri.fail("is " + mesh::quoted(uri.text()) +
-                 "; only relative paths are read, so put the file beside the document");
-    }
-    const std::filesystem::path file = folder / path_of(uri.text());
+std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size) {
+    const std::filesystem::path file = outer_file(files, uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
         uri.fail("names " + mesh::quoted(uri.text()) + ", which is not there; put it beside the document");
@@ -127,11 +123,10 @@ std::string read_outer(const Value& uri, const std::filesystem::path& folder, st
     return bytes;
 }
 
-std::string read_buffer(const Value& buffer, bool first, const Container& parts,
-                        const std::filesystem::path& folder) {
+std::string read_buffer(const Value& buffer, bool first, const Container& parts, const NamedFiles& files) {
     const std::uint64_t size = buffer["byteLength"].whole();
     const bool named = buffer.has("uri");
-    if (named && !is_data_uri(buffer["uri"].text())) return read_outer(buffer["uri"], folder, size);
+    if (named && !is_data_uri(buffer["uri"].text())) return read_outer(buffer["uri"], files, size);
     std::string bytes;
     if (named) {
         std::optional<std::string> data = data_of(buffer["uri"].text());
@@ -197,25 +192,50 @@ std::string_view Document::view(const Value& buffer_view) const {
                                            buffer_view["byteLength"].whole());
 }
 
-std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes) {
+std::filesystem::path outer_file(const NamedFiles& files, const Value& uri) {
+    if (uri.text().empty() || has_scheme(uri.text())) {
+        uri.fail("is " + mesh::quoted(uri.text()) +
+                 "; only paths are read, so put the file beside the document");
+    }
+    const std::optional<std::filesystem::path> file = files.find(path_of(uri.text()));
+    if (!file) uri.fail("names " + mesh::quoted(uri.text()) + NamedFiles::outside);
+    return *file;
+}
+
+std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
+                                              const LoadOptions& options) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
-    const auto document = std::make_shared<Document>();
-    document->folder = file.parent_path();
+    const auto document = std::make_shared<Document>(NamedFiles(file, options.allow_outside));
     document->json = parse(parts.json);
     const Value root = document->root();
     check_version(root);
     refuse_compression(root);
     for (std::size_t i = 0; i < document->count("buffers"); ++i) {
-        document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->folder));
+        document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->files));
     }
     for (std::size_t i = 0; i < document->count("bufferViews"); ++i)
         check_view(*document, root["bufferViews"][i]);
     return document;
 }
 
-std::shared_ptr<const Document> document_of(Output output, const std::filesystem::path& folder) {
-    const auto document = std::make_shared<Document>();
-    document->folder = folder;
+std::vector<std::string> missing_images(const Document& document) {
+    std::vector<std::string> missing;
+    const bool listed = document.json.contains("images") && document.json["images"].is_array();
+    for (std::size_t i = 0; listed && i < document.json["images"].size(); ++i) {
+        const Json& image = document.json["images"][i];
+        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+        const Value uri = document.root()["images"][i]["uri"];
+        if (is_data_uri(uri.text()) || has_scheme(uri.text())) continue;
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(outer_file(document.files, uri), error))
+            missing.push_back("a texture is missing: " + uri.path() + " names " + mesh::quoted(uri.text()) +
+                              ", which is not there; put it beside the document");
+    }
+    return missing;
+}
+
+std::shared_ptr<const Document> document_of(Output output, const NamedFiles& files) {
+    const auto document = std::make_shared<Document>(files);
     document->json = std::move(output.json);
     set_buffer(document->json, output.buffer, "");
     if (!output.buffer.empty()) document->buffers.push_back(std::move(output.buffer));

@@ -261,20 +261,21 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         if (!image.contains("uri") || !image["uri"].is_string()) continue;
         const auto uri = image["uri"].get<std::string>();
         std::error_code error;
-        const std::filesystem::path outer = document_.folder / path_of(uri);
-        if (is_data_uri(uri) || !is_relative_uri(uri) || !std::filesystem::is_regular_file(outer, error))
-            continue;
+        if (is_data_uri(uri) || has_scheme(uri)) continue;
+        const auto outer = document_.files.find(path_of(uri));
+        if (!outer || !std::filesystem::is_regular_file(*outer, error)) continue;
         if (!embed) {
-            const auto from = std::filesystem::weakly_canonical(outer, error);
+            const auto from = std::filesystem::weakly_canonical(*outer, error);
             const auto to =
                 std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
-            if (to != std::filesystem::weakly_canonical(std::filesystem::absolute(document_.folder), error)) {
+            if (to != std::filesystem::weakly_canonical(std::filesystem::absolute(document_.files.folder()),
+                                                        error)) {
                 const std::filesystem::path way = from.lexically_relative(to);
                 if (!way.empty()) json_["images"][i]["uri"] = uri_of(way);
             }
             continue;
         }
-        std::ifstream stream(outer, std::ios::binary);
+        std::ifstream stream(*outer, std::ios::binary);
         std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
         const std::string type = mime_type(bytes);
         if (type.empty()) continue;  // a GLB cannot hold it

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "named_files.hpp"
+
 #include <goffer/mesh/mesh.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -62,13 +64,13 @@ private:
 
 /// A file as read: the JSON and the bytes of its buffers. All buffer views are known to lie in their buffers.
 struct Document : Source {
-    Document() {}  // may throw, since Json's constructor may
+    explicit Document(NamedFiles named) : files(std::move(named)) {}
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
     Json json;
     std::vector<std::string> buffers;
-    std::filesystem::path folder;  ///< of the file
+    NamedFiles files;  ///< of the file
 
     [[nodiscard]] Value root() const { return Value(json); }
     [[nodiscard]] std::size_t count(const char* list) const;
@@ -83,9 +85,18 @@ struct Document : Source {
     [[nodiscard]] std::string_view view(const Value& buffer_view) const;
 };
 
+/// The file that a URI of `document` names, which need not be there. Throws Error if it has a scheme, such as
+/// http:, or is a file that may not be read.
+[[nodiscard]] std::filesystem::path outer_file(const NamedFiles& files, const Value& uri);
+
 /// Takes a .glb or .gltf apart and reads its buffers. Throws Error without the file's name.
 [[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
-                                                            std::string_view bytes);
+                                                            std::string_view bytes,
+                                                            const LoadOptions& options);
+
+/// Says which images are not where their URIs lead; broken ones are not looked at. Throws Error for one that
+/// may not be read.
+[[nodiscard]] std::vector<std::string> missing_images(const Document& document);
 
 /// Return the bytes of a file with this document and its one buffer.
 [[nodiscard]] std::string glb_file(Json json, const std::string& buffer);
@@ -93,7 +104,7 @@ struct Document : Source {
 
 /// URIs. Data URIs may be in base64 or percent-encoded; data_of returns null for a malformed one.
 [[nodiscard]] bool is_data_uri(std::string_view uri);
-[[nodiscard]] bool is_relative_uri(std::string_view uri);
+[[nodiscard]] bool has_scheme(std::string_view uri);
 [[nodiscard]] std::optional<std::string> data_of(std::string_view data_uri);
 [[nodiscard]] std::string data_uri(std::string_view mime_type, std::string_view bytes);
 [[nodiscard]] std::filesystem::path path_of(std::string_view uri);
@@ -190,8 +201,8 @@ struct Output {
 [[nodiscard]] std::optional<Output> rewritten(const Mesh& mesh, const std::filesystem::path& file,
                                               bool embed);
 
-/// Turns an output into a document again. `folder` is where the files are that it names.
-[[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const std::filesystem::path& folder);
+/// Turns an output into a document again. `files` are those that it names.
+[[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const NamedFiles& files);
 
 /// Returns a new document for a mesh that came from no glTF.
 [[nodiscard]] Output made(const Mesh& mesh);

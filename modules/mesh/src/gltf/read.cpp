@@ -358,10 +358,12 @@ Scene read_scene(const Document& document) {
 
 }  // namespace gltf
 
-Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes) {
+Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options) {
     try {
-        const auto document = gltf::open_document(file, bytes);
+        const auto document = gltf::open_document(file, bytes, options);
         Mesh mesh = gltf::read_scene(*document).mesh;
+        for (std::string& warning : gltf::missing_images(*document))
+            mesh.warnings.push_back(std::move(warning));
         mesh.source = document;
         return mesh;
     } catch (const Error& error) {

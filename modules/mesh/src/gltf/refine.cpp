@@ -291,12 +291,12 @@ Output SceneRefiner::run(std::vector<std::uint32_t>& order) && {
 std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone) {
     const auto* source = dynamic_cast<const gltf::Document*>(cut.mesh().source.get());
     if (!source) return std::nullopt;
-    std::optional<gltf::Output> now = gltf::rewritten(cut.mesh(), source->folder / "refined", false);
+    std::optional<gltf::Output> now = gltf::rewritten(cut.mesh(), source->files.folder() / "refined", false);
     if (!now) return std::nullopt;
-    const auto document = gltf::document_of(std::move(*now), source->folder);
+    const auto document = gltf::document_of(std::move(*now), source->files);
     std::vector<std::uint32_t> order;
     gltf::Output output = gltf::SceneRefiner(*document, cut).run(order);
-    const auto made = gltf::document_of(std::move(output), source->folder);
+    const auto made = gltf::document_of(std::move(output), source->files);
     Mesh out = gltf::read_scene(*made).mesh;
     for (std::size_t i = 0; i < order.size(); ++i) out.positions[i] = alone.positions[order[i]];
     out.warnings = cut.mesh().warnings;

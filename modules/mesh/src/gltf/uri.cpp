@@ -74,10 +74,9 @@ bool is_data_uri(std::string_view uri) {
     return uri.substr(0, 5) == "data:";
 }
 
-bool is_relative_uri(std::string_view uri) {
-    if (uri.empty() || uri.front() == '/') return false;
+bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');  // a scheme ends there, unless a folder comes first
-    return colon == uri.npos || uri.find('/') < colon;
+    return colon != uri.npos && uri.find('/') > colon;
 }
 
 std::optional<std::string> data_of(std::string_view data_uri) {

@@ -21,6 +21,7 @@ namespace goffer::mesh {
 /// Keeps the text that was read, and the mesh that was made of it, which has no source of its own.
 struct ObjSource final : Source {
     std::filesystem::path file;
+    LoadOptions options;
     std::string text;
     Mesh read;
 };

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "format.hpp"
+#include "named_files.hpp"
 #include "obj.hpp"
+
+#include <goffer/io/error.hpp>
 
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <span>
 #include <sstream>
 
 namespace goffer::mesh {
@@ -16,7 +21,8 @@ constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 
 class ObjReader {
 public:
-    ObjReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+    ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options)
+        : file_(file), text_(text), files_(file, options.allow_outside) {}
     Mesh read();
 
 private:
@@ -33,11 +39,14 @@ private:
     std::uint32_t index(std::string_view token, std::size_t seen, std::size_t total, const char* what) const;
     void drop_unused_attributes();
     void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
+    void warn_of_textures(const std::filesystem::path& library,
+                          std::span<const tinyobj::material_t> materials);
     void read_materials();
     [[noreturn]] void fail_at(std::string_view place, const std::string& what) const;
 
     const std::filesystem::path& file_;
     std::string_view text_;
+    NamedFiles files_;
     Mesh mesh_;
     Counts total_, seen_;
     std::array<float, 8> numbers_{};
@@ -208,14 +217,48 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     }
     std::map<std::string, int> index;
     std::string warnings, errors;
+    const std::size_t before = found.size();
     tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
+    warn_of_textures(library, std::span(found).subspan(before));
+}
+
+/// Nothing reads textures, but whoever shows the output wants them. Those that may not be read are not even
+/// looked for.
+void ObjReader::warn_of_textures(const std::filesystem::path& library,
+                                 std::span<const tinyobj::material_t> materials) {
+    const NamedFiles files(library, false);
+    std::set<std::string> missing;
+    for (const tinyobj::material_t& material : materials) {
+        for (const auto texture :
+             {&tinyobj::material_t::diffuse_texname, &tinyobj::material_t::ambient_texname,
+              &tinyobj::material_t::specular_texname, &tinyobj::material_t::specular_highlight_texname,
+              &tinyobj::material_t::bump_texname, &tinyobj::material_t::displacement_texname,
+              &tinyobj::material_t::alpha_texname, &tinyobj::material_t::reflection_texname,
+              &tinyobj::material_t::roughness_texname, &tinyobj::material_t::metallic_texname,
+              &tinyobj::material_t::emissive_texname, &tinyobj::material_t::normal_texname}) {
+            std::string name = material.*texture;
+            std::ranges::replace(name, '\\', '/');  // as Windows has it
+            std::error_code error;
+            const auto place = files.find(name);
+            if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
+                missing.insert(name);
+        }
+    }
+    for (const std::string& name : missing)
+        mesh_.warnings.push_back("a texture is missing: " + io::about(library, "names ") +
+                                 mesh::quoted(name) +
+                                 ", which is not there; put it beside the material file");
 }
 
 void ObjReader::read_materials() {
     std::vector<tinyobj::material_t> found;
-    for (const std::string_view line : libraries_)
-        for (const std::string_view name : library_names(file_, line))
-            read_library(file_.parent_path() / name, found);
+    for (const std::string_view line : libraries_) {
+        for (const std::string_view name : library_names(file_, line)) {
+            const std::optional<std::filesystem::path> library = files_.find(name);
+            if (!library) fail_at(name, "mtllib names " + quoted(name) + NamedFiles::outside);
+            read_library(*library, found);
+        }
+    }
     for (Material& material : mesh_.materials) {
         const auto same_name = [&](const tinyobj::material_t& m) { return trimmed(m.name) == material.name; };
         const auto entry = std::ranges::find_if(found, same_name);
@@ -280,10 +323,11 @@ std::array<std::string_view, 3> corner_parts(std::string_view argument) {
     return parts;
 }
 
-Mesh read_obj(const std::filesystem::path& file, std::string_view bytes) {
-    Mesh mesh = ObjReader(file, bytes).read();
+Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options) {
+    Mesh mesh = ObjReader(file, bytes, options).read();
     auto source = std::make_shared<ObjSource>();
     source->file = file;
+    source->options = options;
     source->text = bytes;
     source->read = mesh;
     mesh.source = std::move(source);

@@ -77,13 +77,23 @@ struct Mesh {
     std::shared_ptr<const Source> source;  ///< null for a mesh made in memory
 };
 
+/// What load() may do.
+struct LoadOptions {
+    /// Whether the other files that a glTF or an OBJ names (buffers, images, material files) may lie outside
+    /// the folder that it is in. A file from somebody else could name any file of the machine, whose bytes
+    /// would then be read, and be in what save() writes.
+    bool allow_outside = false;
+};
+
 /// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the
-/// ending of the name. Other files that an OBJ or a glTF names are read too. Faces of fewer than 3 corners
-/// are left out, with a warning.
+/// ending of the name. Other files that an OBJ or a glTF names are read too, if they lie in its folder or
+/// below it once links are followed, or anywhere with LoadOptions::allow_outside. Faces of fewer than 3
+/// corners are left out, with a warning.
 ///
-/// Throws Error if the file cannot be read or is not of these formats, a position or normal is not finite, an
-/// index is out of range, there is no vertex or no face, or a glTF is compressed.
-[[nodiscard]] Mesh load(const std::filesystem::path& file);
+/// Throws Error if the file cannot be read or is not of these formats, names a file outside its folder, a
+/// position or normal is not finite, an index is out of range, there is no vertex or no face, or a glTF is
+/// compressed.
+[[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
 ///

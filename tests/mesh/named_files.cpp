@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_files.hpp"
+
+#include <doctest/doctest.h>
+
+/// Files that others name: those in the document's folder are read, others only where that is allowed.
+
+using namespace goffer::mesh;
+using namespace goffer::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder with a document's folder "in" and private files around it.
+struct Place {
+    Folder folder;
+
+    Place() {
+        fs::create_directories(folder / "in/sub");
+        fs::create_directory(folder / "inside");  // begins with the same letters
+        for (const char* name : {"secret.bin", "inside/secret.bin", "in/sub/own.bin"})
+            folder.write(name, tetra().buffer);
+        fs::create_symlink("../secret.bin", folder / "in/link.bin");
+        fs::create_symlink("sub/own.bin", folder / "in/own.bin");
+        fs::create_symlink("..", folder / "in/up");
+    }
+
+    /// What loading a glTF with a buffer of this URI says, and an image, where `image` is one.
+    [[nodiscard]] std::string gltf(const std::string& uri, bool image,
+                                   const LoadOptions& options = {}) const {
+        Document document = tetra();
+        if (image) {
+            document.json["images"].push_back({{"uri", uri}});
+        } else {
+            document.json["buffers"].push_back({{"byteLength", document.buffer.size()}, {"uri", uri}});
+        }
+        const fs::path file = folder.write("in/d.gltf", document.gltf());
+        return error_of([&] { (void)load(file, options); });
+    }
+
+    [[nodiscard]] std::string obj(const std::string& library, const LoadOptions& options = {}) const {
+        const fs::path file = folder.write(
+            "in/d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib " + library + "\nusemtl red\nf 1 2 3\n");
+        return error_of([&] { (void)load(file, options); });
+    }
+};
+
+/// An absolute path as a URI of slashes, or with all of them escaped.
+std::string uri_to(const fs::path& file, const char* slash) {
+    return replaced(file.string(), "/", slash);
+}
+
+}  // namespace
+
+TEST_CASE("named files: a glTF reads and copies nothing from outside its folder, however it is spelled") {
+    const Place place;
+    const LoadOptions allowed{.allow_outside = true};
+    for (const std::string& uri :
+         {std::string("../secret.bin"), std::string("..%2Fsecret.bin"), std::string("%2e%2e%2fsecret.bin"),
+          std::string("sub/../../secret.bin"), std::string("./%2E./secret.bin"), std::string("link.bin"),
+          std::string("up/secret.bin"), std::string("../inside/secret.bin"),
+          uri_to(place.folder / "secret.bin", "/"), uri_to(place.folder / "secret.bin", "%2F")}) {
+        CAPTURE(uri);
+        for (const bool image : {false, true}) {
+            const std::string message = place.gltf(uri, image);
+            CHECK(tells(message, image ? "images[0].uri: names '" : "buffers[0].uri: names '"));
+            CHECK(tells(message, uri.substr(0, 40)));
+            CHECK(tells(message, "--allow-outside"));
+            CHECK(place.gltf(uri, image, allowed).empty());
+        }
+    }
+}
+
+TEST_CASE("named files: what lies in the document's folder or below it is read") {
+    const Place place;
+    for (const char* uri :
+         {"sub/own.bin", "own.bin", "sub%2Fown.bin", "../in/sub/own.bin", "up/in/own.bin"}) {
+        CAPTURE(uri);
+        CHECK(place.gltf(uri, false).empty());
+        CHECK(place.gltf(uri, true).empty());
+    }
+    CHECK(tells(place.gltf("none/../gone.bin", false), "is not there"));
+    CHECK(tells(place.gltf("own.bin%00/../../secret.bin", false), "lies outside"));
+    CHECK(tells(place.gltf("http://a/b.bin", false), "only paths are read"));
+}
+
+TEST_CASE("named files: a document is found by a way with links and dots, and by its bare name") {
+    const Place place;
+    CHECK(place.gltf("sub/own.bin", false).empty());
+    CHECK(load(place.folder / "in/up/in/sub/../d.gltf").positions.size() == 4);
+    fs::create_directory_symlink("in", place.folder / "way");
+    CHECK(load(place.folder / "way/d.gltf").positions.size() == 4);
+    const fs::path before = fs::current_path();
+    fs::current_path(place.folder / "in");
+    CHECK(load("d.gltf").positions.size() == 4);
+    fs::current_path(before);
+}
+
+TEST_CASE("named files: an OBJ reads no material file from outside its folder") {
+    const Place place;
+    place.folder.write("secret.mtl", "newmtl red\nKd 1 0 0\n");
+    place.folder.write("in/own.mtl", "newmtl red\nKd 1 0 0\n");
+    fs::create_symlink("../secret.mtl", place.folder / "in/link.mtl");
+    for (const std::string& name : {std::string("../secret.mtl"), std::string("link.mtl"),
+                                    std::string("up/secret.mtl"), (place.folder / "secret.mtl").string()}) {
+        CAPTURE(name);
+        CHECK(tells(place.obj(name), "line 4: mtllib names '" + name.substr(0, 40)));
+        CHECK(tells(place.obj(name), "--allow-outside"));
+        CHECK(place.obj(name, {.allow_outside = true}).empty());
+    }
+    CHECK(place.obj("own.mtl").empty());
+}
+
+TEST_CASE("named files: textures that are not there are warned of") {
+    const Place place;
+    place.folder.write("in/here.png", "\x89PNG");
+    place.folder.write("in/a.mtl",
+                       "newmtl red\nmap_Kd gone.png\nmap_Ks -s 1 1 1 gone.png\nmap_d here.png\n"
+                       "bump ../not/looked/for.png\nnewmtl blue\nmap_Kd sub\\lost.png\n");
+    CHECK(place.obj("a.mtl").empty());
+    const std::vector<std::string> said = load(place.folder / "in/d.obj").warnings;
+    REQUIRE(said.size() == 2);
+    CHECK(tells(said[0], "a.mtl: names 'gone.png', which is not there"));
+    CHECK(tells(said[1], "a.mtl: names 'sub/lost.png', which is not there"));
+}
