@@ -2,9 +2,15 @@
 #include "support/files.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/read_file.hpp>
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
+#include <optional>
 
 using namespace goffer::io;
 using namespace goffer::test;
@@ -15,6 +21,19 @@ namespace {
 
 std::string refusal(const fs::path& file, const std::string& bytes = "new") {
     return message_of<Error>([&] { write_file(file, bytes); });
+}
+
+/// The end of a process of its own that does `work`, as waitpid has it.
+template <class Work>
+int status_of(Work work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        work();
+        _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return status;
 }
 
 }  // namespace
@@ -62,9 +81,9 @@ TEST_CASE("atomic file: where no file can be, one line says so") {
     CHECK(tells(refusal(folder / ""), "is a folder"));
     CHECK(tells(refusal(folder / "none/a"), "none/a: there is no such folder"));
     CHECK(tells(refusal(folder / "file/a"), "file/a: there is no such folder"));
-    CHECK(tells(refusal(folder / "a\nb/c"), "a_b/c: there is no such folder"));
+    CHECK(tells(refusal(folder / "a\nb\x1b/c"), "a\\x0ab\\x1b/c: there is no such folder"));
     CHECK(tells(refusal(folder / "loop"), "loop: is a link that leads to itself"));
-    CHECK(tells(refusal(folder / std::string(254, 'x')), "cannot be written: File name too long"));
+    CHECK(tells(refusal(folder / std::string(256, 'x')), "cannot be written: its name is too long"));
     CHECK(refusal("/dev/full").starts_with("/dev/full: is not a regular file"));
     CHECK(folder.files() == 3);
 }
@@ -90,4 +109,112 @@ TEST_CASE("atomic file: when the disk is full nothing is left behind and the old
     CHECK(refused(1000).empty());
     CHECK(bytes_of(folder / "a") == std::string(1000, 'x'));
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("atomic file: the longest name that a folder takes") {
+    const Folder folder;
+    for (const std::size_t length : {250, 255}) {
+        write_file(folder / std::string(length, 'x'), "new");
+        CHECK(bytes_of(folder / std::string(length, 'x')) == "new");
+    }
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("atomic file: what a process left that was killed is removed, what others write is not") {
+    const Folder folder;
+    folder.write(".goffer-1-0.part", "of a process that lives");
+    folder.write(".goffer-x-0.part", "somebody's own");
+    folder.write("a.part0", "somebody's own");
+    const int status = status_of([&] {
+        AtomicFile file(folder / "a");
+        file.write("half");
+        file.flush();
+        _exit(3);
+    });
+    CHECK(WEXITSTATUS(status) == 3);
+    REQUIRE(folder.files() == 4);
+    {
+        const AtomicFile mine(folder / "b");
+        CHECK(folder.files() == 4);
+        write_file(folder / "c", "new");
+        CHECK(folder.files() == 5);
+    }
+    CHECK(folder.files() == 4);
+}
+
+TEST_CASE("atomic file: a part of a process that is gone stays while somebody holds its lock") {
+    const Folder folder;
+    std::optional<AtomicFile> mine(std::in_place, folder / "a");
+    const fs::path part = fs::directory_iterator(folder / ".")->path();
+    const fs::path foreign = folder / ".goffer-2147483646-0.part";  // as another container has it
+    fs::rename(part, foreign);
+    write_file(folder / "b", "new");
+    CHECK(fs::exists(foreign));
+    mine.reset();
+    write_file(folder / "b", "new");
+    CHECK(!fs::exists(foreign));
+}
+
+TEST_CASE("atomic file: a handler of signals can remove what is unfinished") {
+    const Folder folder;
+    folder.write("a", "old");
+    const fs::path before = fs::current_path();
+    const int status = status_of([&] {
+        fs::current_path(folder / ".");
+        AtomicFile file("a"), other("b"), done("c");
+        file.write("half");
+        done.commit();
+        fs::current_path(before);
+        std::signal(SIGTERM, [](int number) {
+            remove_unfinished();
+            std::signal(number, SIG_DFL);
+            std::raise(number);
+        });
+        std::raise(SIGTERM);
+    });
+    CHECK(WTERMSIG(status) == SIGTERM);
+    CHECK(bytes_of(folder / "a") == "old");
+    CHECK(fs::exists(folder / "c"));
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("atomic file: of several, none takes its place before all are written") {
+    const Folder folder;
+    folder.write("a", "old");
+    const std::string message = message_of<Error>([&] {
+        const FullDisk full(1000);
+        AtomicFiles files;
+        files.add(folder / "a").write("new");
+        files.add(folder / "b").write(std::string(1001, 'x'));
+        files.commit();
+    });
+    CHECK(tells(message, "b: cannot be written: File too large"));
+    CHECK(bytes_of(folder / "a") == "old");
+    CHECK(folder.files() == 1);
+    AtomicFiles files;
+    for (const char* name : {"a", "b"}) files.add(folder / name).write("new");
+    CHECK(bytes_of(folder / "a") == "old");
+    files.commit();
+    CHECK(bytes_of(folder / "a") + bytes_of(folder / "b") == "newnew");
+}
+
+TEST_CASE("read file: a regular file, and nothing that might never end") {
+    const Folder folder;
+    CHECK(read_file(folder.write("a", std::string("b\0c", 3))) == std::string("b\0c", 3));
+    CHECK(read_file(folder.write("empty", "")).empty());
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const auto refused = [&](const char* name) {
+        return message_of<Error>([&] { (void)read_file(folder / name); });
+    };
+    CHECK(tells(refused("pipe"), "pipe: is not a regular file"));
+    CHECK(tells(refused("."), "is a folder"));
+    CHECK(tells(refused("none"), "none: there is no such file"));
+}
+
+TEST_CASE("error: text fit for a terminal, and sizes") {
+    CHECK(escaped("a\x1b[31m\x7f\t\xc2\x9b") == "a\\x1b[31m\\x7f\\x09\xc2\\x9b");
+    CHECK(escaped("gr\xc3\xbc\xc3\x9f") == "gr\xc3\xbc\xc3\x9f");
+    CHECK(size_text(std::uint64_t{3} << 30) == "3 GiB");
+    CHECK(size_text(1536) == "1536 bytes");
+    CHECK(size_text(5 << 20) == "5 MiB");
 }

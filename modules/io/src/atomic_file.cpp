@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "part_file.hpp"
+
 #include <goffer/io/atomic_file.hpp>
 
 #include <cerrno>
@@ -23,14 +25,21 @@ fs::path followed(fs::path target) {
     return target;
 }
 
+fs::path folder_of(const fs::path& target) {
+    return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
 void refuse_unwritable(const fs::path& target) {
     std::error_code error;
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const fs::path folder = folder_of(target);
     if (target.filename().empty() || fs::is_directory(target, error))
         fail(target, "is a folder; give the name of a file");
     if (!fs::is_directory(folder, error)) fail(target, "there is no such folder to write to; make it first");
     if (fs::is_symlink(target, error)) fail(target, "is a link that leads to itself; give another name");
-    if (!fs::exists(target, error)) return;
+    const bool exists = fs::exists(target, error);
+    if (error == std::errc::filename_too_long)
+        fail(target, "cannot be written: its name is too long; give a shorter one");
+    if (!exists) return;
     if (!fs::is_regular_file(target, error)) fail(target, "is not a regular file; give the name of one");
     // Moving a file over another needs no right to write to that one; a write-protected output stays
     // protected.
@@ -43,41 +52,63 @@ void refuse_unwritable(const fs::path& target) {
 
 AtomicFile::AtomicFile(fs::path target) : target_(followed(std::move(target))) {
     refuse_unwritable(target_);
-    constexpr int tries = 1000;
-    for (int i = 0; i < tries && !stream_; ++i) {
-        beside_ = target_;
-        beside_ += ".part" + std::to_string(i);
-        stream_ = std::fopen(beside_.string().c_str(), "wbx");
-        if (!stream_ && errno != EEXIST) give_up(errno);
-    }
-    if (!stream_) give_up(EEXIST);
+    remove_stale_parts(folder_of(target_));
+    PartFile part = open_part(folder_of(target_));
+    if (!part.stream) give_up(errno);
+    stream_ = part.stream;
+    beside_ = std::move(part.path);
 }
 
 AtomicFile::~AtomicFile() {
     if (stream_) std::fclose(stream_);
+    if (beside_.empty()) return;
     std::error_code ignored;
-    if (!beside_.empty()) fs::remove(beside_, ignored);
+    fs::remove(beside_, ignored);
+    forget_part(beside_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
+    flushed_ = false;
     if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) give_up(errno);
 }
 
+void AtomicFile::flush() {
+    if (flushed_) return;
+    if (std::ferror(stream_) != 0) give_up(EIO);
+    if (!synchronize(stream_)) give_up(errno);
+    flushed_ = true;
+}
+
+/// Where it can be, the file is closed last, since its lock ends then.
 void AtomicFile::commit() {
-    const bool failed_before = std::ferror(stream_) != 0;
-    const bool failed_now = std::fclose(std::exchange(stream_, nullptr)) != 0;
-    if (failed_before || failed_now) give_up(failed_now ? errno : EIO);
+    flush();
+    if (!renames_open_files) std::fclose(std::exchange(stream_, nullptr));
     std::error_code error;
     const fs::file_status old = fs::status(target_, error);
     if (fs::exists(old)) fs::permissions(beside_, old.permissions(), error);
     fs::rename(beside_, target_, error);
     if (error) give_up(error.value());
-    beside_.clear();
+    forget_part(std::exchange(beside_, {}));
+    if (stream_) std::fclose(std::exchange(stream_, nullptr));
+    synchronize_folder(folder_of(target_));
 }
 
 void AtomicFile::give_up(int error_number) const {
     fail(target_, "cannot be written: " + std::generic_category().message(error_number) +
                       "; check the folder's permissions and the free space, or give another name");
+}
+
+AtomicFile& AtomicFiles::add(fs::path target) {
+    return *files_.emplace_back(std::make_unique<AtomicFile>(std::move(target)));
+}
+
+void AtomicFiles::flush() {
+    for (const auto& file : files_) file->flush();
+}
+
+void AtomicFiles::commit() {
+    flush();
+    for (const auto& file : files_) file->commit();
 }
 
 void write_file(const fs::path& target, std::string_view bytes) {

@@ -5,21 +5,27 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 /// Files that appear whole or not at all, for every output that goffer writes.
 
 namespace goffer::io {
 
-/// A file being written beside its place, under a name of its own; `commit` moves it there. Without a commit
-/// (an error, an early return) nothing is left of it, and a file that was there before is as it was. Several
-/// outputs are kept together by writing all of them before committing the first. One object belongs to one
-/// thread; several may have the same target, the last commit stays.
+/// A file being written beside its place, as .goffer-PROCESS-NUMBER.part; `commit` moves it there. Without a
+/// commit (an error, an early return) nothing is left of it, and a file that was there before is as it was.
+/// Several outputs are kept together by AtomicFiles. One object belongs to one thread; several may have the
+/// same target, the last commit stays.
+///
+/// What a process that was killed has left is removed when another file is written to the same folder, where
+/// it is sure that nobody writes it: the process is gone, and its lock on the file too. Not on Windows, which
+/// has no such lock.
 class AtomicFile {
 public:
     /// Opens the file beside `target`, so that an output that cannot be written is refused before any work is
     /// done. A symbolic link is followed. Throws Error: no such folder, a folder itself, a device, a link
-    /// that leads to itself, not permitted.
+    /// that leads to itself, too long a name, not permitted.
     explicit AtomicFile(std::filesystem::path target);
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -31,8 +37,11 @@ public:
     /// For libraries that write to a C stream; owned by this object, null after `commit`.
     [[nodiscard]] std::FILE* stream() { return stream_; }
 
-    /// Puts the file in its place, with the permissions of the one it replaces. To be called once. Throws
-    /// Error.
+    /// Waits until the disk has all bytes. Throws Error.
+    void flush();
+
+    /// Flushes the file and puts it in its place, with the permissions of the one it replaces; then waits
+    /// until the disk has the folder's new entry. To be called once. Throws Error.
     void commit();
 
 private:
@@ -41,9 +50,31 @@ private:
     std::filesystem::path target_;
     std::filesystem::path beside_;
     std::FILE* stream_ = nullptr;
+    bool flushed_ = false;
+};
+
+/// Outputs that belong together: none takes its place before all of them are on the disk.
+class AtomicFiles {
+public:
+    /// Opens one more. The reference is good for as long as this object. Throws Error.
+    AtomicFile& add(std::filesystem::path target);
+
+    /// Waits until the disk has the bytes of all of them. Throws Error.
+    void flush();
+
+    /// Flushes them all and puts one after the other in its place. To be called once. Throws Error.
+    void commit();
+
+private:
+    std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
 /// The whole of a file at once: opened, written and committed. Throws Error.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
+
+/// Removes the unfinished files of all AtomicFile objects of this process, which cannot commit any more. For
+/// a handler of signals that ends the process, and may be called in one; goffer's libraries install none.
+/// Does nothing on Windows, where a file that is open cannot be removed.
+void remove_unfinished() noexcept;
 
 }  // namespace goffer::io

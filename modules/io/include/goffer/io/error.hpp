@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace goffer::io {
 
-/// A file that cannot be written. what() is one line: what is wrong, where, how to mend it.
+/// A file that cannot be read or written. what() is one line: what is wrong, where, how to mend it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -19,7 +20,14 @@ public:
 /// `text` fit for one line: control characters become '_'.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// "<file>: <what>", where the file's name is kept to one line.
+/// `text` fit for a terminal: control characters become \xNN, so that a file's name, or text out of a file,
+/// neither ends the line nor commands the terminal.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// "<file>: <what>", where the file's name is escaped.
 [[nodiscard]] std::string about(const std::filesystem::path& file, std::string_view what);
+
+/// "2 GiB", "100 MiB", "3 bytes": in the largest unit that leaves a whole number.
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
 
 }  // namespace goffer::io

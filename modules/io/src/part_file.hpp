@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+
+/// What systems do in different ways for files that are being written.
+
+namespace goffer::io {
+
+/// A file that is being written. Until it is forgotten, remove_unfinished() removes it.
+struct PartFile {
+    std::FILE* stream = nullptr;  ///< null: errno says why
+    std::filesystem::path path;
+};
+
+/// Makes a new file in `folder`, under a name that no other has. It is locked for as long as it is open,
+/// where the system can do that.
+[[nodiscard]] PartFile open_part(const std::filesystem::path& folder);
+
+/// To be called once a part is renamed or removed.
+void forget_part(const std::filesystem::path& path);
+
+/// Removes the parts in `folder` that a process which is gone has left.
+void remove_stale_parts(const std::filesystem::path& folder);
+
+/// Waits until the disk has what was written. Returns false with errno.
+[[nodiscard]] bool synchronize(std::FILE* stream);
+
+/// Waits until the disk has the entries of `folder`, where the system can do that.
+void synchronize_folder(const std::filesystem::path& folder);
+
+/// Whether a file that is open can be renamed.
+#ifdef _WIN32
+inline constexpr bool renames_open_files = false;
+#else
+inline constexpr bool renames_open_files = true;
+#endif
+
+}  // namespace goffer::io

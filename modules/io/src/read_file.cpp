@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/io/read_file.hpp>
+
+#include <fstream>
+#include <system_error>
+
+namespace goffer::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* unreadable = "cannot be read; check its permissions";
+
+}  // namespace
+
+std::uint64_t size_of_file(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status)) throw Error(about(file, "there is no such file; check the name"));
+    if (fs::is_directory(status)) throw Error(about(file, "is a folder; give the name of a file"));
+    if (!fs::is_regular_file(status))
+        throw Error(about(file, "is not a regular file; copy what it holds into one"));
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) throw Error(about(file, unreadable));
+    return size;
+}
+
+std::string read_file(const fs::path& file) {
+    std::string bytes(size_of_file(file), '\0');
+    std::ifstream in(file, std::ios::binary);
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+        throw Error(about(file, unreadable));
+    return bytes;
+}
+
+}  // namespace goffer::io

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "unfinished.hpp"
+
+#include <goffer/io/atomic_file.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <string>
+
+#ifndef _WIN32
+#include <unistd.h>
+#endif
+
+namespace goffer::io {
+namespace {
+
+/// A place of the list. Whoever takes it from `unused` or `noted` may touch the path, nobody else.
+struct Slot {
+    enum State { unused, taken, noted };
+    std::atomic<int> state{unused};
+    std::array<char, 4096> path{};
+
+    bool take(int from) { return state.compare_exchange_strong(from, taken); }
+};
+static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals must not wait");
+
+/// State of the process, the only one in goffer: a handler of signals is given nothing, must not allocate and
+/// must not wait, so that what it needs lies here, at a fixed size.
+std::array<Slot, 16> slots;
+
+}  // namespace
+
+void note_unfinished(const std::filesystem::path& file) {
+    const std::string path = file.string();
+    for (Slot& slot : slots) {
+        if (path.size() >= slot.path.size() || !slot.take(Slot::unused)) continue;
+        std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
+        slot.state = Slot::noted;
+        return;
+    }
+}
+
+void forget_unfinished(const std::filesystem::path& file) {
+    const std::string path = file.string();
+    for (Slot& slot : slots) {
+        if (!slot.take(Slot::noted)) continue;
+        slot.state = path == slot.path.data() ? Slot::unused : Slot::noted;
+    }
+}
+
+void remove_unfinished() noexcept {
+#ifndef _WIN32
+    for (Slot& slot : slots) {
+        if (slot.take(Slot::noted)) unlink(slot.path.data());
+    }
+#endif
+}
+
+}  // namespace goffer::io
