@@ -2,6 +2,9 @@
 #include "command.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
 
 /// Outputs that cannot be written and fits that cannot be used: exit code 1, one line, nothing written.
 
@@ -92,4 +95,41 @@ TEST_CASE("bad files: the fit of another mesh") {
     place.refuse_field("length", 5, {"vertex", "outside", "0..5"});
     place.refuse_field("length", 1e-30, {"vertex", "outside", "0..1e-30"});
     place.refuse_field("origin", {0, 0, 3}, {"vertex", "z = -3", "outside"});
+}
+
+TEST_CASE("bad files: where the report cannot be written, no output is") {
+    const Place place;
+    const std::string go = "cd '" + (place.folder / ".").string() + "' && '" + GOFFER_COMMAND + "' ";
+    for (const std::string words :
+         {"bend base.ply --angle 10 -o out.ply --png out.png --json out.json >/dev/full 2>/dev/null",
+          "bend base.ply --angle 10 -o out.ply --png out.png --json - >/dev/full 2>/dev/null",
+          "refine base.ply --folds 8 -o out.ply >/dev/full 2>/dev/null",
+          "base -o out.ply >/dev/full 2>/dev/null",
+          "crowd base.ply --frames 1 --instances 2 --png out.png >/dev/full 2>/dev/null"}) {
+        CAPTURE(words);
+        const Snapshot before = snapshot(place.folder);
+        CHECK(std::system((go + words).c_str()) != 0);
+        CHECK(snapshot(place.folder) == before);
+    }
+}
+
+TEST_CASE("bad files: a pipe as a fit is refused, standard input and a shell's pipe are read") {
+    const Place place;
+    REQUIRE(mkfifo((place.folder / "pipe").c_str(), 0600) == 0);
+    const Result result = run(place.folder, {"bend", "base.ply", "-o", "new.ply", "--fit", "pipe"});
+    CHECK(result.code == 1);
+    CHECK(result.err.find("pipe: cannot be read, since it is not a regular file") != result.err.npos);
+    const std::string go = "cd '" + (place.folder / ".").string() + "' && '" + GOFFER_COMMAND + "' ";
+    const std::string fit = go + "inspect base.ply --json - 2>/dev/null | '" + GOFFER_COMMAND + "' ";
+    CHECK(std::system((fit + "bend base.ply -o new.ply --fit /dev/stdin >/dev/null").c_str()) == 0);
+}
+
+TEST_CASE("bad files: control characters in a name are escaped") {
+    const Place place;
+    refused(place.folder, 1, {"inspect", "a\x1b[31m\tb.obj"},
+            {"a\\x1b[31m\\x09b.obj: there is no such file"});
+    std::filesystem::copy(place.folder / "base.ply", place.folder / "red\x1b[31m.ply");
+    const std::string out = well(place.folder, {"inspect", "red\x1b[31m.ply"});
+    CHECK(out.find('\x1b') == out.npos);
+    CHECK(out.find("red\\x1b[31m.ply") != out.npos);
 }

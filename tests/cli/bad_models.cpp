@@ -171,6 +171,24 @@ TEST_CASE("bad models: a file that is named outside the model's folder, unless t
         CHECK(run(place.folder, words + Words{"--allow-outside"}).code == 0);
 }
 
+TEST_CASE("bad models: what would take more memory than is allowed") {
+    const Place place;
+    base(place.folder, "base.ply", {"--columns", "16", "--rows", "41"});
+    base(place.folder, "large.ply", {"--columns", "100", "--rows", "41"});
+    for (const std::string command : {"inspect", "crowd"})
+        refused(place.folder, 1, {command, "large.ply", "--max-memory", "1M"},
+                {"large.ply: 4100 vertices and 8000 triangles", "1 MiB", "--max-memory"});
+    // Below the limit as it is, above it when refined.
+    refused(place.folder, 1, {"refine", "base.ply", "-o", "out.ply", "--folds", "64", "--max-memory", "1M"},
+            {"base.ply: refined", "ask for fewer folds, or allow more with --max-memory"});
+    CHECK(run(place.folder, {"refine", "base.ply", "-o", "new.ply", "--folds", "64"}).code == 0);
+    refused(place.folder, 1, {"inspect", "base.ply", "--max-memory", "10k"},
+            {"base.ply: takes more than the 10 KiB"});
+    refused(place.folder, 2, {"base", "-o", "out.ply", "--max-memory", "1M"},
+            {"--columns, --rows", "--max-memory"});
+    refused(place.folder, 2, {"inspect", "base.ply", "--max-memory", "much"}, {"--max-memory"});
+}
+
 TEST_CASE("bad models: many vertices without a triangle are no reason to wait") {
     const Folder folder;
     base(folder, "base.obj", {"--columns", "128", "--rows", "257"});

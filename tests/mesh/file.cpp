@@ -148,7 +148,7 @@ TEST_CASE("file: an output that cannot be written is refused, and what was there
     fs::create_symlink("/dev/full", folder / "full.ply");
     const std::string full = message_of<goffer::io::Error>([&] { save(mesh, folder / "full.ply"); });
     CHECK(full.find("/dev/full: is not a regular file") == 0);
-    CHECK(error(folder / (std::string(254, 'x') + ".ply"), "cannot be written"));
+    CHECK(error(folder / (std::string(252, 'x') + ".ply"), "its name is too long"));
     CHECK(folder.files() == 2);
 }
 

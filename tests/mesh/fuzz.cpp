@@ -57,7 +57,7 @@ std::string mutated(std::string bytes, std::mt19937& random) {
 /// Loads what a mutation made of `bytes`; what loads can also be written, bent and written, and refined and
 /// written, in its own format. Returns how many loaded.
 int survive(const std::string& name, const std::string& bytes, int rounds, const std::string& beside = {}) {
-    const Folder folder;
+    const Folder folder(quick_place());
     const auto out_file = folder / ("out-" + name);
     std::mt19937 random(20150627);
     int loaded = 0;
@@ -113,7 +113,7 @@ TEST_CASE("fuzz: STL files load or are refused") {
 
 TEST_CASE("fuzz: bytes without any sense are refused under every name") {
     std::mt19937 random(7);
-    const Folder folder;
+    const Folder folder(quick_place());
     for (int i = 0; i < 500; ++i) {
         std::string bytes(1 + random() % 300, '\0');
         std::ranges::generate(bytes, [&] { return static_cast<char>(random()); });

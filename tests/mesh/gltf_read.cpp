@@ -332,6 +332,38 @@ TEST_CASE("gltf: textures may be missing, which is warned of, and broken, which 
     CHECK(mesh.warnings[0].find("images[0].uri names 'gone.png', which is not there") != std::string::npos);
 }
 
+TEST_CASE("gltf: fields of the wrong type that nobody reads are warned of, once") {
+    const auto warnings = [](const char* materials) {
+        Document document = tetra();
+        document.json["materials"] = Json::parse(materials);
+        return load_document(document).warnings;
+    };
+    const auto warned = [&](const char* materials, const std::string& text) {
+        const std::vector<std::string> said = warnings(materials);
+        return said.size() == 1 && said[0].starts_with(text);
+    };
+    CHECK(warnings(R"([{"doubleSided": true, "normalTexture": {"index": 0, "scale": 2},
+                        "extras": {"name": 3}, "extensions": {"A": {"name": 3}}}])")
+              .empty());
+    CHECK(warned(R"([{"normalTexture": {"scale": "no"}}])",
+                 "materials[0].normalTexture.scale is a JSON string, expected a number: kept"));
+    CHECK(warned(R"([{}, {"normalTexture": {"index": -1}, "doubleSided": 1}])",
+                 "materials[1].normalTexture.index is -1, expected a whole number of 0 or more, and 1 more"));
+    CHECK(warned(R"([{"extensions": {"KHR_a": "no"}}])",
+                 "materials[0].extensions.KHR_a is a JSON string, expected an object"));
+    Document document = tetra();
+    document.json["scenes"][0]["name"] = 42;
+    CHECK(load_document(document).warnings.size() == 1);
+}
+
+TEST_CASE("gltf: the way out of a compression is a tool that knows it") {
+    Document document = tetra();
+    document.json["extensionsUsed"] = {"KHR_meshopt_compression"};
+    CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltfpack -noq -i IN -o OUT"));
+    document.json["extensionsUsed"] = {"EXT_meshopt_compression"};
+    CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltf-transform copy IN OUT"));
+}
+
 TEST_CASE("gltf: outer buffers are found beside the document, by their decoded name") {
     const Folder folder;
     Document document = tetra();
@@ -453,7 +485,7 @@ TEST_CASE("gltf: a mesh repeated without end is refused, deep nodes and deep ext
         document.json["nodes"].push_back({{"mesh", 0}});
         document.json["scenes"][0]["nodes"].push_back(i);
     }
-    CHECK(tells(load_error("d.glb", document.glb()), "repeats its meshes so often"));
+    CHECK(tells(load_error("d.glb", document.glb()), "more than 1048576 elements without a bufferView"));
 
     document = tetra();
     for (std::size_t i = 1; i < many; ++i) document.json["nodes"].push_back({{"children", {i - 1}}});

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -229,4 +230,29 @@ TEST_CASE("obj: normals that no face uses are no attribute, and stay in the file
     CHECK(mesh.normals.empty());
     CHECK(mesh.uvs.empty());
     CHECK(saved(mesh, "b.obj") == text);
+}
+
+TEST_CASE("obj: numbers with the sign before the letter of the exponent are read as others read them") {
+    const Mesh mesh =
+        load_text("a.obj", "v 1e+2 2.e+1 3.1+e2\nv +1e-2 +2.e-1 -3.1-E2\nv 1E2 +2. 0\nf 1 2 3\n");
+    CHECK(mesh.positions[0] == glm::vec3(100, 20, 3.1f));
+    CHECK(mesh.positions[1] == glm::vec3(0.01f, 0.2f, -3.1f));
+    CHECK(mesh.positions[2] == glm::vec3(100, 2, 0));
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].starts_with("2 numbers are written like 3.1+e2"));
+    for (const char* bad : {"+e2", "3.1+e", "3.1+e2x", "3.1+f2"})
+        CHECK(tells(load_error("a.obj", std::string("v 0 0 ") + bad + "\n"), "is not a number"));
+}
+
+TEST_CASE("obj: a material for each face takes no more than a moment, to read and to write") {
+    constexpr int many = 200000;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < many; ++i) text += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+    const auto start = std::chrono::steady_clock::now();
+    Mesh mesh = load_text("a.obj", text);
+    CHECK(mesh.materials.size() == many);
+    for (Material& material : mesh.materials) material.name = "same";
+    mesh.source = nullptr;
+    CHECK(saved(mesh, "b.obj").find("usemtl same_200000\n") != std::string::npos);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }

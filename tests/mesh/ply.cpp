@@ -222,7 +222,7 @@ TEST_CASE("ply: what cannot be read is told with its line, element and row") {
     CHECK(error("property uint8 label", "property long label", "line 6: type 'long'"));
     CHECK(error("list uchar short", "list float short", "line 10: a list's count"));
     CHECK(error("ascii", "utf8", "line 2: format 'utf8'"));
-    CHECK(error("obj_info", "obj_data", "line 4: 'obj_data' is not a word"));
+    CHECK(error("property uint8 label", "proper uint8 label", "line 6: 'proper' is not a word"));
     CHECK(error("float x", "float xx", "no property x"));
     CHECK(error("element vertex", "element point", "no element vertex"));
     CHECK(error("vertex_indices", "edges", "there are no faces"));
@@ -246,4 +246,29 @@ TEST_CASE("ply: faces of two corners are left out with a warning") {
     const Mesh mesh = load_text("a.ply", replaced(rich, "9 3 0 2 3 0", "9 2 0 2 0"));
     CHECK(mesh.faces.size() == 1);
     CHECK(mesh.warnings.size() == 1);
+}
+
+TEST_CASE("ply: an index that is no number, or too large for one, is told as it is") {
+    const auto with_index = [](const std::string& index) {
+        return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+               "z\n"
+               "element face 1\nproperty list uchar double vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n3 0 1 " +
+               index + "\n";
+    };
+    CHECK(tells(load_error("a.ply", with_index("nan")), "vertex index nan is out of range"));
+    CHECK(tells(load_error("a.ply", with_index("1e300")), "vertex index 1e+300 is out of range"));
+    CHECK(tells(load_error("a.ply", with_index("-inf")), "vertex index -inf is out of range"));
+    CHECK(tells(load_error("a.ply", with_index("1.5")), "vertex index 1.5 is out of range"));
+}
+
+TEST_CASE("ply: a header line of an old Blender is taken for a comment, and kept") {
+    const std::string bytes =
+        "ply\nformat ascii 1.0\nCreated by Blender3D 247 - www.blender.org, source file: \nelement vertex 3\n"
+        "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar uint vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const Mesh mesh = load_text("a.ply", bytes);
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].starts_with("line 3: 'Created' is not a word"));
+    CHECK(saved(mesh, "b.ply") == bytes);
 }

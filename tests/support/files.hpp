@@ -17,9 +17,9 @@ namespace goffer::test {
 /// A folder of its own for each object, removed with all that is in it.
 class Folder {
 public:
-    Folder() {
+    explicit Folder(const std::filesystem::path& in = std::filesystem::temp_directory_path()) {
         std::random_device random;
-        do path_ = std::filesystem::temp_directory_path() / (prefix + std::to_string(random()));
+        do path_ = in / (prefix + std::to_string(random()));
         while (!std::filesystem::create_directory(path_));
     }
     ~Folder() {
@@ -43,6 +43,13 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// Where files are in memory, if there is such a place: a test that writes thousands of small ones must not
+/// wait for the disk each time.
+inline std::filesystem::path quick_place() {
+    const std::filesystem::path memory = "/dev/shm";
+    return std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+}
 
 inline std::string bytes_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -188,10 +188,14 @@ int usable_threads(int asked) {
 
 fit::Cylinder read_fit(const std::filesystem::path& file) {
     const std::string mend = "; give the JSON that 'goffer inspect --json' writes";
+    // A stream that is open already, as /dev/stdin and a shell's <(..), ends; a pipe in a folder may not even
+    // begin.
+    const bool open_stream = file == "/dev/stdin" || file.parent_path() == "/dev/fd";
+    std::error_code no_status;
+    if (!open_stream && !std::filesystem::is_regular_file(file, no_status))
+        throw InputError(file.string() + ": cannot be read, since it is not a regular file" + mend);
     std::ifstream stream(file);
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw InputError(file.string() + ": cannot be read" + mend);
-    }
+    if (!stream) throw InputError(file.string() + ": cannot be read" + mend);
     fit::Cylinder cylinder;
     try {
         const nlohmann::json report = nlohmann::json::parse(stream);

@@ -4,6 +4,7 @@
 #include <goffer/engine/isa.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
+#include <goffer/fit/refine.hpp>
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
@@ -87,6 +88,8 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
         return work();
     } catch (const fit::AxisError& error) {
         throw InputError(file.string() + ": " + error.what() + " with --axis x|y|z|X,Y,Z");
+    } catch (const fit::SizeError& error) {
+        throw InputError(file.string() + ": " + error.what() + ", or allow more with --max-memory");
     } catch (const fit::Error& error) {
         throw InputError(file.string() + ": " + error.what());
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "memory.hpp"
 #include "report.hpp"
 
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/paper/base.hpp>
 
@@ -19,12 +21,15 @@ struct BaseOptions {
     bool caps = false;
     std::filesystem::path output;
     std::filesystem::path json;
+    mesh::Limits limits;
 };
 
 void check(const BaseOptions& options) {
-    constexpr std::uint64_t most = 50'000'000;
-    if (static_cast<std::uint64_t>(options.columns) * options.rows > most) {
-        throw UsageError("--columns, --rows: more than 50 million vertices; use fewer");
+    const std::uint64_t vertices = static_cast<std::uint64_t>(options.columns) * options.rows;
+    if (memory_for(vertices, 2 * vertices) > options.limits.memory) {
+        throw UsageError("--columns, --rows: " + std::to_string(vertices) + " vertices take more than the " +
+                         io::size_text(options.limits.memory) +
+                         " of memory that are allowed; use fewer, or allow more with --max-memory");
     }
 }
 
@@ -40,7 +45,8 @@ void run_base(const BaseOptions& options) {
     mesh.corners = base.triangles;
     mesh.faces.assign(base.triangles.size() / 3, 3);
     mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(mesh.faces.size())});
-    mesh::save(mesh, options.output);
+    io::AtomicFiles outputs;
+    mesh::save(mesh, options.output, outputs);
 
     report.json["file"] = options.output.string();
     report.json["vertices"] = mesh.positions.size();
@@ -48,7 +54,7 @@ void run_base(const BaseOptions& options) {
     report.line("written", options.output.string());
     report.line("mesh", std::to_string(mesh.positions.size()) + " vertices, " +
                             std::to_string(mesh.faces.size()) + " triangles");
-    report.finish();
+    report.finish(outputs);
 }
 
 }  // namespace
@@ -74,6 +80,7 @@ void add_base(CLI::App& app, Action& action) {
         ->add_option("-o,--output", options->output, "Write the model here: .glb, .gltf, .obj, .ply or .stl")
         ->required();
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_memory_word(*command, options->limits);
     command->callback([options, &action] { action = [options] { run_base(*options); }; });
 }
 

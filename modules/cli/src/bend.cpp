@@ -10,6 +10,7 @@
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/base.hpp>
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/measure/timer.hpp>
 #include <goffer/mesh/mesh.hpp>
 
@@ -177,6 +178,7 @@ void run_bend(const BendOptions& options) {
     report_bend(report, request, model, targets, bent, area_before);
     report_local_area(report, model, poses, bent.records.positions);
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
+    io::AtomicFiles outputs;
     if (!options.png.empty()) {
         const Progress progress("rendering " + options.png.string());
         const bool show = !options.show.empty();
@@ -184,13 +186,13 @@ void run_bend(const BendOptions& options) {
             show ? area_colors(model, bent.records.positions) : std::vector<glm::vec4>();
         write_picture(
             {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
-            options.ghost, options.png);
+            options.ghost, options.png, outputs);
         if (show) report_area_colors(report);
         report.line("picture", options.png.string());
     }
-    mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output);
+    mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output, outputs);
     report.line("written", options.output.string());
-    report.finish();
+    report.finish(outputs);
 }
 
 }  // namespace

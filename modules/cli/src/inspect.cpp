@@ -5,6 +5,7 @@
 #include "suitability.hpp"
 
 #include <goffer/fit/geometry.hpp>
+#include <goffer/io/atomic_file.hpp>
 
 #include <memory>
 
@@ -63,7 +64,8 @@ void run_inspect(const InspectOptions& options) {
     report.line("largest angle", number(max_angle) + " degrees");
     report.line("folds", std::to_string(binding.folds()) + " would be used; the mesh carries " +
                              std::to_string(binding.folds_capacity()));
-    report.finish();
+    io::AtomicFiles outputs;
+    report.finish(outputs);
 }
 
 }  // namespace

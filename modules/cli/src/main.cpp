@@ -2,9 +2,13 @@
 #include "commands.hpp"
 
 #include <goffer/fit/geometry.hpp>
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/view/picture.hpp>
 
+#include <algorithm>
+#include <array>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -18,12 +22,10 @@ namespace {
 
 enum ExitCode { done = 0, failed = 1, wrong_usage = 2 };
 
-// One line, whatever a library's message holds.
+// One line, whatever a library's message and the names in it hold.
 int complain(ExitCode code, std::string text) {
-    for (char& c : text) {
-        if (c == '\n' || c == '\r') c = ' ';
-    }
-    std::fprintf(stderr, "goffer: %s\n", text.c_str());
+    std::ranges::replace(text, '\n', ' ');
+    std::fprintf(stderr, "goffer: %s\n", io::escaped(text).c_str());
     return code;
 }
 
@@ -34,6 +36,24 @@ int usage(const CLI::App& app, const CLI::ParseError& error) {
     const bool no_command = app.get_subcommands().empty() && !left.empty();
     return complain(wrong_usage, (no_command ? "there is no command '" + left.front() + "'" : error.what()) +
                                      std::string("; see 'goffer --help' or 'goffer COMMAND --help'"));
+}
+
+/// A signal that ends the command leaves no unfinished file behind, and ends it as it would have.
+void end_by(int signal) {
+    io::remove_unfinished();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void heed_signals() {
+#ifdef _WIN32
+    constexpr std::array signals{SIGINT, SIGTERM};
+#else
+    constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
+#endif
+    for (const int signal : signals) {
+        if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup wants it
+    }
 }
 
 int run(int argc, char** argv) {
@@ -71,6 +91,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        goffer::cli::heed_signals();
         return goffer::cli::run(argc, argv);
     } catch (...) {  // not even a message could be put together
         std::fputs("goffer: not enough memory for this; use a smaller mesh\n", stderr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model.hpp"
 
+#include "memory.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
 
@@ -89,6 +90,7 @@ void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
     command.add_flag("--allow-outside", options.allow_outside,
                      "Read what a model names outside its folder too (buffers, images, material files), and "
                      "copy it into the output; for models that you trust");
+    add_memory_word(command, options.limits);
 }
 
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
@@ -183,6 +185,8 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
                       const std::filesystem::path& fit) {
     const Progress progress("reading " + file.string());
     mesh::Mesh mesh = mesh::load(file, request.words.load);
+    const mesh::Limits& limits = request.words.load.limits;
+    check_memory(file.string(), mesh, limits);
     mesh::VertexArrays rest = mesh::vertex_arrays(mesh);
     fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     const bool given = !fit.empty();
@@ -196,7 +200,7 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     std::optional<Growth> growth;
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";
-        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options, automatic); });
+        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options, limits, automatic); });
         if (growth->triangles_after != growth->triangles_before) {
             rest = mesh::vertex_arrays(mesh);
             geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};

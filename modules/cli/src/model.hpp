@@ -36,7 +36,7 @@ struct BindWords {
     std::string refine = "off";  ///< split edges until the mesh carries the folds: auto, on, off
 };
 
-/// Adds --allow-outside: what is read of a model. `options` must outlive `command`.
+/// Adds --allow-outside and --max-memory: what is read of a model. `options` must outlive `command`.
 void add_load_words(CLI::App& command, mesh::LoadOptions& options);
 
 /// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.

@@ -53,7 +53,8 @@ std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& 
     return models;
 }
 
-void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file) {
+void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file,
+                   io::AtomicFiles& outputs) {
     const view::Model bent{
         .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
     std::vector<view::Model> models = part_models(model.mesh, bent, bent.color);
@@ -68,7 +69,7 @@ void write_picture(const BentModel& model, bool ghost, const std::filesystem::pa
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
-    view::save_png(view::render(models, camera_for(model.body, model.pose)), file);
+    view::save_png(view::render(models, camera_for(model.body, model.pose)), file, outputs);
 }
 
 }  // namespace goffer::cli

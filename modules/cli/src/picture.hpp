@@ -34,7 +34,8 @@ struct BentModel {
 
 /// Renders the bent model, seen across the plane that it bends in and from above its squeezed side, so that
 /// it lies from left to right and its wrinkles are in view; with `ghost` the rest shape too, translucent.
-/// Writes a PNG.
-void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file);
+/// Writes a PNG, which `outputs` puts in its place.
+void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file,
+                   io::AtomicFiles& outputs);
 
 }  // namespace goffer::cli

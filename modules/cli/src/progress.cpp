@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "progress.hpp"
 
+#include <goffer/io/error.hpp>
+
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
-#include <utility>
 
 namespace goffer::cli {
 
-Progress::Progress(std::string stage) : stage_(std::move(stage)) {
+Progress::Progress(const std::string& stage) : stage_(io::escaped(stage)) {
     if (isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
 }
 

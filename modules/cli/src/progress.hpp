@@ -12,7 +12,7 @@ namespace goffer::cli {
 /// is no terminal. Gone without a trace when it goes out of scope.
 class Progress {
 public:
-    explicit Progress(std::string stage);
+    explicit Progress(const std::string& stage);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

@@ -2,11 +2,13 @@
 #include "refine.hpp"
 
 #include "commands.hpp"
+#include "memory.hpp"
 #include "model.hpp"
 #include "progress.hpp"
 
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/refine.hpp>
+#include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/refined.hpp>
 
 #include <cmath>
@@ -50,20 +52,22 @@ void run_refine(const RefineOptions& options) {
     report_growth(report, *model.growth);
     report.json["folds_capacity"] = model.binding.folds_capacity();
     report.line("folds", "the mesh carries " + std::to_string(model.binding.folds_capacity()));
-    mesh::save(model.mesh, options.output);
+    io::AtomicFiles outputs;
+    mesh::save(model.mesh, options.output, outputs);
     report.line("written", options.output.string());
-    report.finish();
+    report.finish(outputs);
 }
 
 /// Returns nothing if the refined mesh would be too large and that is allowed.
 std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const fit::Cylinder& cylinder,
-                                          std::span<const fit::Stretch> wanted, bool sparing) {
-    if (!sparing) return fit::refine(geometry, cylinder, wanted);
-    constexpr std::size_t most = 1'000'000;
-    const std::size_t limit = std::max(most, geometry.triangles.size() / 3);
+                                          std::span<const fit::Stretch> wanted, std::size_t most,
+                                          bool sparing) {
+    if (!sparing) return fit::refine(geometry, cylinder, wanted, {.max_triangles = most});
+    constexpr std::size_t some = 1'000'000;
+    const std::size_t limit = std::min(most, std::max(some, geometry.triangles.size() / 3));
     try {
         return fit::refine(geometry, cylinder, wanted, {.max_triangles = limit});
-    } catch (const fit::Error&) {
+    } catch (const fit::SizeError&) {
         return std::nullopt;
     }
 }
@@ -78,7 +82,7 @@ int fold_count(std::span<const fit::Stretch> stretches, fit::Profile profile) {
 }
 
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
-              bool sparing) {
+              const mesh::Limits& limits, bool sparing) {
     Growth growth;
     const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
     growth.folds = fold_count(wanted, options.profile);
@@ -86,7 +90,8 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     growth.triangles_before = mesh::triangle_count(mesh);
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     const fit::Geometry geometry{mesh.positions, triangles};
-    const std::optional<fit::Refinement> found = refinement(geometry, cylinder, wanted, sparing);
+    const std::optional<fit::Refinement> found =
+        refinement(geometry, cylinder, wanted, most_triangles(limits), sparing);
     growth.vertices_after = growth.vertices_before;
     growth.triangles_after = growth.triangles_before;
     if (!found || found->vertices.empty()) return growth;
@@ -94,7 +99,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
-    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents});
+    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents}, limits);
     growth.vertices_after = mesh.positions.size();
     growth.triangles_after = mesh::triangle_count(mesh);
     return growth;

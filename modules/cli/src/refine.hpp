@@ -28,9 +28,9 @@ struct Growth {
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that
 /// suits the body where nobody says. `sparing`: leaves a mesh as it is that would get more than a million
-/// triangles. Throws what fit and mesh throw.
+/// triangles. Throws what fit and mesh throw, also where the result would be beyond `limits`.
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
-              bool sparing = false);
+              const mesh::Limits& limits, bool sparing);
 
 /// The growth, as a line and as "refined" in the JSON. Warns where there was no fold to refine for.
 void report_growth(Report& report, const Growth& growth);

@@ -55,21 +55,23 @@ void Report::warn(const std::string& text) {
     warnings_.push_back(text);
 }
 
-void Report::finish() {
+void Report::finish(io::AtomicFiles& outputs) {
     json["warnings"] = warnings_;
     // A file name need not be UTF-8; what is not is replaced, so that the report stays JSON.
     const std::string text =
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const bool to_output = json_file_ == "-";
-    if (!json_file_.empty() && !to_output) io::write_file(json_file_, text);
+    if (!json_file_.empty() && !to_output) outputs.add(json_file_).write(text);
+    outputs.flush();  // what the lines say is true but for the last step
 
     std::FILE* people = to_output ? stderr : stdout;
-    for (const std::string& line : lines_) std::fprintf(people, "%s\n", line.c_str());
+    for (const std::string& line : lines_) std::fprintf(people, "%s\n", io::escaped(line).c_str());
     for (const std::string& warning : warnings_)
-        std::fprintf(stderr, "goffer: warning: %s\n", warning.c_str());
+        std::fprintf(stderr, "goffer: warning: %s\n", io::escaped(warning).c_str());
     if (to_output) std::fwrite(text.data(), 1, text.size(), stdout);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw InputError("standard output: cannot be written; is its disk full?");
+    outputs.commit();
 }
 
 void report_model(Report& report, const std::filesystem::path& file, const mesh::Mesh& mesh, double area) {

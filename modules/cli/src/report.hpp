@@ -12,6 +12,10 @@
 
 /// What a command says: lines for a person and, where asked for, the same as JSON.
 
+namespace goffer::io {
+class AtomicFiles;
+}
+
 namespace goffer::cli {
 
 /// Collects a command's results and prints them at its end.
@@ -30,8 +34,9 @@ public:
     /// The JSON, to be filled in the order that it is to be printed in.
     nlohmann::ordered_json json;
 
-    /// Writes the JSON and prints the lines. Throws where either cannot be written.
-    void finish();
+    /// Writes the JSON and prints the lines, and only then puts all outputs, of which the JSON is one, in
+    /// their places. Throws where any of it cannot be written.
+    void finish(io::AtomicFiles& outputs);
 
 private:
     std::filesystem::path json_file_;

@@ -130,8 +130,8 @@ void Refiner::check_growth(std::size_t max_triangles) const {
     }
     const double indices = std::numeric_limits<std::uint32_t>::max();
     if (triangles <= static_cast<double>(max_triangles) && vertices < indices) return;
-    throw Error("refined, the mesh would have " + text(triangles) + " triangles, more than the " +
-                std::to_string(max_triangles) + " allowed; ask for fewer folds");
+    throw SizeError("refined, the mesh would have " + text(triangles) + " triangles, more than the " +
+                    std::to_string(max_triangles) + " allowed; ask for fewer folds");
 }
 
 Upright Refiner::upright(std::size_t triangle) const {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "budget.hpp"
 #include "format.hpp"
 #include "text.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/read_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <system_error>
 
 namespace goffer::mesh {
 namespace {
@@ -51,19 +51,19 @@ Format format_of_content(std::string_view bytes) {
     return Format::unknown;
 }
 
-Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options) {
+Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options, Budget& budget) {
     Format format = format_of_content(bytes);
     if (format == Format::unknown) format = format_of_ending(file);
     switch (format) {
         case Format::obj:
-            return read_obj(file, bytes, options);
+            return read_obj(file, bytes, options, budget);
         case Format::ply:
-            return read_ply(file, bytes);
+            return read_ply(file, bytes, budget);
         case Format::stl:
-            return read_stl(file, bytes);
+            return read_stl(file, bytes, budget);
         case Format::glb:
         case Format::gltf:
-            return read_gltf(file, bytes, options);
+            return read_gltf(file, bytes, options, budget);
         case Format::unknown:
             break;
     }
@@ -71,59 +71,62 @@ Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& optio
                    " file");
 }
 
-/// Both files are written before either takes its place.
-void save_obj(const Mesh& mesh, const fs::path& file) {
-    const std::string materials = write_mtl(mesh);
-    io::AtomicFile obj(file);
-    obj.write(write_obj(mesh, file));
-    if (!materials.empty()) io::write_file(mtl_beside(file), materials);
-    obj.commit();
+/// The bytes of a file in that format.
+std::string bytes_of(const Mesh& mesh, const fs::path& file, Format format) {
+    switch (format) {
+        case Format::obj:
+            return write_obj(mesh, file);
+        case Format::ply:
+            return write_ply(mesh);
+        case Format::stl:
+            return write_stl(mesh);
+        case Format::glb:
+            return write_glb(mesh, file);
+        case Format::gltf:
+            return write_gltf(mesh, file);
+        case Format::unknown:
+            break;
+    }
+    fail(file, std::string("the ending is not of a known format; give a name that ends in ") + known_endings);
 }
 
 }  // namespace
 
-std::string read_bytes(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) fail(file, "there is no such file; check the name");
-    if (fs::is_directory(status)) fail(file, "is a folder; give the name of a mesh file");
-    if (!fs::is_regular_file(status)) fail(file, "is not a regular file; copy what it holds into one");
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (!error && size == 0) fail(file, "is empty; export the mesh again");
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes(error ? 0 : size, '\0');
-    if (error || !in.read(bytes.data(), static_cast<std::streamsize>(size)))
-        fail(file, "cannot be read; check its permissions");
-    return bytes;
+std::string read_bytes(const fs::path& file, Budget& budget) {
+    try {
+        budget.take(io::size_of_file(file));
+        std::string bytes = io::read_file(file);
+        if (!bytes.empty()) return bytes;
+    } catch (const io::Error& error) {
+        throw Error(error.what());
+    }
+    fail(file, "is empty; export the mesh again");
 }
 
 Mesh load(const fs::path& file, const LoadOptions& options) {
-    const std::string bytes = read_bytes(file);
-    Mesh mesh = read(file, bytes, options);
-    check(mesh, file);
-    return mesh;
+    try {
+        Budget budget(options.limits);
+        const std::string bytes = read_bytes(file, budget);
+        Mesh mesh = read(file, bytes, options, budget);
+        check(mesh, file);
+        return mesh;
+    } catch (const OverLimit& error) {
+        fail(file, error.what());
+    }
 }
 
 void save(const Mesh& mesh, const fs::path& file) {
+    io::AtomicFiles files;
+    save(mesh, file, files);
+    files.commit();
+}
+
+void save(const Mesh& mesh, const fs::path& file, io::AtomicFiles& files) {
     const Format format = format_of_ending(file);
-    if (format == Format::unknown)
-        fail(file,
-             std::string("the ending is not of a known format; give a name that ends in ") + known_endings);
-    check(mesh, file);
-    switch (format) {
-        case Format::obj:
-            return save_obj(mesh, file);
-        case Format::ply:
-            return io::write_file(file, write_ply(mesh));
-        case Format::stl:
-            return io::write_file(file, write_stl(mesh));
-        case Format::glb:
-            return io::write_file(file, write_glb(mesh, file));
-        case Format::gltf:
-            return io::write_file(file, write_gltf(mesh, file));
-        case Format::unknown:
-            break;
-    }
+    if (format != Format::unknown) check(mesh, file);
+    const std::string materials = format == Format::obj ? write_mtl(mesh) : std::string();
+    if (!materials.empty()) files.add(mtl_beside(file)).write(materials);
+    files.add(file).write(bytes_of(mesh, file, format));
 }
 
 bool can_save(const fs::path& file) {

@@ -8,18 +8,20 @@
 #include <string_view>
 
 /// What each format provides for load() and save(). Readers take the bytes of a file, and its path for
-/// messages and for the files that it names; they throw Error that begins with the path. Writers return the
-/// whole file as bytes, so that one place writes beside and renames; glTF's throw Error likewise.
-/// Thread-safe.
+/// messages and for the files that it names; they throw Error that begins with the path, or OverLimit.
+/// Writers return the whole file as bytes, so that one place writes beside and renames; glTF's throw Error
+/// likewise. Thread-safe.
 
 namespace goffer::mesh {
 
+class Budget;
+
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::string_view bytes,
-                            const LoadOptions& options);
-[[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::string_view bytes);
-[[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes);
+                            const LoadOptions& options, Budget& budget);
+[[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget);
+[[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget);
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes,
-                             const LoadOptions& options);  // .gltf and .glb
+                             const LoadOptions& options, Budget& budget);  // .gltf and .glb
 
 /// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);
@@ -38,8 +40,9 @@ namespace goffer::mesh {
 /// Its buffer is a data URI.
 [[nodiscard]] std::string write_gltf(const Mesh& mesh, const std::filesystem::path& file);
 
-/// Returns all bytes of a regular file. Throws Error if it is missing, no regular file, empty or unreadable.
-[[nodiscard]] std::string read_bytes(const std::filesystem::path& file);
+/// Returns all bytes of a regular file, which come out of `budget`. Throws Error if it is missing, no regular
+/// file, empty or unreadable.
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& file, Budget& budget);
 
 /// Throws Error that begins with `file`, unless sizes, indices, parts and materials fit together and all
 /// positions and normals are finite.

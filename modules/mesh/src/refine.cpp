@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "budget.hpp"
 #include "face_cutter.hpp"
 #include "interpolate.hpp"
 
@@ -123,6 +124,23 @@ void refine(Attribute<T>& attribute, const Cut& cut, F between) {
     }
 }
 
+/// What a refined mesh takes, and its source as much again.
+void check_limits(const Mesh& mesh, const Subdivision& pieces, const Limits& limits) {
+    std::uint64_t vertex = sizeof(glm::vec3), corner = sizeof(std::uint32_t);
+    const auto add = [&](const auto& attribute) {
+        if (attribute.empty()) return;
+        vertex += sizeof(attribute.values[0]);
+        if (!attribute.per_vertex()) corner += sizeof(std::uint32_t);
+    };
+    add(mesh.normals);
+    add(mesh.tangents);
+    for (const auto& uvs : mesh.uvs) add(uvs);
+    if (!mesh.colors.empty()) vertex += sizeof(glm::vec4);
+    Budget budget(limits);
+    budget.take_vertices(mesh.positions.size() + pieces.vertices.size(), 2 * vertex);
+    budget.take_faces(pieces.triangles.size() / 3, pieces.triangles.size(), 2 * corner);
+}
+
 }  // namespace
 
 Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pieces) {
@@ -226,7 +244,8 @@ Mesh refined_alone(const Cut& cut) {
     return out;
 }
 
-Mesh refined(const Mesh& mesh, const Subdivision& pieces) {
+Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits) {
+    check_limits(mesh, pieces, limits);
     const Cut cut(mesh, pieces);
     if (pieces.vertices.empty()) return mesh;
     Mesh alone = refined_alone(cut);

@@ -40,6 +40,12 @@ std::optional<Real> to_real(std::string_view token) {
     return token.starts_with('-') ? -magnitude : magnitude;
 }
 
+template <class Real>
+void append_real(std::string& out, Real value) {
+    std::array<char, 32> text;
+    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+}
+
 }  // namespace
 
 void fail(const std::filesystem::path& file, const std::string& what) {
@@ -111,8 +117,11 @@ std::optional<std::int64_t> to_integer(std::string_view token) {
 }
 
 void append(std::string& out, float value) {
-    std::array<char, 32> text;
-    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+    append_real(out, value);
+}
+
+void append(std::string& out, double value) {
+    append_real(out, value);
 }
 
 void append(std::string& out, std::uint64_t value) {

@@ -46,6 +46,7 @@ std::string_view next_line(std::string_view& rest);
 
 /// Appends the shortest text that reads back as exactly this value.
 void append(std::string& out, float value);
+void append(std::string& out, double value);
 void append(std::string& out, std::uint64_t value);
 
 /// Appends each value after a blank.

@@ -27,10 +27,16 @@ std::string encoded(const Picture& picture) {
 }  // namespace
 
 void save_png(const Picture& picture, const std::filesystem::path& file) {
+    io::AtomicFiles files;
+    save_png(picture, file, files);
+    files.commit();
+}
+
+void save_png(const Picture& picture, const std::filesystem::path& file, io::AtomicFiles& files) {
     if (picture.width < 1 || picture.height < 1 ||
         picture.rgb.size() != std::size_t{3} * static_cast<std::size_t>(picture.width) * picture.height)
         throw Error(io::about(file, "the picture to write is empty or not width x height x 3 bytes"));
-    io::write_file(file, encoded(picture));
+    files.add(file).write(encoded(picture));
 }
 
 }  // namespace goffer::view

@@ -8,6 +8,8 @@
 #include "progress.hpp"
 #include "report.hpp"
 
+#include <goffer/io/atomic_file.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -185,16 +187,17 @@ void run_crowd(const CrowdOptions& options) {
     progress.reset();
     report_crowd(report, options, request, crowd, timing);
     report_models(report, request, models);
+    io::AtomicFiles outputs;
     if (!options.png.empty()) {
         const Progress rendering("rendering " + options.png.string());
-        const std::size_t shown = write_crowd_picture(crowd, models, options.png);
+        const std::size_t shown = write_crowd_picture(crowd, models, options.png, outputs);
         report.line("picture", options.png.string() + (shown == options.instances
                                                            ? std::string()
                                                            : ", " + std::to_string(shown) + " of " +
                                                                  std::to_string(options.instances) +
                                                                  " instances, those in front"));
     }
-    report.finish();
+    report.finish(outputs);
 }
 
 }  // namespace

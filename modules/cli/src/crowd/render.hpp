@@ -10,10 +10,10 @@
 
 namespace goffer::cli {
 
-/// Renders what the crowd's memory holds, seen from above its front edge, and writes a PNG. Of a large crowd,
-/// the middle of the front: at most 400 instances and about 4 million triangles. `models`: those of the
-/// crowd. Returns how many instances there are in the picture.
+/// Renders what the crowd's memory holds, seen from above its front edge, and writes a PNG, which `outputs`
+/// puts in its place. Of a large crowd, the middle of the front: at most 400 instances and about 4 million
+/// triangles. `models`: those of the crowd. Returns how many instances there are in the picture.
 std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
-                                const std::filesystem::path& file);
+                                const std::filesystem::path& file, io::AtomicFiles& outputs);
 
 }  // namespace goffer::cli

@@ -11,9 +11,6 @@ namespace {
 
 enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-/// Elements without bytes behind them are zeros. A count in a file must not make us allocate without end.
-constexpr std::uint64_t max_unbacked = 1u << 20;
-
 std::size_t size_of(std::uint64_t component) {
     switch (component) {
         case i8:

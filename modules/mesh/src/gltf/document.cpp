@@ -55,8 +55,13 @@ Container split_glb(std::string_view bytes) {
     return parts;
 }
 
-/// Counts brackets before the parser runs. (Its callback would take quadratic time for long arrays.)
-void check_depth(std::string_view text) {
+/// Looks at brackets before the parser runs (its callback would take quadratic time for long arrays), and at
+/// what its values will take: by what a value, a member and a list are in memory, with the room that lists
+/// leave for more.
+void check_nesting(std::string_view text, Budget& budget) {
+    constexpr std::uint64_t per_value = 2 * sizeof(Json), per_name = 2 * (sizeof(std::string) + sizeof(Json)),
+                            per_list = 4 * sizeof(Json);
+    std::uint64_t bytes = text.size();
     int depth = 0;
     bool in_string = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -64,16 +69,20 @@ void check_depth(std::string_view text) {
         if (c == '"') in_string = !in_string;
         if (in_string && c == '\\') ++i;
         if (in_string) continue;
+        if (c == ',') bytes += per_value;
+        if (c == ':') bytes += per_name;
+        if (c == '{' || c == '[') bytes += per_list;
         if (c == '}' || c == ']') --depth;
         if ((c == '{' || c == '[') && ++depth > deepest) {
             throw Error("the JSON is nested more than " + std::to_string(deepest) +
                         " deep; remove such extras");
         }
     }
+    budget.take(bytes);
 }
 
-Json parse(std::string_view text) {
-    check_depth(text);
+Json parse(std::string_view text, Budget& budget) {
+    check_nesting(text, budget);
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {
@@ -98,13 +107,16 @@ void refuse_compression(const Value& root) {
             if (name != "KHR_draco_mesh_compression" && name != "EXT_meshopt_compression" &&
                 name != "KHR_meshopt_compression")
                 continue;
+            // gltf-transform, of version 4.5 and before, does not know KHR_meshopt_compression.
+            const std::string tool =
+                name.starts_with("KHR_m") ? "gltfpack -noq -i IN -o OUT" : "gltf-transform copy IN OUT";
             root[list][i].fail("the mesh is compressed with " + name +
-                               ", which cannot be read; decompress it: gltf-transform copy IN OUT");
+                               ", which cannot be read; decompress it: " + tool);
         }
     }
 }
 
-std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size) {
+std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size, Budget& budget) {
     const std::filesystem::path file = outer_file(files, uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
@@ -115,6 +127,7 @@ std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t 
         uri.fail("names " + mesh::quoted(uri.text()) + ", which has " + std::to_string(error ? 0 : present) +
                  " bytes of " + std::to_string(size) + "; copy it again");
     }
+    budget.take(size);
     std::string bytes(size, '\0');
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
@@ -123,11 +136,13 @@ std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t 
     return bytes;
 }
 
-std::string read_buffer(const Value& buffer, bool first, const Container& parts, const NamedFiles& files) {
+std::string read_buffer(const Value& buffer, bool first, const Container& parts, const NamedFiles& files,
+                        Budget& budget) {
     const std::uint64_t size = buffer["byteLength"].whole();
     const bool named = buffer.has("uri");
-    if (named && !is_data_uri(buffer["uri"].text())) return read_outer(buffer["uri"], files, size);
+    if (named && !is_data_uri(buffer["uri"].text())) return read_outer(buffer["uri"], files, size, budget);
     std::string bytes;
+    budget.take(named ? buffer["uri"].text().size() : parts.binary.size());
     if (named) {
         std::optional<std::string> data = data_of(buffer["uri"].text());
         if (!data) buffer["uri"].fail("is not a well-formed data URI; export the file again");
@@ -203,15 +218,15 @@ std::filesystem::path outer_file(const NamedFiles& files, const Value& uri) {
 }
 
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
-                                              const LoadOptions& options) {
+                                              const LoadOptions& options, Budget& budget) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
     const auto document = std::make_shared<Document>(NamedFiles(file, options.allow_outside));
-    document->json = parse(parts.json);
+    document->json = parse(parts.json, budget);
     const Value root = document->root();
     check_version(root);
     refuse_compression(root);
     for (std::size_t i = 0; i < document->count("buffers"); ++i) {
-        document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->files));
+        document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->files, budget));
     }
     for (std::size_t i = 0; i < document->count("bufferViews"); ++i)
         check_view(*document, root["bufferViews"][i]);

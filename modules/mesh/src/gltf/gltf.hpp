@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "budget.hpp"
 #include "named_files.hpp"
 
 #include <goffer/mesh/mesh.hpp>
@@ -92,11 +93,14 @@ struct Document : Source {
 /// Takes a .glb or .gltf apart and reads its buffers. Throws Error without the file's name.
 [[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
                                                             std::string_view bytes,
-                                                            const LoadOptions& options);
+                                                            const LoadOptions& options, Budget& budget);
 
 /// Says which images are not where their URIs lead; broken ones are not looked at. Throws Error for one that
 /// may not be read.
 [[nodiscard]] std::vector<std::string> missing_images(const Document& document);
+
+/// Says, as a warning or none, which fields that nothing here reads are of the wrong type.
+[[nodiscard]] std::vector<std::string> wrong_types(const Document& document);
 
 /// Return the bytes of a file with this document and its one buffer.
 [[nodiscard]] std::string glb_file(Json json, const std::string& buffer);
@@ -109,6 +113,10 @@ struct Document : Source {
 [[nodiscard]] std::string data_uri(std::string_view mime_type, std::string_view bytes);
 [[nodiscard]] std::filesystem::path path_of(std::string_view uri);
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
+
+/// Elements without bytes behind them are zeros. A count in a file must not make us allocate without end: a
+/// scene, and one accessor, may have this many.
+inline constexpr std::uint64_t max_unbacked = 1u << 20;
 
 /// Returns the components of an accessor, `components` for each element, in the order of elements; normalized
 /// integers become numbers in -1..1. `index` is the reference to the accessor. Nothing is allocated before it
@@ -188,6 +196,8 @@ struct PlacedNode {
 [[nodiscard]] std::vector<PlacedNode> nodes_of_scene(const Document& document);
 
 /// Reads the scene of a document. The writer relies on getting the same scene for the same document.
+/// Throws OverLimit; without a budget there is no limit, for documents that have been read before.
+[[nodiscard]] Scene read_scene(const Document& document, Budget& budget);
 [[nodiscard]] Scene read_scene(const Document& document);
 
 /// A document to be written.

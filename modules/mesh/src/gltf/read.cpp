@@ -35,7 +35,7 @@ using AccessorSet = std::vector<std::size_t>;
 
 class SceneReader {
 public:
-    explicit SceneReader(const Document& document);
+    SceneReader(const Document& document, Budget& budget) : document_(document), budget_(budget) {}
 
     Scene read() &&;
 
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] std::vector<float> floats(const Value& reference, std::size_t width);
     [[nodiscard]] std::vector<float> stream(const Value& attributes, const char* name, std::size_t width,
                                             std::size_t vertices);
-    void spend(std::size_t elements, const Value& where);
+    void spend(const Value& reference, std::size_t width);
     void warn(const std::string& what) { mesh_.warnings.push_back(what); }
     template <class T>
     [[nodiscard]] Attribute<T> finish(Gathered<T>&& gathered) const;
@@ -69,27 +69,33 @@ private:
     Gathered<glm::vec3> normals_;
     Gathered<glm::vec4> tangents_;
     std::vector<Gathered<glm::vec2>> uvs_;
-    std::size_t budget_;  ///< elements that may still be read
+    Budget& budget_;
+    std::uint64_t unbacked_ = 0;  ///< elements that have no bytes behind them
 };
 
-/// Nodes and primitives may repeat an accessor without end, so what is read is limited. The limit refuses no
-/// file that uses its bytes up to four times, and no scene of up to 16 million elements.
-SceneReader::SceneReader(const Document& document) : document_(document), budget_(std::size_t{1} << 24) {
-    std::size_t bytes = 0;
-    for (const std::string& buffer : document.buffers) bytes += buffer.size();
-    budget_ = std::min<std::size_t>(std::max(budget_, 4 * bytes), std::numeric_limits<std::uint32_t>::max());
-}
-
-void SceneReader::spend(std::size_t elements, const Value& where) {
-    if (elements > budget_)
-        where.fail("the scene repeats its meshes so often that it is too large to read; split it");
-    budget_ -= elements;
+/// Nodes and primitives may repeat an accessor without end. To be called before it is read: its values are
+/// there twice for a while, and lists that grow have up to twice of what they hold.
+void SceneReader::spend(const Value& reference, std::size_t width) {
+    const Value accessor = document_.entry("accessors", reference);
+    const std::uint64_t count = accessor["count"].whole();
+    std::uint64_t most = max_unbacked;  // reading refuses what says more than there can be
+    if (accessor.has("bufferView")) {
+        most = document_.view(document_.entry("bufferViews", accessor["bufferView"])).size();
+    } else if (count <= most) {
+        unbacked_ += count;
+        if (unbacked_ > max_unbacked) {
+            reference.fail("with it the scene has more than " + std::to_string(max_unbacked) +
+                           " elements without a bufferView; give them one");
+        }
+    }
+    const std::uint64_t bytes = std::min(count, most) * width * sizeof(float);
+    budget_.check(0, 0, 3 * bytes);
+    budget_.take(2 * bytes);
 }
 
 std::vector<float> SceneReader::floats(const Value& reference, std::size_t width) {
-    std::vector<float> values = read_floats(document_, reference, width);
-    spend(values.size() / width, reference);
-    return values;
+    spend(reference, width);
+    return read_floats(document_, reference, width);
 }
 
 /// The values of an attribute other than POSITION, as many as that has.
@@ -202,6 +208,7 @@ void SceneReader::read_primitive(const PlacedNode& placed, const Value& primitiv
     part.first_face = static_cast<std::uint32_t>(mesh_.faces.size());
     add_faces(primitive, blocks_[block]);
     part.face_count = static_cast<std::uint32_t>(mesh_.faces.size()) - part.first_face;
+    budget_.take(2 * (sizeof(Part) + sizeof(Block)));
     mesh_.parts.push_back(std::move(part));
     part_block_.push_back(block);
 }
@@ -220,6 +227,7 @@ void SceneReader::read_positions(Block& block, const Value& attributes) {
     const Value reference = attributes[stream_name[position]];
     const std::vector<float> values = floats(reference, 3);
     block.count = values.size() / 3;
+    budget_.take_vertices(block.count, 0);
     block.first[position] = mesh_.positions.size();
     for (std::size_t i = 0; i < block.count; ++i) {
         const glm::vec3 point = block.placement.point(glm::make_vec3(&values[3 * i]));
@@ -256,6 +264,7 @@ void SceneReader::read_colors(const Block& block, const Value& attributes) {
     const Value accessor = document_.entry("accessors", attributes["COLOR_0"]);
     const std::size_t width = accessor["type"].text() == "VEC4" ? 4 : 3;
     const std::vector<float> values = stream(attributes, "COLOR_0", width, block.count);
+    budget_.take((mesh_.positions.size() - mesh_.colors.size()) * 2 * sizeof(glm::vec4));
     mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
     for (std::size_t i = 0; i < values.size(); ++i) {
         mesh_.colors[block.first[position] + i / width][static_cast<int>(i % width)] = values[i];
@@ -276,13 +285,13 @@ void SceneReader::read_uvs(const Block& block, const Value& attributes, std::siz
 
 std::vector<std::uint32_t> SceneReader::indices_of(const Value& primitive, std::size_t vertices) {
     if (!primitive.has("indices")) {
-        spend(vertices, primitive);
+        budget_.check(0, 0, vertices * sizeof(std::uint32_t));
         std::vector<std::uint32_t> all(vertices);
         std::iota(all.begin(), all.end(), 0u);
         return all;
     }
+    spend(primitive["indices"], 1);
     std::vector<std::uint32_t> indices = read_indices(document_, primitive["indices"]);
-    spend(indices.size(), primitive["indices"]);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] < vertices) continue;
         primitive["indices"].fail("entry " + std::to_string(i) + " is vertex " + std::to_string(indices[i]) +
@@ -304,6 +313,8 @@ void SceneReader::add_faces(const Value& primitive, const Block& block) {
     if (mode > fan)
         primitive["mode"].fail("is " + std::to_string(mode) + ", expected 0 to 6; export the file again");
     const std::vector<std::uint32_t> i = indices_of(primitive, block.count);
+    const std::uint64_t faces = mode < triangles ? 0 : mode == triangles ? i.size() / 3 : i.size();
+    budget_.take_faces(faces, 3 * faces, 2 * sizeof(std::uint32_t));
     if (mode < triangles) return;  // points and lines bend, but have no faces
     if (mode == triangles) {
         for (std::size_t k = 0; k + 2 < i.size(); k += 3) add_triangle(block, i[k], i[k + 1], i[k + 2]);
@@ -324,6 +335,8 @@ template <class T>
 Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
     Attribute<T> attribute{std::move(gathered.values), {}};
     if (attribute.values.size() == mesh_.positions.size()) return attribute;
+    budget_.take(mesh_.corners.size() * sizeof(std::uint32_t));
+    attribute.corners.reserve(mesh_.corners.size());
     for (std::size_t p = 0, corner = 0; p < mesh_.parts.size(); ++p) {
         const Block& block = blocks_[part_block_[p]];
         const std::size_t first = gathered.first[part_block_[p]];
@@ -352,20 +365,28 @@ Scene SceneReader::read() && {
 
 }  // namespace
 
+Scene read_scene(const Document& document, Budget& budget) {
+    return SceneReader(document, budget).read();
+}
+
 Scene read_scene(const Document& document) {
-    return SceneReader(document).read();
+    Budget no_limit;
+    return read_scene(document, no_limit);
 }
 
 }  // namespace gltf
 
-Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options) {
+Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
+               Budget& budget) {
     try {
-        const auto document = gltf::open_document(file, bytes, options);
-        Mesh mesh = gltf::read_scene(*document).mesh;
-        for (std::string& warning : gltf::missing_images(*document))
-            mesh.warnings.push_back(std::move(warning));
+        const auto document = gltf::open_document(file, bytes, options, budget);
+        Mesh mesh = gltf::read_scene(*document, budget).mesh;
+        for (const auto look : {gltf::missing_images, gltf::wrong_types})
+            for (std::string& warning : look(*document)) mesh.warnings.push_back(std::move(warning));
         mesh.source = document;
         return mesh;
+    } catch (const OverLimit&) {
+        throw;
     } catch (const Error& error) {
         fail(file, error.what());
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "budget.hpp"
 #include "format.hpp"
 #include "named_files.hpp"
 #include "obj.hpp"
@@ -13,16 +14,21 @@
 #include <set>
 #include <span>
 #include <sstream>
+#include <unordered_map>
+#include <utility>
 
 namespace goffer::mesh {
 namespace {
 
 constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 
+constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
+
 class ObjReader {
 public:
-    ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options)
-        : file_(file), text_(text), files_(file, options.allow_outside) {}
+    ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options,
+              Budget& budget)
+        : file_(file), text_(text), files_(file, options.allow_outside), budget_(budget) {}
     Mesh read();
 
 private:
@@ -47,13 +53,16 @@ private:
     const std::filesystem::path& file_;
     std::string_view text_;
     NamedFiles files_;
+    Budget& budget_;
     Mesh mesh_;
     Counts total_, seen_;
     std::array<float, 8> numbers_{};
-    Part part_;  ///< what o, g and usemtl said last
+    std::unordered_map<std::string_view, std::int32_t> material_of_;  ///< by its name
+    Part part_;                                                       ///< what o, g and usemtl said last
     std::vector<std::string_view> libraries_;
     std::size_t short_faces_ = 0;
     std::size_t not_finite_ = 0;
+    std::size_t stray_exponents_ = 0;
 };
 
 Mesh ObjReader::read() {
@@ -63,6 +72,8 @@ Mesh ObjReader::read() {
     Statement statement;
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) total_.add(statement);
     if (total_.v == 0) fail(file_, "has no vertices (v lines); give an OBJ file that has a mesh");
+    budget_.take_vertices(total_.v, kept * sizeof(glm::vec3));
+    budget_.take(text_.size() + kept * (total_.vt * sizeof(glm::vec2) + total_.vn * sizeof(glm::vec3)));
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) take(statement);
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
     if (short_faces_ > 0)
@@ -70,6 +81,9 @@ Mesh ObjReader::read() {
     if (not_finite_ > 0)
         mesh_.warnings.push_back(std::to_string(not_finite_) +
                                  " uv or color values are not finite: taken as 0");
+    if (stray_exponents_ > 0)
+        mesh_.warnings.push_back(std::to_string(stray_exponents_) +
+                                 " numbers are written like 3.1+e2: read as 3.1, as other programs do");
     drop_unused_attributes();
     read_materials();
     return std::move(mesh_);
@@ -99,6 +113,7 @@ void ObjReader::take_vertex(const Statement& statement) {
     mesh_.positions.emplace_back(n[0], n[1], n[2]);
     constexpr glm::vec4 white(1.0f);
     if (count >= 6) {
+        if (mesh_.colors.empty()) budget_.take(kept * total_.v * sizeof(glm::vec4));
         mesh_.colors.resize(mesh_.positions.size() - 1, white);  // the vertices before that had no color
         mesh_.colors.emplace_back(finite_or_zero(n[3]), finite_or_zero(n[4]), finite_or_zero(n[5]),
                                   count >= 7 ? finite_or_zero(n[6]) : 1.0f);
@@ -141,6 +156,7 @@ void ObjReader::take_face(const Statement& statement) {
             corners->resize(first);
         return;
     }
+    budget_.take_faces(1, size, kept * 3 * sizeof(std::uint32_t));
     begin_part();
     mesh_.faces.push_back(static_cast<std::uint32_t>(size));
     ++mesh_.parts.back().face_count;
@@ -150,14 +166,26 @@ void ObjReader::begin_part() {
     const auto& parts = mesh_.parts;
     if (!parts.empty() && parts.back().name == part_.name && parts.back().material == part_.material) return;
     part_.first_face = static_cast<std::uint32_t>(mesh_.faces.size());
+    budget_.take(kept * (sizeof(Part) + part_.name.size()));
     mesh_.parts.push_back(part_);
 }
 
 void ObjReader::take_material(std::string_view name) {
     auto& materials = mesh_.materials;
-    const auto known = std::ranges::find(materials, name, &Material::name);
-    part_.material = static_cast<std::int32_t>(known - materials.begin());
-    if (known == materials.end()) materials.emplace_back().name = name;
+    const auto [known, is_new] = material_of_.try_emplace(name, static_cast<std::int32_t>(materials.size()));
+    part_.material = known->second;
+    if (!is_new) return;
+    budget_.take(kept * sizeof(Material) + kept * name.size() + 2 * sizeof(*known));
+    materials.emplace_back().name = name;
+}
+
+/// The number that assimp and tinyobjloader read where an exponent's sign stands before its letter.
+std::string_view without_stray_exponent(std::string_view token) {
+    for (const std::string_view sign : {"+e", "-e", "+E", "-E"}) {
+        const std::size_t at = token.find(sign);
+        if (at != token.npos && at > 0 && to_integer(token.substr(at + 2))) return token.substr(0, at);
+    }
+    return {};
 }
 
 /// Reads the statement's numbers, at most 8, into numbers_; the rest are 0. Returns how many there were.
@@ -168,7 +196,8 @@ std::size_t ObjReader::numbers(const Statement& statement, std::size_t needed) {
     for (; count < numbers_.size(); ++count) {
         const std::string_view token = next_argument(rest);
         if (token.empty()) break;
-        const std::optional<float> number = to_float(token);
+        std::optional<float> number = to_float(token);
+        if (!number && (number = to_float(without_stray_exponent(token)))) ++stray_exponents_;
         if (!number) fail_at(token, quoted(token) + " is not a number; write one like -0.25 or 1e-3");
         numbers_[count] = *number;
     }
@@ -208,10 +237,22 @@ void ObjReader::drop_unused_attributes() {
     if (unused(mesh_.uvs[0])) mesh_.uvs.clear();
 }
 
+std::uint64_t count_materials(std::string_view library) {
+    constexpr std::string_view keyword = "newmtl";
+    std::uint64_t count = 0;
+    for (std::size_t at = library.find(keyword); at != library.npos; at = library.find(keyword, at + 1))
+        ++count;
+    return count;
+}
+
 void ObjReader::read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found) {
     std::istringstream text;
     try {
-        text.str(read_bytes(library));
+        std::string bytes = read_bytes(library, budget_);
+        budget_.take(bytes.size() + count_materials(bytes) * sizeof(tinyobj::material_t));
+        text.str(std::move(bytes));
+    } catch (const OverLimit&) {
+        throw;
     } catch (const Error& error) {
         mesh_.warnings.push_back(std::string("materials stay gray: ") + error.what());
     }
@@ -252,19 +293,23 @@ void ObjReader::warn_of_textures(const std::filesystem::path& library,
 
 void ObjReader::read_materials() {
     std::vector<tinyobj::material_t> found;
+    std::set<std::filesystem::path> read;
     for (const std::string_view line : libraries_) {
         for (const std::string_view name : library_names(file_, line)) {
             const std::optional<std::filesystem::path> library = files_.find(name);
             if (!library) fail_at(name, "mtllib names " + quoted(name) + NamedFiles::outside);
-            read_library(*library, found);
+            if (read.insert(*library).second) read_library(*library, found);
         }
     }
-    for (Material& material : mesh_.materials) {
-        const auto same_name = [&](const tinyobj::material_t& m) { return trimmed(m.name) == material.name; };
-        const auto entry = std::ranges::find_if(found, same_name);
-        if (entry == found.end()) continue;
-        const float rgba[] = {entry->diffuse[0], entry->diffuse[1], entry->diffuse[2], entry->dissolve};
-        for (int i = 0; i < 4; ++i) material.base_color[i] = std::clamp(rgba[i], 0.0f, 1.0f);
+    std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
+    for (const tinyobj::material_t& entry : found) {
+        const auto used = material_of_.find(trimmed(entry.name));
+        if (used == material_of_.end()) continue;
+        const auto number = static_cast<std::size_t>(used->second);
+        if (colored[number]) continue;
+        colored[number] = true;
+        const float rgba[] = {entry.diffuse[0], entry.diffuse[1], entry.diffuse[2], entry.dissolve};
+        for (int i = 0; i < 4; ++i) mesh_.materials[number].base_color[i] = std::clamp(rgba[i], 0.0f, 1.0f);
     }
 }
 
@@ -323,8 +368,9 @@ std::array<std::string_view, 3> corner_parts(std::string_view argument) {
     return parts;
 }
 
-Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options) {
-    Mesh mesh = ObjReader(file, bytes, options).read();
+Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
+              Budget& budget) {
+    Mesh mesh = ObjReader(file, bytes, options, budget).read();
     auto source = std::make_shared<ObjSource>();
     source->file = file;
     source->options = options;

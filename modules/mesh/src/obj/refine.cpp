@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "budget.hpp"
 #include "format.hpp"
 #include "obj.hpp"
 
@@ -131,7 +132,8 @@ std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone) {
     const auto* source = dynamic_cast<const ObjSource*>(cut.mesh().source.get());
     if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
     const std::string text = write_obj(cut.mesh(), source->file);
-    Mesh out = read_obj(source->file, ObjRefiner(text, cut, alone).finish(), source->options);
+    Budget budget;
+    Mesh out = read_obj(source->file, ObjRefiner(text, cut, alone).finish(), source->options, budget);
     out.warnings = cut.mesh().warnings;
     return out;
 }

@@ -5,6 +5,8 @@
 #include <goffer/io/error.hpp>
 
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace goffer::mesh {
 namespace {
@@ -99,10 +101,12 @@ private:
 /// The names by which faces choose materials: each is one line, not empty, and unique.
 std::vector<std::string> material_names(const Mesh& mesh) {
     std::vector<std::string> names;
+    std::unordered_set<std::string> taken;
+    std::unordered_map<std::string, int> next;  // number to try for a name that is taken
     for (const Material& material : mesh.materials) {
         const std::string name = io::one_line(material.name.empty() ? "material" : trimmed(material.name));
         std::string unique = name;
-        for (int i = 2; std::ranges::find(names, unique) != names.end(); ++i)
+        for (int& i = next.try_emplace(name, 2).first->second; !taken.insert(unique).second; ++i)
             unique = name + "_" + std::to_string(i);
         names.push_back(unique);
     }

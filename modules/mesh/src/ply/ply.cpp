@@ -106,7 +106,11 @@ void HeaderReader::take(std::string_view keyword, std::string_view arguments) {
     if (keyword == "format") return take_format(arguments);
     if (keyword == "element") return take_element(arguments);
     if (keyword == "property") return take_property(arguments);
-    fail_here(quoted(keyword) + " is not a word of a PLY header; is the file damaged?");
+    if (!header_.elements.empty())
+        fail_here(quoted(keyword) + " is not a word of a PLY header; is the file damaged?");
+    // Blender 2.4 wrote its name there, and left out the word comment.
+    header_.warnings.push_back(line_of(header_.bytes, line_.data()) + ": " + quoted(keyword) +
+                               " is not a word of a PLY header: the line is taken for a comment");
 }
 
 void HeaderReader::take_format(std::string_view arguments) {

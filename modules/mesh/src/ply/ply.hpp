@@ -49,6 +49,7 @@ struct Header {
     bool text = false;           ///< ASCII
     std::endian order = std::endian::little;
     std::vector<Element> elements;
+    std::vector<std::string> warnings;
 
     [[nodiscard]] const Element* find(std::string_view name) const;
 };

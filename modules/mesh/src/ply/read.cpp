@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "budget.hpp"
 #include "format.hpp"
 #include "ply.hpp"
 
@@ -11,9 +12,11 @@ namespace {
 using namespace ply;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
+constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
+
 class PlyReader {
 public:
-    explicit PlyReader(const Header& header);
+    PlyReader(const Header& header, Budget& budget);
     Mesh read();
 
     void value(const Cursor& cursor, const Property& property, const Value& value);
@@ -31,6 +34,7 @@ private:
     float finite_or_zero(double value);
 
     const Header& header_;
+    Budget& budget_;
     const Element* vertex_;
     Mesh mesh_;
     bool has_normals_ = false, has_colors_ = false, has_uvs_ = false, has_texcoords_ = false;
@@ -40,7 +44,8 @@ private:
     std::size_t short_faces_ = 0, not_finite_ = 0;
 };
 
-PlyReader::PlyReader(const Header& header) : header_(header), vertex_(header.find("vertex")) {
+PlyReader::PlyReader(const Header& header, Budget& budget)
+    : header_(header), budget_(budget), vertex_(header.find("vertex")) {
     if (!vertex_) fail(header.file, "the header has no element vertex; give a PLY file that has a mesh");
     for (const Role role : {Role::x, Role::y, Role::z})
         if (!has(role))
@@ -56,9 +61,11 @@ PlyReader::PlyReader(const Header& header) : header_(header), vertex_(header.fin
     has_texcoords_ = face->find(Role::texcoord) != nullptr;
     has_uvs_ = !has_texcoords_ && has(Role::u) && has(Role::v);
     if (has_texcoords_ || has_uvs_) mesh_.uvs.resize(1);
+    budget_.take(header.bytes.size());
 }
 
 Mesh PlyReader::read() {
+    mesh_.warnings = header_.warnings;
     walk(header_, *this);
     if (mesh_.faces.empty())
         fail(header_.file, "there are no faces of 3 corners or more; export it with faces");
@@ -78,10 +85,12 @@ void PlyReader::value(const Cursor& cursor, const Property& property, const Valu
     if (role == Role::texcoord) texcoords_.push_back(finite_or_zero(value.number));
     if (role != Role::indices) return;
     const bool in_range = value.number >= 0 && value.number < static_cast<double>(vertex_->count);
-    if (!in_range || value.number != std::floor(value.number))
-        cursor.fail_here("vertex index " + std::to_string(static_cast<std::int64_t>(value.number)) +
-                         " is out of range: there are " + std::to_string(vertex_->count) +
-                         " vertices, counted from 0; export the mesh again");
+    if (!in_range || value.number != std::floor(value.number)) {
+        std::string index;
+        append(index, value.number);
+        cursor.fail_here("vertex index " + index + " is out of range: there are " +
+                         std::to_string(vertex_->count) + " vertices, counted from 0; export the mesh again");
+    }
     indices_.push_back(static_cast<std::uint32_t>(value.number));
 }
 
@@ -102,6 +111,9 @@ void PlyReader::end_vertex(const Cursor& cursor) {
                 cursor.fail_here(quoted(vertex_->find(role)->name) +
                                  " is not finite (nan, infinite or beyond float); "
                                  "correct or remove the vertex");
+    budget_.take_vertices(
+        1, kept * (sizeof(glm::vec3) * (has_normals_ ? 2 : 1) + (has_colors_ ? sizeof(glm::vec4) : 0) +
+                   (has_uvs_ ? sizeof(glm::vec2) : 0)));
     mesh_.positions.emplace_back(at(Role::x), at(Role::y), at(Role::z));
     if (has_normals_) mesh_.normals.values.emplace_back(at(Role::nx), at(Role::ny), at(Role::nz));
     if (has_colors_)
@@ -116,6 +128,8 @@ void PlyReader::end_vertex(const Cursor& cursor) {
 void PlyReader::end_face() {
     const std::size_t size = indices_.size();
     if (size >= 3) {
+        constexpr std::uint64_t index = sizeof(std::uint32_t), uv = sizeof(glm::vec2);
+        budget_.take_faces(1, size, kept * (has_texcoords_ ? 2 * index + uv : index));
         mesh_.faces.push_back(static_cast<std::uint32_t>(size));
         mesh_.corners.insert(mesh_.corners.end(), indices_.begin(), indices_.end());
         for (std::size_t i = 0; has_texcoords_ && i < size; ++i) {
@@ -146,9 +160,9 @@ float PlyReader::finite_or_zero(double value) {
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& file, std::string_view bytes) {
+Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
     const Header header = read_header(file, bytes);
-    Mesh mesh = PlyReader(header).read();
+    Mesh mesh = PlyReader(header, budget).read();
     auto source = std::make_shared<PlySource>();
     source->bytes = bytes;
     source->read = mesh;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "budget.hpp"
 #include "format.hpp"
 #include "ply.hpp"
 
@@ -227,7 +228,8 @@ std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone) {
     const std::string now = write_ply(cut.mesh());
     const Header header = read_header({}, now);
     if (!has_room(header, alone.positions.size())) return std::nullopt;
-    Mesh out = read_ply({}, PlyRefiner(header, cut, alone).finish());
+    Budget budget;
+    Mesh out = read_ply({}, PlyRefiner(header, cut, alone).finish(), budget);
     out.warnings = cut.mesh().warnings;
     return out;
 }

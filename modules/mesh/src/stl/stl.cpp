@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "binary.hpp"
+#include "budget.hpp"
 #include "face_cutter.hpp"
 #include "format.hpp"
 #include "refine.hpp"
@@ -115,6 +116,13 @@ void TextFacets::take_numbers(std::size_t first) {
     for (std::size_t axis = 0; axis < 3; ++axis) numbers_[first + axis] = next_token(rest_);
 }
 
+constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
+
+void take_facets(Budget& budget, std::uint64_t count) {
+    budget.take_vertices(3 * count, kept * sizeof(glm::vec3));
+    budget.take_faces(count, 3 * count, kept * sizeof(std::uint32_t));
+}
+
 void add_vertex(Mesh& mesh, const glm::vec3& position) {
     mesh.corners.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     mesh.positions.push_back(position);
@@ -128,9 +136,10 @@ float coordinate(const TextFacets& facets, std::string_view token) {
     return *number;
 }
 
-Mesh read_text(const std::filesystem::path& file, std::string_view text) {
+Mesh read_text(const std::filesystem::path& file, std::string_view text, Budget& budget) {
     Mesh mesh;
     for (TextFacets facets(file, text); facets.next();) {
+        take_facets(budget, 1);
         for (std::size_t corner = 0; corner < 3; ++corner) {
             glm::vec3 position;
             for (int axis = 0; axis < 3; ++axis)
@@ -138,6 +147,7 @@ Mesh read_text(const std::filesystem::path& file, std::string_view text) {
             add_vertex(mesh, position);
         }
         if (facets.solids() > mesh.parts.size()) {
+            budget.take(kept * (facets.solids() - mesh.parts.size()) * sizeof(Part));
             const auto first = static_cast<std::uint32_t>(mesh.faces.size());
             mesh.parts.resize(facets.solids() - 1,
                               {.name = {}, .first_face = first});  // solids without facets
@@ -149,7 +159,7 @@ Mesh read_text(const std::filesystem::path& file, std::string_view text) {
     return mesh;
 }
 
-Mesh read_binary(const std::filesystem::path& file, std::string_view bytes) {
+Mesh read_binary(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
     if (bytes.size() < header_size)
         fail(file, "has " + std::to_string(bytes.size()) +
                        " bytes, and an STL file has 84 or more; is it cut off, or not an STL file?");
@@ -158,6 +168,7 @@ Mesh read_binary(const std::filesystem::path& file, std::string_view bytes) {
         fail(file, "byte 80 says " + std::to_string(facets) + " facets, but there are bytes for " +
                        std::to_string((bytes.size() - header_size) / facet_size) +
                        "; is the file cut off, or not an STL file?");
+    take_facets(budget, facets);
     Mesh mesh;
     for (std::size_t f = 0; f < facets; ++f) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -308,8 +319,9 @@ bool is_stl(std::string_view bytes) {
     return word == "facet" || word == "endsolid";
 }
 
-Mesh read_stl(const std::filesystem::path& file, std::string_view bytes) {
-    Mesh mesh = is_text(bytes) ? read_text(file, bytes) : read_binary(file, bytes);
+Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
+    budget.take(bytes.size());
+    Mesh mesh = is_text(bytes) ? read_text(file, bytes, budget) : read_binary(file, bytes, budget);
     if (mesh.faces.empty()) fail(file, "has no facets; export the mesh again");
     auto source = std::make_shared<StlSource>();
     source->bytes = bytes;
@@ -322,7 +334,9 @@ std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone) {
     const auto* source = dynamic_cast<const StlSource*>(cut.mesh().source.get());
     if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
     const std::string now = write_stl(cut.mesh());
-    Mesh out = read_stl({}, is_text(now) ? refine_text(now, cut, alone) : refine_binary(now, cut, alone));
+    Budget budget;
+    Mesh out =
+        read_stl({}, is_text(now) ? refine_text(now, cut, alone) : refine_binary(now, cut, alone), budget);
     out.warnings = cut.mesh().warnings;
     return out;
 }

@@ -58,9 +58,15 @@ struct Stretch {
 /// wrinkle_range: beyond that there are none. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
+/// Thrown where a refined mesh would have more triangles than allowed.
+class SizeError : public Error {
+public:
+    using Error::Error;
+};
+
 /// Limits of a refinement.
 struct RefineOptions {
-    std::size_t max_triangles = 50'000'000;  ///< of the refined mesh; more are an Error
+    std::size_t max_triangles = 50'000'000;  ///< of the refined mesh; more are a SizeError
 };
 
 /// Returns the refinement of `geometry` that gives it a folds_capacity() of at least `folds`, or one less

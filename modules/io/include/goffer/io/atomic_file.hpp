@@ -34,8 +34,12 @@ public:
     /// Appends `bytes`. Throws Error (disk full, ..).
     void write(std::string_view bytes);
 
-    /// For libraries that write to a C stream; owned by this object, null after `commit`.
-    [[nodiscard]] std::FILE* stream() { return stream_; }
+    /// For libraries that write to a C stream; owned by this object, null after `commit`. To be asked for
+    /// again to write after a flush().
+    [[nodiscard]] std::FILE* stream() {
+        flushed_ = false;
+        return stream_;
+    }
 
     /// Waits until the disk has all bytes. Throws Error.
     void flush();

@@ -16,6 +16,10 @@
 /// A mesh as files carry it: vertices in file order, attributes with or without indices of their own,
 /// polygons, materials. Nothing is merged, split or reordered on the way in. All functions are thread-safe.
 
+namespace goffer::io {
+class AtomicFiles;
+}
+
 namespace goffer::mesh {
 
 /// Thrown for a file that cannot be read, and for a mesh that does not fit together or cannot be written.
@@ -77,12 +81,21 @@ struct Mesh {
     std::shared_ptr<const Source> source;  ///< null for a mesh made in memory
 };
 
+/// What a mesh may cost at most: a small file can stand for a very large mesh. What would be above is refused
+/// before it is allocated. 2^32 - 1 vertices or more are refused whatever this says.
+struct Limits {
+    std::uint64_t memory = std::uint64_t{2} << 30;  ///< bytes for a mesh and its file, as estimated
+    std::uint64_t vertices = 50'000'000;
+    std::uint64_t triangles = 50'000'000;  ///< a face of n corners being n - 2
+};
+
 /// What load() may do.
 struct LoadOptions {
     /// Whether the other files that a glTF or an OBJ names (buffers, images, material files) may lie outside
     /// the folder that it is in. A file from somebody else could name any file of the machine, whose bytes
     /// would then be read, and be in what save() writes.
     bool allow_outside = false;
+    Limits limits = {};
 };
 
 /// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the
@@ -90,9 +103,9 @@ struct LoadOptions {
 /// below it once links are followed, or anywhere with LoadOptions::allow_outside. Faces of fewer than 3
 /// corners are left out, with a warning.
 ///
-/// Throws Error if the file cannot be read or is not of these formats, names a file outside its folder, a
-/// position or normal is not finite, an index is out of range, there is no vertex or no face, or a glTF is
-/// compressed.
+/// Throws Error if the file cannot be read or is not of these formats, names a file outside its folder, is
+/// beyond the limits, a position or normal is not finite, an index is out of range, there is no vertex or no
+/// face, or a glTF is compressed.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
@@ -106,6 +119,9 @@ struct LoadOptions {
 /// Throws Error if the ending is unknown, the mesh does not fit together (see load), or a value cannot be
 /// written into its glTF node; and io::Error if a file cannot be written.
 void save(const Mesh& mesh, const std::filesystem::path& file);
+
+/// Writes `mesh` likewise, but leaves it to files.commit() to put it, and its materials, in their places.
+void save(const Mesh& mesh, const std::filesystem::path& file, io::AtomicFiles& files);
 
 /// Whether save() knows the ending of `file`: to refuse an output before any work is done.
 [[nodiscard]] bool can_save(const std::filesystem::path& file);

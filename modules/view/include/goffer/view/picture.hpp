@@ -13,6 +13,10 @@
 
 /// Pictures of meshes, rendered on the CPU, without a display or a GPU (Embree).
 
+namespace goffer::io {
+class AtomicFiles;
+}
+
 namespace goffer::view {
 
 /// Thrown for a picture that cannot be made. what() is one line: what is wrong, where, and how to mend it.
@@ -69,5 +73,8 @@ struct Picture {
 /// was. Throws Error if the picture is empty or `rgb` is not width x height x 3 bytes, and io::Error if the
 /// file cannot be written. Thread-safe.
 void save_png(const Picture& picture, const std::filesystem::path& file);
+
+/// Writes a PNG likewise, but leaves it to files.commit() to put it in its place.
+void save_png(const Picture& picture, const std::filesystem::path& file, io::AtomicFiles& files);
 
 }  // namespace goffer::view

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "gltf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace goffer::mesh::gltf {
+namespace {
+
+/// Fields that have one meaning wherever they stand.
+constexpr std::array texts{"name", "uri", "mimeType", "alphaMode", "generator", "copyright"};
+constexpr std::array numbers{"metallicFactor", "roughnessFactor", "alphaCutoff", "strength"};
+constexpr std::array wholes{"index",  "source",   "sampler",    "texCoord",  "material",  "mesh",  "skin",
+                            "camera", "skeleton", "bufferView", "magFilter", "minFilter", "wrapS", "wrapT"};
+constexpr std::array flags{"doubleSided", "normalized"};
+
+template <class List>
+bool is_one_of(const std::string& key, const List& list) {
+    return std::ranges::find(list, key) != list.end();
+}
+
+bool is_whole(const Json& json) {
+    if (!json.is_number()) return false;
+    const auto value = json.get<double>();
+    return value >= 0 && value == std::floor(value);
+}
+
+/// Looks for fields of the wrong type; what `extras` and extensions hold is theirs.
+class TypeChecker {
+public:
+    void check(const Json& json, const std::string& key, const std::string& path) {
+        if (json.is_array()) {
+            for (std::size_t i = 0; i < json.size(); ++i)
+                if (json[i].is_structured()) check(json[i], key, path + "[" + std::to_string(i) + "]");
+        }
+        if (!json.is_object()) return;
+        for (const auto& [name, value] : json.items()) {
+            const std::string place = path.empty() ? name : path + "." + name;
+            check_field(key, name, value, place);
+            if (value.is_structured() && name != "extras" && name != "extensions") check(value, name, place);
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> warnings() const {
+        if (count_ == 0) return {};
+        const std::string more = count_ > 1 ? ", and " + std::to_string(count_ - 1) + " more" : "";
+        return {first_ + more + ": kept as it is, but the file is not valid; export it again"};
+    }
+
+private:
+    void check_field(const std::string& owner, const std::string& name, const Json& value,
+                     const std::string& place) {
+        if (is_one_of(name, texts)) expect(value.is_string(), value, place, "a string");
+        if (is_one_of(name, wholes)) expect(is_whole(value), value, place, "a whole number of 0 or more");
+        if (is_one_of(name, flags)) expect(value.is_boolean(), value, place, "true or false");
+        if (is_one_of(name, numbers) || (name == "scale" && owner == "normalTexture"))
+            expect(value.is_number(), value, place, "a number");
+        if (name != "extensions") return;
+        expect(value.is_object(), value, place, "an object");
+        if (!value.is_object()) return;
+        for (const auto& [extension, fields] : value.items())
+            expect(fields.is_object(), fields, place + "." + extension, "an object");
+    }
+
+    void expect(bool fits, const Json& value, const std::string& place, const char* expected) {
+        if (fits) return;
+        if (count_++ > 0) return;
+        const std::string is = value.is_number() ? value.dump() : std::string("a JSON ") + value.type_name();
+        first_ = place + " is " + is + ", expected " + expected;
+    }
+
+    std::string first_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> wrong_types(const Document& document) {
+    TypeChecker checker;
+    checker.check(document.json, "", "");
+    return checker.warnings();
+}
+
+}  // namespace goffer::mesh::gltf
