@@ -26,7 +26,8 @@ struct Place {
         fs::create_symlink("..", folder / "in/up");
     }
 
-    /// What loading a glTF with a buffer of this URI says, and an image, where `image` is one.
+    /// What loading a glTF with a buffer, or an image, of this URI says: the error that a buffer is, or the
+    /// warning that an image is, which is then not taken into a GLB.
     [[nodiscard]] std::string gltf(const std::string& uri, bool image,
                                    const LoadOptions& options = {}) const {
         Document document = tetra();
@@ -35,16 +36,27 @@ struct Place {
         } else {
             document.json["buffers"].push_back({{"byteLength", document.buffer.size()}, {"uri", uri}});
         }
+        for (const char* name : {"secret.bin", "inside/secret.bin"})
+            folder.write(name, image ? "\x89PNG private" : tetra().buffer);
         const fs::path file = folder.write("in/d.gltf", document.gltf());
-        return error_of([&] { (void)load(file, options); });
+        if (!image) return error_of([&] { (void)load(file, options); });
+        const Mesh mesh = load(file, options);
+        save(mesh, folder / "out.glb");
+        const bool taken = bytes_of(folder / "out.glb").find("private") != std::string::npos;
+        CHECK(taken == options.allow_outside);
+        return mesh.warnings.empty() ? "" : mesh.warnings[0];
     }
 
-    [[nodiscard]] std::string obj(const std::string& library, const LoadOptions& options = {}) const {
+    [[nodiscard]] Mesh obj(const std::string& library, const LoadOptions& options = {}) const {
         const fs::path file = folder.write(
             "in/d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib " + library + "\nusemtl red\nf 1 2 3\n");
-        return error_of([&] { (void)load(file, options); });
+        return load(file, options);
     }
 };
+
+bool says(const std::string& message, const std::string& what) {
+    return message.find(what) != message.npos;
+}
 
 /// An absolute path as a URI of slashes, or with all of them escaped.
 std::string uri_to(const fs::path& file, const char* slash) {
@@ -64,9 +76,9 @@ TEST_CASE("named files: a glTF reads and copies nothing from outside its folder,
         CAPTURE(uri);
         for (const bool image : {false, true}) {
             const std::string message = place.gltf(uri, image);
-            CHECK(tells(message, image ? "images[0].uri: names '" : "buffers[0].uri: names '"));
-            CHECK(tells(message, uri.substr(0, 40)));
-            CHECK(tells(message, "--allow-outside"));
+            CHECK(says(message, image ? "images[0].uri names '" : "buffers[0].uri: names '"));
+            CHECK(says(message, uri.substr(0, 40)));
+            CHECK(says(message, "--allow-outside"));
             CHECK(place.gltf(uri, image, allowed).empty());
         }
     }
@@ -105,11 +117,31 @@ TEST_CASE("named files: an OBJ reads no material file from outside its folder") 
     for (const std::string& name : {std::string("../secret.mtl"), std::string("link.mtl"),
                                     std::string("up/secret.mtl"), (place.folder / "secret.mtl").string()}) {
         CAPTURE(name);
-        CHECK(tells(place.obj(name), "line 4: mtllib names '" + name.substr(0, 40)));
-        CHECK(tells(place.obj(name), "--allow-outside"));
-        CHECK(place.obj(name, {.allow_outside = true}).empty());
+        const Mesh refused = place.obj(name);
+        REQUIRE(refused.warnings.size() == 1);
+        CHECK(says(refused.warnings[0], "line 4: mtllib names '" + name.substr(0, 40)));
+        CHECK(says(refused.warnings[0], "--allow-outside"));
+        CHECK(refused.materials[0].base_color.y != 0);
+        const Mesh allowed = place.obj(name, {.allow_outside = true});
+        CHECK(allowed.warnings.empty());
+        CHECK(allowed.materials[0].base_color.y == 0);
     }
-    CHECK(place.obj("own.mtl").empty());
+    CHECK(place.obj("own.mtl").materials[0].base_color.y == 0);
+}
+
+TEST_CASE("named files: what is written elsewhere, with names that lead back, can be read again") {
+    const Place place;
+    Document document = tetra();
+    document.json["images"].push_back({{"uri", "sub/own.bin"}});
+    const Mesh mesh = load(place.folder.write("in/d.gltf", document.gltf()));
+    fs::create_directory(place.folder / "out");
+    save(mesh, place.folder / "out/d.gltf");
+    CHECK(bytes_of(place.folder / "out/d.gltf").find("../in/sub/own.bin") != std::string::npos);
+    const std::vector<std::string> said = load(place.folder / "out/d.gltf").warnings;
+    REQUIRE(said.size() == 1);
+    CHECK(says(said[0], "images[0].uri names '../in/sub/own.bin', which lies outside"));
+    save(load(place.folder / "out/d.gltf"), place.folder / "d.gltf");
+    CHECK(bytes_of(place.folder / "d.gltf").find("in/sub/own.bin") != std::string::npos);
 }
 
 TEST_CASE("named files: textures that are not there are warned of") {
@@ -118,9 +150,8 @@ TEST_CASE("named files: textures that are not there are warned of") {
     place.folder.write("in/a.mtl",
                        "newmtl red\nmap_Kd gone.png\nmap_Ks -s 1 1 1 gone.png\nmap_d here.png\n"
                        "bump ../not/looked/for.png\nnewmtl blue\nmap_Kd sub\\lost.png\n");
-    CHECK(place.obj("a.mtl").empty());
-    const std::vector<std::string> said = load(place.folder / "in/d.obj").warnings;
+    const std::vector<std::string> said = place.obj("a.mtl").warnings;
     REQUIRE(said.size() == 2);
-    CHECK(tells(said[0], "a.mtl: names 'gone.png', which is not there"));
-    CHECK(tells(said[1], "a.mtl: names 'sub/lost.png', which is not there"));
+    CHECK(says(said[0], "a.mtl: names 'gone.png', which is not there"));
+    CHECK(says(said[1], "a.mtl: names 'sub/lost.png', which is not there"));
 }

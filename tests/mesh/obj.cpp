@@ -146,7 +146,9 @@ TEST_CASE("obj: the way to the material file stays right in another folder") {
     save(mesh, from / "b.obj");
     CHECK(bytes_of(from / "b.obj") == rich);
     save(mesh, to / "b.obj");
-    CHECK(tells(error_of([&] { (void)load(to / "b.obj"); }), ": mtllib names"));
+    const Mesh gray = load(to / "b.obj");
+    REQUIRE(gray.warnings.size() == 1);
+    CHECK(gray.warnings[0].find(": mtllib names") != std::string::npos);
     const Mesh moved = load(to / "b.obj", {.allow_outside = true});
     CHECK(moved.warnings.empty());
     CHECK(moved.materials == mesh.materials);

@@ -117,7 +117,13 @@ void refuse_compression(const Value& root) {
 }
 
 std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size, Budget& budget) {
-    const std::filesystem::path file = outer_file(files, uri);
+    if (uri.text().empty() || has_scheme(uri.text())) {
+        uri.fail("is " + mesh::quoted(uri.text()) +
+                 "; only paths are read, so put the file beside the document");
+    }
+    const std::optional<std::filesystem::path> place = files.find(path_of(uri.text()));
+    if (!place) uri.fail("names " + mesh::quoted(uri.text()) + NamedFiles::outside);
+    const std::filesystem::path& file = *place;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
         uri.fail("names " + mesh::quoted(uri.text()) + ", which is not there; put it beside the document");
@@ -207,16 +213,6 @@ std::string_view Document::view(const Value& buffer_view) const {
                                            buffer_view["byteLength"].whole());
 }
 
-std::filesystem::path outer_file(const NamedFiles& files, const Value& uri) {
-    if (uri.text().empty() || has_scheme(uri.text())) {
-        uri.fail("is " + mesh::quoted(uri.text()) +
-                 "; only paths are read, so put the file beside the document");
-    }
-    const std::optional<std::filesystem::path> file = files.find(path_of(uri.text()));
-    if (!file) uri.fail("names " + mesh::quoted(uri.text()) + NamedFiles::outside);
-    return *file;
-}
-
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
                                               const LoadOptions& options, Budget& budget) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
@@ -242,9 +238,14 @@ std::vector<std::string> missing_images(const Document& document) {
         const Value uri = document.root()["images"][i]["uri"];
         if (is_data_uri(uri.text()) || has_scheme(uri.text())) continue;
         std::error_code error;
-        if (!std::filesystem::is_regular_file(outer_file(document.files, uri), error))
-            missing.push_back("a texture is missing: " + uri.path() + " names " + mesh::quoted(uri.text()) +
+        const std::string names = uri.path() + " names " + mesh::quoted(uri.text());
+        const std::optional<std::filesystem::path> place = document.files.find(path_of(uri.text()));
+        if (!place) {
+            missing.push_back("a texture is not looked at: " + names + NamedFiles::outside);
+        } else if (!std::filesystem::is_regular_file(*place, error)) {
+            missing.push_back("a texture is missing: " + names +
                               ", which is not there; put it beside the document");
+        }
     }
     return missing;
 }

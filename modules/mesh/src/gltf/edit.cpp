@@ -262,10 +262,10 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         const auto uri = image["uri"].get<std::string>();
         std::error_code error;
         if (is_data_uri(uri) || has_scheme(uri)) continue;
-        const auto outer = document_.files.find(path_of(uri));
-        if (!outer || !std::filesystem::is_regular_file(*outer, error)) continue;
-        if (!embed) {
-            const auto from = std::filesystem::weakly_canonical(*outer, error);
+        const std::filesystem::path named = document_.files.folder() / path_of(uri);
+        if (!std::filesystem::is_regular_file(named, error)) continue;
+        if (!embed) {  // it stays a name, whether it may be read or not
+            const auto from = std::filesystem::weakly_canonical(named, error);
             const auto to =
                 std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
             if (to != std::filesystem::weakly_canonical(std::filesystem::absolute(document_.files.folder()),
@@ -275,7 +275,9 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
             }
             continue;
         }
-        std::ifstream stream(*outer, std::ios::binary);
+        const auto readable = document_.files.find(path_of(uri));
+        if (!readable) continue;
+        std::ifstream stream(*readable, std::ios::binary);
         std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
         const std::string type = mime_type(bytes);
         if (type.empty()) continue;  // a GLB cannot hold it

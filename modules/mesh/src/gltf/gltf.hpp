@@ -86,17 +86,12 @@ struct Document : Source {
     [[nodiscard]] std::string_view view(const Value& buffer_view) const;
 };
 
-/// The file that a URI of `document` names, which need not be there. Throws Error if it has a scheme, such as
-/// http:, or is a file that may not be read.
-[[nodiscard]] std::filesystem::path outer_file(const NamedFiles& files, const Value& uri);
-
 /// Takes a .glb or .gltf apart and reads its buffers. Throws Error without the file's name.
 [[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
                                                             std::string_view bytes,
                                                             const LoadOptions& options, Budget& budget);
 
-/// Says which images are not where their URIs lead; broken ones are not looked at. Throws Error for one that
-/// may not be read.
+/// Says which images are not where their URIs lead, or may not be read; broken ones are not looked at.
 [[nodiscard]] std::vector<std::string> missing_images(const Document& document);
 
 /// Says, as a warning or none, which fields that nothing here reads are of the wrong type.

@@ -297,8 +297,12 @@ void ObjReader::read_materials() {
     for (const std::string_view line : libraries_) {
         for (const std::string_view name : library_names(file_, line)) {
             const std::optional<std::filesystem::path> library = files_.find(name);
-            if (!library) fail_at(name, "mtllib names " + quoted(name) + NamedFiles::outside);
-            if (read.insert(*library).second) read_library(*library, found);
+            if (!library) {
+                mesh_.warnings.push_back("materials stay gray: " + line_of(text_, name.data()) +
+                                         ": mtllib names " + quoted(name) + NamedFiles::outside);
+            } else if (read.insert(*library).second) {
+                read_library(*library, found);
+            }
         }
     }
     std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts

@@ -101,9 +101,9 @@ struct LoadOptions {
 /// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the
 /// ending of the name. Other files that an OBJ or a glTF names are read too, if they lie in its folder or
 /// below it once links are followed, or anywhere with LoadOptions::allow_outside. Faces of fewer than 3
-/// corners are left out, with a warning.
+/// corners, and materials and textures that lie outside, are left out with a warning.
 ///
-/// Throws Error if the file cannot be read or is not of these formats, names a file outside its folder, is
+/// Throws Error if the file cannot be read or is not of these formats, has a buffer outside its folder, is
 /// beyond the limits, a position or normal is not finite, an index is out of range, there is no vertex or no
 /// face, or a glTF is compressed.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
