@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_files.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+/// glTF that is broken, or more than goffer reads: what is said of it.
+
+using namespace goffer::test;
+
+namespace {
+
+/// The message for a tetrahedron that `spoil` has changed.
+std::string error_when(const std::function<void(Document&)>& spoil) {
+    Document document = tetra();
+    spoil(document);
+    return load_error("d.glb", document.glb());
+}
+
+}  // namespace
+
+TEST_CASE("gltf: the way out of a compression is a tool that knows it") {
+    Document document = tetra();
+    document.json["extensionsUsed"] = {"KHR_meshopt_compression"};
+    CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltfpack -noq -i IN -o OUT"));
+    document.json["extensionsUsed"] = {"EXT_meshopt_compression"};
+    CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltf-transform copy IN OUT"));
+}
+
+TEST_CASE("gltf: what is broken is named with its place and the way out") {
+    const auto set = [](const char* pointer, const char* value) {
+        return [=](Document& d) { d.json[Json::json_pointer(pointer)] = Json::parse(value); };
+    };
+    const std::vector<std::pair<std::function<void(Document&)>, const char*>> cases{
+        {set("/scene", "3"), "scene: names scenes[3], but there are 1; export"},
+        {set("/scenes/0/nodes", "[0, 9]"), "scenes[0].nodes[1]: names nodes[9]"},
+        {set("/nodes/0/mesh", "7"), "nodes[0].mesh: names meshes[7]"},
+        {set("/nodes/0/mesh", "-1"), "nodes[0].mesh: is -1, expected a whole number"},
+        {set("/nodes/0/mesh", "0.5"), "nodes[0].mesh: is 0.5"},
+        {set("/nodes/0/mesh", "\"zero\""), "nodes[0].mesh: is a JSON string, expected a number"},
+        {set("/nodes", "[{\"mesh\": 0, \"children\": [0]}]"), "nodes[0]: is reached twice: a cycle"},
+        {set("/nodes/0/rotation", "[0, 0, 0, 0]"), "nodes[0].rotation: is not a unit quaternion"},
+        {set("/nodes/0/matrix", "[1, 2]"), "nodes[0].matrix: has 2 elements, expected 16 numbers"},
+        {set("/nodes/0/scale", "[1, 1, 1e300]"),
+         "meshes[0].primitives[0].attributes.POSITION: vertex 3 is not finite"},
+        {set("/nodes", "[{}]"), "no node of the scene carries a mesh"},
+        {set("/meshes/0/primitives/0/attributes/POSITION", "50"),
+         "meshes[0].primitives[0].attributes.POSITION: names accessors[50]"},
+        {set("/meshes/0/primitives/0/attributes/NORMAL", "3"),
+         "attributes.NORMAL -> accessors[3].type: is the wrong one here, expected VEC3"},
+        {set("/meshes/0/primitives/0/attributes", "{\"NORMAL\": 1}"),
+         "meshes[0].primitives[0].attributes: has no \"POSITION\""},
+        {set("/meshes/0/primitives/0/indices", "12"), "meshes[0].primitives[0].indices: names accessors[12]"},
+        {set("/meshes/0/primitives/0/indices", "0"),
+         "accessors[0].type: is the wrong one here, expected SCALAR"},
+        {set("/meshes/0/primitives/0/mode", "7"), "meshes[0].primitives[0].mode: is 7"},
+        {set("/meshes/0/primitives/0/material", "0"),
+         "primitives[0].material: names materials[0], but there are 0"},
+        {set("/accessors/0/count", "5"),
+         "accessors[0]: 5 elements from byte 0 on, 12 bytes apart, do not fit into the 48 bytes of "
+         "bufferViews[0]"},
+        {set("/accessors/0/count", "9007199254740000"), "do not fit"},
+        {set("/accessors/0/count", "0"), "accessors[0].count: is 0"},
+        {set("/accessors/1/count", "3"), "attributes.NORMAL: has 3 elements, but POSITION has 4"},
+        {set("/accessors/0/byteOffset", "4"), "from byte 4 on"},
+        {set("/accessors/0/componentType", "5124"), "accessors[0].componentType: is 5124"},
+        {set("/accessors/4/componentType", "5126"),
+         "accessors[4].componentType: is 5126, expected 5121, 5123 or 5125"},
+        {set("/accessors/0/bufferView", "99"), "accessors[0].bufferView: names bufferViews[99]"},
+        {set("/accessors/0", "{\"componentType\": 5126, \"count\": 4000000000, \"type\": \"VEC3\"}"),
+         "accessors[0].count: is 4000000000 without a bufferView"},
+        {set("/bufferViews/0/byteStride", "8"), "byteStride is 8, expected 12 to 252"},
+        {set("/bufferViews/0/buffer", "1"), "bufferViews[0].buffer: names buffers[1]"},
+        {set("/bufferViews/3/byteLength", "100000"), "bufferViews[3]: spans bytes"},
+        {set("/bufferViews/3/byteOffset", "18446744073709551615"),
+         "bufferViews[3].byteOffset: is 18446744073709551615"},
+        {set("/buffers", "[{\"byteLength\": 100000}]"), "that byteLength promises"},
+        {set("/asset/version", "\"1.0\""), "asset.version: is '1.0'; only glTF 2 can be read"},
+        {set("/asset", "{}"), "asset: has no \"version\""},
+        {set("/extensionsRequired", "[\"KHR_draco_mesh_compression\"]"),
+         "extensionsRequired[0]: the mesh is compressed with KHR_draco_mesh_compression, which cannot be "
+         "read; decompress it: gltf-transform"},
+        {set("/extensionsUsed", "[\"EXT_meshopt_compression\"]"), "compressed with EXT_meshopt_compression"},
+        {set("/meshes", "3"), "meshes: is a JSON number, expected an array"},
+    };
+    for (const auto& known : cases) {
+        const std::string message = error_when(known.first);
+        CHECK_MESSAGE(tells(message, known.second), "expected: ", known.second, "\nbut got: ", message);
+    }
+}
+
+TEST_CASE("gltf: a vertex index out of range and a position that is not a number are named") {
+    Document document = tetra();
+    document.buffer.replace(document.buffer.size() - 24, 2, raw(std::vector<std::uint16_t>{77}));
+    CHECK(tells(load_error("d.glb", document.glb()),
+                "primitives[0].indices: entry 0 is vertex 77, but there are 4"));
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        document = tetra();
+        document.buffer.replace(16, 4, raw(std::vector<float>{bad}));
+        CHECK(tells(load_error("d.glb", document.glb()), "attributes.POSITION: vertex 1 is not finite"));
+    }
+}
+
+TEST_CASE("gltf: sparse indices and counts are checked") {
+    Document document = tetra();
+    Json sparse = {{"count", 1}};
+    sparse["indices"] = {{"bufferView", document.view(std::string("\x04", 1))}, {"componentType", 5121}};
+    sparse["values"] = {{"bufferView", document.view(std::string(12, '\0'))}};
+    document.json["accessors"][0]["sparse"] = sparse;
+    CHECK(tells(load_error("d.glb", document.glb()),
+                "accessors[0].sparse.indices: entry 0 is 4, but the accessor has 4 elements"));
+    document.json["accessors"][0]["sparse"]["count"] = 2;
+    CHECK(tells(load_error("d.glb", document.glb()), "do not fit"));
+}
+
+TEST_CASE("gltf: a cycle without a scene, and a node with two parents, are named") {
+    Document document = tetra_with_nodes(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
+    document.json.erase("scenes");
+    document.json.erase("scene");
+    CHECK(tells(load_error("d.glb", document.glb()), "a cycle"));
+    document = tetra_with_nodes(R"([{"children": [1, 1]}, {"mesh": 0}])");
+    CHECK(tells(load_error("d.glb", document.glb()), "nodes[1]: is reached twice"));
+}
+
+TEST_CASE("gltf: a mesh repeated without end is refused, deep nodes and deep extras are no danger") {
+    Document document = tetra();
+    const std::size_t many = 200000;
+    document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1000000}, {"type", "VEC3"}};
+    primitive_of(document) = {{"attributes", {{"POSITION", 0}}}};
+    for (std::size_t i = 1; i < 40; ++i) {
+        document.json["nodes"].push_back({{"mesh", 0}});
+        document.json["scenes"][0]["nodes"].push_back(i);
+    }
+    CHECK(tells(load_error("d.glb", document.glb()), "more than 1048576 elements without a bufferView"));
+
+    document = tetra();
+    for (std::size_t i = 1; i < many; ++i) document.json["nodes"].push_back({{"children", {i - 1}}});
+    document.json["scenes"][0]["nodes"][0] = many - 1;
+    CHECK(load_document(document).positions[1] == glm::vec3(2, 0, 0));
+
+    const std::string deep =
+        R"({"asset": {"version": "2.0"}, "extras": )" + std::string(many, '[') + std::string(many, ']') + "}";
+    CHECK(tells(load_error("d.gltf", deep), "nested more than 200 deep"));
+}
+
+TEST_CASE("gltf: a GLB cut off anywhere is refused, and so are other versions") {
+    const std::string whole = tetra().glb();
+    for (std::size_t length = 4; length < whole.size(); ++length) {
+        CHECK_MESSAGE(!load_error("d.glb", whole.substr(0, length)).empty(), "cut to ", length);
+    }
+    CHECK(tells(load_error("d.glb", whole.substr(0, 1000)), "the GLB is cut off"));
+    std::string other = whole;
+    other[4] = 1;
+    CHECK(tells(load_error("d.glb", other), "is GLB version 1; only 2 can be read"));
+    CHECK(tells(load_error("d.gltf", "{\"asset\": {\"version\": \"2.0\"},}"), "not valid JSON at byte"));
+    CHECK(tells(load_error("d.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"x\": 1e999}"),
+                "number that no double can hold"));
+}
