@@ -4,6 +4,7 @@
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
+#include <goffer/fit/base.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -203,6 +204,24 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
             sorted[binding.order.empty() ? i : binding.order[i]] = bent[i];
         CHECK(std::abs(fit::surface_area(sorted, soup.triangles) / rest - 1) < 1e-3);
     }
+}
+
+TEST_CASE("amplitude mesh: folds that nobody asked for are no deeper than a quarter of the radius") {
+    std::mt19937 random(9);
+    const test::Solid solid =
+        test::cylinder({.columns = 32, .rows = 200, .length = 4, .closed = true}, random);
+    fit::Cylinder base = test::upright();
+    base.length = 4;
+    const Soup soup{solid.positions, solid.triangles};
+    fit::BindOptions options;
+    options.amplitude = paper::Amplitude::mesh;
+    const auto depth = [&] {
+        return fit::wrinkle_depth(fit::bind(soup.geometry(), base, options), 0, 90 * degree);
+    };
+    CHECK(depth() < 0.25);
+    CHECK(depth() > 0.15);
+    options.fold_length = fit::default_fold_length(options.profile);
+    CHECK(depth() > 0.25);
 }
 
 TEST_CASE("amplitude mesh: triangles without area change nothing") {

@@ -5,10 +5,12 @@
 #include "text.hpp"
 
 #include <goffer/fit/bind.hpp>
+#include <goffer/paper/wave.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -184,15 +186,36 @@ struct Draft {
     }
 };
 
-/// Gives each region the weights m(z) with which the slices of the mesh keep their area.
-void weigh_slices(const bend::Body& body, const Geometry& geometry, const RestMesh& mesh,
-                  std::vector<RestRegion>& places, std::vector<RegionBinding>& found) {
+/// Lowers factors on a region's wrinkle, at equal steps from end to end, so that in a body that is bent by a
+/// right angle it is nowhere deeper than a share of the radius there. Of one that is bent at rest, none is
+/// lowered.
+void keep_shallow(double body_length, const RestRegion& rest, const bend::RegionInput& input, Profile profile,
+                  std::vector<double>& factors) {
+    constexpr double most_depth = 0.23, right_angle = std::numbers::pi / 2, most_squeeze = 0.999;
+    if (input.rest_angle != 0) return;
+    const double kappa = right_angle * input.radius / body_length;
+    const paper::Wave wave(profile, rest.folds, std::min(2 * kappa * input.max_scale, most_squeeze));
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        const double z = rest.length * static_cast<double>(i) / static_cast<double>(factors.size() - 1);
+        const double scale = rest.shape ? rest.shape->scale(z) : 1;
+        const double amplitude =
+            wave.column(std::min(2 * kappa * scale, most_squeeze)).amplitude * rest.length / 2;
+        const double depth = profile.trough() * amplitude * (rest.shape ? rest.shape->depth(z) : 1);
+        if (depth > 0) factors[i] = std::min(factors[i], most_depth * scale * input.radius / depth);
+    }
+}
+
+/// Gives each region the weights m(z) with which the slices of the mesh keep their area, as far as shallow
+/// wrinkles can, unless long ones were asked for.
+void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOptions& options,
+                  const RestMesh& mesh, std::vector<RestRegion>& places, std::vector<RegionBinding>& found) {
     std::vector<double> heights;
     for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::vector<double> factors =
-            solve_weights(body, geometry, mesh.order, heights, i, places[i].folds);
+        std::vector<double> factors = solve_weights(body, geometry, mesh.order, heights, i, places[i].folds);
         if (factors.empty()) continue;
+        if (!options.fold_length && !regions_of(options)[i].folds)
+            keep_shallow(body.length(), places[i], body.region_inputs()[i], options.profile, factors);
         places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors);
     }
 }
@@ -273,7 +296,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
         if (even) {
-            weigh_slices(body, geometry, draft->mesh, places, found);
+            weigh_slices(body, geometry, options, draft->mesh, places, found);
             draft.emplace(geometry, cylinder, options, onset, places);
             body = make(cylinder, draft->regions, draft->mesh);
         }
