@@ -180,7 +180,8 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
           }).find("folds: 65 is outside 0..64") != std::string::npos);
     CHECK(refused([](TestMesh&, Options& o) { o.profile.roundness = 0.6; }).find("roundness") !=
           std::string::npos);
-    CHECK(refused([](TestMesh&, Options& o) { o.fold_length = 0; }).find("fold_length") != std::string::npos);
+    for (const double bad : {0.0, 1e-300, 1e300, HUGE_VAL})
+        CHECK(refused([&](TestMesh&, Options& o) { o.fold_length = bad; }).find("fold_length") == 0);
     CHECK(refused([](TestMesh& s, Options&) { s.cylinder.radii = {1}; }).find("radii") != std::string::npos);
     CHECK(refused([](TestMesh& s, Options&) {
               s.cylinder.radii = {1, 2};

@@ -447,6 +447,12 @@ TEST_CASE("check of a cylinder names the field at fault") {
         CHECK(has(said_of([&](Cylinder& c) { c.length = bad; }), "length"));
         CHECK(has(said_of([&](Cylinder& c) { c.radius = bad; }), "radius"));
     }
+    for (const double bad : {1e-41, 1e41, 1e308}) {
+        CHECK(has(said_of([&](Cylinder& c) { c.length = c.radius = bad; }), "beyond what a mesh"));
+        CHECK(has(said_of([&](Cylinder& c) { c.radius = bad; }), "beyond what a mesh"));
+        CHECK(has(said_of([&](Cylinder& c) { c.radii = {bad, bad}; }), "beyond what a mesh"));
+    }
+    CHECK(has(said_of([&](Cylinder& c) { c.origin.z = -1e41; }), "beyond what a mesh"));
     CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = nan; }), "rest_angle"));
     for (const double bad : {-1e-9, 5.0, 6.3, HUGE_VAL})  // length / (2 radius) is 5
         CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = bad; }), "rest_angle"));

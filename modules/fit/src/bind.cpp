@@ -40,6 +40,12 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     }
 }
 
+/// Folds of such a length have a length that double holds, whatever the radius.
+void check_fold_length(double radii) {
+    if (radii >= 1e-40 && radii <= 1e40) return;
+    throw Error("fold_length: " + text(radii) + " is not a length; give a number of radii above 0");
+}
+
 /// The regions' places on the axis, and how many folds each has and can carry.
 std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylinder,
                                 const BindOptions& options, std::vector<RestRegion>& rest) {
@@ -282,8 +288,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
     check(given);
-    if (!(options.fold_length.value_or(1) > 0) || !std::isfinite(options.fold_length.value_or(1)))
-        throw Error("fold_length: " + text(*options.fold_length) + " is not a length; give radii above 0");
+    check_fold_length(options.fold_length.value_or(1));
     const Cylinder cylinder = base_of(geometry, given, options);
     const double gentle = cylinder.rest_angle != 0 ? BindOptions::gentle_onset : 0;
     const double onset = options.onset.value_or(gentle);

@@ -126,6 +126,17 @@ void check_positive(double value, std::string_view name) {
     throw Error("cylinder: " + std::string(name) + " is " + text(value) + "; give a finite number above 0");
 }
 
+/// Meshes of floats have no others; and no product of these on the way to a body leaves double's range.
+constexpr double least_size = 1e-40, largest_size = 1e40;
+
+void check_size(double value, std::string_view name) {
+    check_positive(value, name);
+    if (value >= least_size && value <= largest_size) return;
+    throw Error("cylinder: " + std::string(name) + " is " + text(value) +
+                ", beyond what a mesh of floats can have; give a number within " + text(least_size) + ".." +
+                text(largest_size));
+}
+
 /// The inner line of the arc must have a length, and the arc must not come around to where it began.
 void check_rest_angle(const Cylinder& cylinder) {
     const double most = std::min(2 * std::numbers::pi, cylinder.length / (2 * cylinder.radius));
@@ -136,7 +147,7 @@ void check_rest_angle(const Cylinder& cylinder) {
 
 void check_radii(const Cylinder& cylinder) {
     if (cylinder.radii.empty()) return;
-    for (const double radius : cylinder.radii) check_positive(radius, "one of the radii");
+    for (const double radius : cylinder.radii) check_size(radius, "one of the radii");
     const std::size_t count = cylinder.radii.size();
     if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
     const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();
@@ -170,10 +181,14 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
 
 void check(const Cylinder& cylinder) {
     check_finite(eigen(cylinder.origin), "origin");
+    if (eigen(cylinder.origin).cwiseAbs().maxCoeff() > largest_size) {
+        throw Error("cylinder: origin " + text(eigen(cylinder.origin)) +
+                    " is beyond what a mesh of floats can have; move it to the mesh");
+    }
     check_finite(eigen(cylinder.axis), "axis");
     check_finite(eigen(cylinder.zero), "zero");
-    check_positive(cylinder.length, "length");
-    check_positive(cylinder.radius, "radius");
+    check_size(cylinder.length, "length");
+    check_size(cylinder.radius, "radius");
     check_finite(Vector3d::Constant(cylinder.rest_angle), "rest_angle");
     check_finite(Vector3d::Constant(cylinder.rest_direction), "rest_direction");
     check_finite(Vector3d::Constant(cylinder.residual), "residual");

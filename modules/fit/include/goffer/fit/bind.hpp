@@ -55,8 +55,8 @@ struct BindOptions {
     /// than a fold_length above 1.5. Otherwise sensible_folds() of each region, with a capacity of at most
     /// max_folds: with the default fold_length none where a region is longer than 256 radii.
     std::optional<int> folds = {};
-    /// Length of a fold, in radii of the body where it stands, > 0. Depth goes with it: half as long, half as
-    /// deep. Has no effect where folds are given. Unset: default_fold_length().
+    /// Length of a fold, in radii of the body where it stands, 1e-40..1e40. Depth goes with it: half as long,
+    /// half as deep. Has no effect where folds are given. Unset: default_fold_length().
     std::optional<double> fold_length = {};
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::even;

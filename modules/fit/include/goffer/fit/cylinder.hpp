@@ -77,10 +77,11 @@ public:
 /// bodies".
 [[nodiscard]] Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder);
 
-/// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length or
-/// radius is not above 0, rest_angle is negative or not below both 2 pi and length / (2 radius), axis and
-/// zero are not of unit length or not orthogonal, within 1e-3, or there are radii that are fewer than two,
-/// not above 0, or do not have the radius as their mean, within 1e-3. Thread-safe.
+/// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length,
+/// radius or one of the radii is not within 1e-40..1e40, the origin is farther than 1e40 on an axis,
+/// rest_angle is negative or not below both 2 pi and length / (2 radius), axis and zero are not of unit
+/// length or not orthogonal, within 1e-3, or the radii are fewer than two or do not have the radius as their
+/// mean, within 1e-3. Thread-safe.
 void check(const Cylinder& cylinder);
 
 /// Returns `cylinder` with another length: a stretch of it, for sensible_folds(). Thread-safe.
