@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "support/bodies.hpp"
+
+#include "starve.hpp"
+
+#include <goffer/bend/sockets.hpp>
+#include <goffer/fit/refine.hpp>
+#include <goffer/fit/sockets.hpp>
+
+using namespace goffer;
+using namespace goffer::test;
+
+/// modules/bend is compiled without exceptions: what it had half made when memory ran out is not freed
+/// (modules/README.md, "Errors"). All else has to be.
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): its name
+    return "leak:goffer::bend::Body::make\n";
+}
+
+namespace {
+
+TestMesh small_mesh() {
+    Random random(5);
+    return random_mesh(random, 8, 1, 8, 33, 4);
+}
+
+void starve_bind(const fit::BindOptions& options, std::uint64_t most) {
+    const TestMesh mesh = small_mesh();
+    starve<fit::Error>([&] { (void)fit::bind(mesh.geometry(), mesh.cylinder, options); }, {.most = most});
+}
+
+}  // namespace
+
+TEST_CASE("a fit without it ends in an error") {
+    const TestMesh mesh = small_mesh();
+    starve<fit::Error>([&] { (void)fit::fit_cylinder(mesh.geometry()); });
+    starve<fit::Error>([&] { (void)fit::fit_shape(mesh.geometry(), mesh.cylinder); });
+}
+
+TEST_CASE("a bind without it ends in an error") {
+    fit::BindOptions options = fit::BindOptions::as_in_paper();
+    options.folds = 2;
+    options.table_rows = 4;
+    starve_bind(options, 400);
+    options.profile = fit::Profile::even;
+    options.shape = fit::ShapeMode::automatic;
+    options.regions = {{0.4, 2}, {0.6, 3}};
+    starve_bind(options, 400);
+}
+
+TEST_CASE("a bind that solves for the mesh's area, on several threads, ends in an error without it") {
+    fit::BindOptions options;
+    options.folds = 2;
+    options.table_rows = 4;
+    options.amplitude = fit::Amplitude::mesh;
+    starve_bind(options, 120);
+}
+
+TEST_CASE("a refinement without it ends in an error") {
+    const TestMesh mesh = small_mesh();
+    starve<fit::Error>([&] { (void)fit::refine(mesh.geometry(), mesh.cylinder, 6); });
+}
