@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include <io.h>
 #include <process.h>
 #else
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -123,11 +125,12 @@ void synchronize_folder(const fs::path&) {}
 #else
 
 void remove_stale_parts(const fs::path& folder) {
-    std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-        const std::string name = entry->path().filename().string();
-        if (const int process = process_of(name)) remove_if_stale(entry->path(), process);
+    // Not by directory_iterator: where memory is short, libstdc++'s ends the program.
+    const auto close = [](DIR* open) { closedir(open); };
+    const std::unique_ptr<DIR, decltype(close)> entries(opendir(folder.c_str()), close);
+    while (const dirent* const entry = entries ? readdir(entries.get()) : nullptr) {
+        const std::string name = entry->d_name;
+        if (const int process = process_of(name)) remove_if_stale(folder / name, process);
     }
 }
 

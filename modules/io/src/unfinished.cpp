@@ -13,6 +13,15 @@
 #endif
 
 namespace goffer::io {
+
+#ifdef _WIN32
+
+void note_unfinished(const std::filesystem::path&) noexcept {}
+void forget_unfinished(const std::filesystem::path&) noexcept {}
+void remove_unfinished() noexcept {}
+
+#else
+
 namespace {
 
 /// A place of the list. Whoever takes it from `unused` or `noted` may touch the path, nobody else.
@@ -31,8 +40,8 @@ std::array<Slot, 16> slots;
 
 }  // namespace
 
-void note_unfinished(const std::filesystem::path& file) {
-    const std::string path = file.string();
+void note_unfinished(const std::filesystem::path& file) noexcept {
+    const std::string& path = file.native();
     for (Slot& slot : slots) {
         if (path.size() >= slot.path.size() || !slot.take(Slot::unused)) continue;
         std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
@@ -41,8 +50,8 @@ void note_unfinished(const std::filesystem::path& file) {
     }
 }
 
-void forget_unfinished(const std::filesystem::path& file) {
-    const std::string path = file.string();
+void forget_unfinished(const std::filesystem::path& file) noexcept {
+    const std::string& path = file.native();
     for (Slot& slot : slots) {
         if (!slot.take(Slot::noted)) continue;
         slot.state = path == slot.path.data() ? Slot::unused : Slot::noted;
@@ -50,11 +59,11 @@ void forget_unfinished(const std::filesystem::path& file) {
 }
 
 void remove_unfinished() noexcept {
-#ifndef _WIN32
     for (Slot& slot : slots) {
         if (slot.take(Slot::noted)) unlink(slot.path.data());
     }
-#endif
 }
+
+#endif
 
 }  // namespace goffer::io
