@@ -19,8 +19,8 @@ namespace goffer::fit {
 
 /// What decides the depth of wrinkles: nothing, there are none (none); every column of the base cylinder
 /// keeps its length, as in the paper (paper); the base cylinder keeps its area exactly (area); or the bound
-/// mesh keeps its area (mesh): slice by slice with Profile::even, as far as wrinkles of about a quarter of the
-/// radius can where nobody says how long folds are, and as a whole.
+/// mesh keeps its area (mesh): as a whole, and with Profile::even slice by slice, as far as wrinkles of about
+/// a quarter of the radius can, unless folds are given or a fold_length.
 using Amplitude = paper::Amplitude;
 
 /// The shape of wrinkles along the body. They are deepest at mid-length, and either have creases there and at
