@@ -191,7 +191,8 @@ TEST_CASE("bad models: what would take more memory than is allowed") {
             {"base.ply: takes more than the 10 KiB"});
     refused(place.folder, 2, {"base", "-o", "out.ply", "--max-memory", "1M"},
             {"--columns, --rows", "--max-memory"});
-    refused(place.folder, 2, {"inspect", "base.ply", "--max-memory", "much"}, {"--max-memory"});
+    for (const std::string word : {"much", "-1", "18446744073709551616", "", "M"})
+        refused(place.folder, 2, {"inspect", "base.ply", "--max-memory", word}, {"--max-memory"});
 }
 
 TEST_CASE("bad models: many vertices without a triangle are no reason to wait") {

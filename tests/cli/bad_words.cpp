@@ -71,6 +71,8 @@ TEST_CASE("bad words: numbers and names out of range") {
 
 TEST_CASE("bad words: what does not go together") {
     const Place place;
+    refused(place.folder, 2, {"bend", "base.ply", "-o", "a.obj", "--json", "a.mtl"},
+            {"--json", "a.mtl", "materials"});
     place.refuse_bend({"--ghost"}, {"--ghost", "--png"});
     place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
     place.refuse_bend({"--paper", "--profile", "even"}, {"--profile", "--paper"});

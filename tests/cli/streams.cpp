@@ -49,6 +49,28 @@ TEST_CASE("streams: a full standard output is an error") {
     }
 }
 
+TEST_CASE("streams: nothing that is printed gets into an output where a standard stream is closed") {
+    const Folder folder;
+    const std::string whole = bytes_of(folder / base(folder));
+    const std::string begin =
+        "cd '" + (folder / ".").string() + "' && '" + GOFFER_COMMAND + "' base -o out.ply --json out.json ";
+    for (const std::string closed : {">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+        CAPTURE(closed);
+        CHECK(std::system((begin + closed).c_str()) == 0);
+        CHECK((bytes_of(folder / "out.ply") == whole));
+        CHECK(nlohmann::json::parse(bytes_of(folder / "out.json"))["vertices"] == 10304);
+    }
+}
+
+TEST_CASE("streams: control characters of a file's name stay out of the terminal") {
+    const Folder folder;
+    const std::string name = "a\x7f\xc2\x9b.ply";
+    base(folder, name);
+    const std::string json = run(folder, {"inspect", name, "--json", "-"}).out;
+    CHECK(json.find("a\\u007f\\u009b.ply") != std::string::npos);
+    CHECK(nlohmann::json::parse(json)["file"] == name);
+}
+
 TEST_CASE("streams: names with spaces, quotes and letters of any script, relative and dotted paths") {
     const Folder folder;
     std::filesystem::create_directories(folder / "a b/ümläut 日本");

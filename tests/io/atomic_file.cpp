@@ -142,6 +142,17 @@ TEST_CASE("atomic file: what a process left that was killed is removed, what oth
     CHECK(folder.files() == 4);
 }
 
+TEST_CASE("atomic file: what an earlier process of the same number left is removed, as in containers") {
+    const Folder folder;
+    const std::string part = ".goffer-" + std::to_string(getpid()) + "-7.part";
+    folder.write(part, "half");
+    const AtomicFile mine(folder / "a");
+    CHECK(!fs::exists(folder / part));
+    CHECK(folder.files() == 1);
+    write_file(folder / "b", "new");  // does not take the one that is being written
+    CHECK(folder.files() == 2);
+}
+
 TEST_CASE("atomic file: a part of a process that is gone stays while somebody holds its lock") {
     const Folder folder;
     std::optional<AtomicFile> mine(std::in_place, folder / "a");

@@ -273,12 +273,14 @@ TEST_CASE("gltf: images beside the source are taken into a GLB, and named from t
     const Folder folder;
     folder.write("a b.png", png);
     Document document = tetra();
-    document.json["images"] = Json::parse(R"([{"uri": "a%20b.png", "name": "one"}, {"uri": "gone.png"}])");
+    document.json["images"] =
+        Json::parse(R"([{"uri": "a%20b.png", "name": "one"}, {"uri": "gone.png"}, {"uri": "./a b.png"}])");
     const Mesh mesh = load(folder.write("d.gltf", document.gltf()));
     const Document glb = saved_document(mesh);
     CHECK(glb.json["images"][0].dump() == R"({"name":"one","mimeType":"image/png","bufferView":5})");
     CHECK(view_bytes(glb, 5) == png);
     CHECK(glb.json["images"][1]["uri"] == "gone.png");
+    CHECK(glb.json["images"][2]["bufferView"] == 5);  // one file is taken in once
 
     std::filesystem::create_directory(folder / "sub");
     save(mesh, folder / "sub/out.gltf");

@@ -239,6 +239,10 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
                              "; give another name");
         }
         taken.push_back(output);
+        std::filesystem::path materials = output.file;  // that an OBJ may have beside it
+        materials.replace_extension(".mtl");
+        const std::string ending = output.file.extension().string();
+        if (ending == ".obj" || ending == ".OBJ") taken.push_back({"-o's materials", materials});
     }
 }
 

@@ -8,12 +8,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
+
+#ifndef _WIN32
+#include <fcntl.h>
+#endif
 
 /// goffer: exit code 0 done, 1 the input or the system was at fault, 2 wrong usage.
 
@@ -43,6 +48,17 @@ void end_by(int signal) {
     io::remove_unfinished();
     std::signal(signal, SIG_DFL);
     std::raise(signal);
+}
+
+/// Standard streams that the caller has closed lead nowhere: a file that is opened in the place of one would
+/// get what is printed.
+void hold_standard_streams() {
+#ifndef _WIN32
+    for (int descriptor = 0; descriptor <= 2; ++descriptor) {
+        if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
+            (void)open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);  // takes the lowest that is free
+    }
+#endif
 }
 
 void heed_signals() {
@@ -91,6 +107,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        goffer::cli::hold_standard_streams();
         goffer::cli::heed_signals();
         return goffer::cli::run(argc, argv);
     } catch (...) {  // not even a message could be put together

@@ -42,13 +42,29 @@ std::optional<std::uint64_t> free_memory() {
     return free && limit ? std::min(*free, *limit) : (free ? free : limit);
 }
 
+namespace {
+
+/// CLI11 alone takes -1 for the largest number.
+CLI::Validator size_word() {
+    constexpr std::size_t most_digits = 15;
+    const auto read = [](std::string& word) {
+        const std::size_t digits = word.find_first_not_of("0123456789.");
+        if (word.empty() || digits == 0 || std::min(digits, word.size()) > most_digits)
+            return "'" + word + "' is not a size, such as 500M or 8G";
+        return CLI::AsSizeValue(false)(word);
+    };
+    return {read, "SIZE"};
+}
+
+}  // namespace
+
 void add_memory_word(CLI::App& command, mesh::Limits& limits) {
     limits.vertices = limits.triangles = std::numeric_limits<std::uint32_t>::max();
     command
         .add_option("--max-memory", limits.memory,
                     "Refuse a model that would take more memory than this, as 500M or 8G (default: " +
                         io::size_text(limits.memory) + ")")
-        ->transform(CLI::AsSizeValue(false))
+        ->transform(size_word())
         ->type_name("SIZE");
 }
 

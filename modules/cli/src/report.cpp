@@ -12,7 +12,8 @@
 namespace goffer::cli {
 namespace {
 
-std::string formatted(const char* format, double value) {
+template <class Value>
+std::string formatted(const char* format, Value value) {
     char text[64];
     std::snprintf(text, sizeof text, format, value);
     return text;
@@ -26,6 +27,24 @@ std::string vector_text(const glm::dvec3& v, double scale) {
 
 nlohmann::ordered_json vector_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
+}
+
+/// JSON with the control characters escaped that it allows as they are: DEL, and U+0080 to U+009F.
+std::string for_terminals(const std::string& json) {
+    std::string out;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(json[i]);
+        const unsigned char next = i + 1 < json.size() ? static_cast<unsigned char>(json[i + 1]) : 0;
+        if (byte == 127) {
+            out += "\\u007f";
+        } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {
+            out += formatted("\\u%04x", next);
+            ++i;
+        } else {
+            out += json[i];
+        }
+    }
+    return out;
 }
 
 }  // namespace
@@ -59,7 +78,7 @@ void Report::finish(io::AtomicFiles& outputs) {
     json["warnings"] = warnings_;
     // A file name need not be UTF-8; what is not is replaced, so that the report stays JSON.
     const std::string text =
-        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        for_terminals(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     const bool to_output = json_file_ == "-";
     if (!json_file_.empty() && !to_output) outputs.add(json_file_).write(text);
     outputs.flush();  // what the lines say is true but for the last step

@@ -74,8 +74,11 @@ int process_of(std::string_view name) {
 }
 
 /// The number alone is not enough: in another container it means another process, which then holds the lock.
+/// One of this process's number may be that of an earlier one, as in containers, where it is often 1; what
+/// this process writes is locked.
 void remove_if_stale(const fs::path& file, int process) {
-    if (kill(process, 0) == 0 || errno != ESRCH) return;
+    const bool runs = kill(process, 0) == 0 || errno != ESRCH;
+    if (runs && process != process_number()) return;
     const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return;
     struct stat opened {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace goffer::mesh::gltf {
 
@@ -256,6 +258,7 @@ std::size_t Edit::add_view(std::string bytes, Json view, std::optional<std::size
 
 void Edit::settle_images(const std::filesystem::path& file, bool embed) {
     if (!json_.contains("images") || !json_["images"].is_array()) return;
+    std::map<std::filesystem::path, std::pair<std::string, std::size_t>> taken;  // type and view of a file
     for (std::size_t i = 0; i < json_["images"].size(); ++i) {
         Json image = json_["images"][i];
         if (!image.contains("uri") || !image["uri"].is_string()) continue;
@@ -277,13 +280,18 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         }
         const auto readable = document_.files.find(path_of(uri));
         if (!readable) continue;
-        std::ifstream stream(*readable, std::ios::binary);
-        std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-        const std::string type = mime_type(bytes);
+        const auto [entry, is_new] = taken.try_emplace(std::filesystem::weakly_canonical(*readable, error));
+        auto& [type, view] = entry->second;
+        if (is_new) {
+            std::ifstream stream(*readable, std::ios::binary);
+            std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+            type = mime_type(bytes);
+            if (!type.empty()) view = add_view(std::move(bytes), Json::object(), std::nullopt);
+        }
         if (type.empty()) continue;  // a GLB cannot hold it
         image.erase("uri");
         image["mimeType"] = type;
-        image["bufferView"] = add_view(std::move(bytes), Json::object(), std::nullopt);
+        image["bufferView"] = view;
         json_["images"][i] = std::move(image);
     }
 }
