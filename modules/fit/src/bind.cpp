@@ -33,9 +33,9 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     const bool whole = options.wrinkle_range.whole();
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +
-                    (onset != 0 ? "with an onset"
-                     : whole    ? "that is bent at rest"
-                                : "with a wrinkle range") +
+                    (cylinder.rest_angle != 0 ? "that is bent at rest"
+                     : whole                  ? "with an onset"
+                                              : "with a wrinkle range") +
                     "; use mesh");
     }
 }

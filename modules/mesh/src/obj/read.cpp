@@ -254,7 +254,7 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     } catch (const OverLimit&) {
         throw;
     } catch (const Error& error) {
-        mesh_.warnings.push_back(std::string("materials stay gray: ") + error.what());
+        mesh_.warnings.push_back(std::string("materials are left out: ") + error.what());
     }
     std::map<std::string, int> index;
     std::string warnings, errors;
@@ -298,7 +298,7 @@ void ObjReader::read_materials() {
         for (const std::string_view name : library_names(file_, line)) {
             const std::optional<std::filesystem::path> library = files_.find(name);
             if (!library) {
-                mesh_.warnings.push_back("materials stay gray: " + line_of(text_, name.data()) +
+                mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
                                          ": mtllib names " + quoted(name) + NamedFiles::outside);
             } else if (read.insert(*library).second) {
                 read_library(*library, found);
