@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -85,8 +87,20 @@ private:
     int before_;
 };
 
-/// Status flags that a trap could be set for, by name.
-std::string raised() {
+/// Leaves signaling NaNs where the next call has its local variables: a lane that is computed with before it
+/// was set raises a flag whatever ran before. Returns one of them, so that none is left out.
+[[gnu::noinline]] std::uint32_t leave_signaling_nans(std::size_t which) {
+    constexpr std::uint32_t signaling_nan = 0x7fa00000;
+    volatile std::uint32_t values[1 << 16];
+    for (volatile std::uint32_t& value : values) value = signaling_nan;
+    return values[which];
+}
+
+/// Returns the status flags, by name, that a trap could be set for and that a job's outputs raise.
+std::string raised_by(const bend::DeformJob& job, const bend::Sockets& sockets) {
+    leave_signaling_nans(0);
+    std::feclearexcept(FE_ALL_EXCEPT);
+    const Outputs outputs(job, sockets);
     std::string names;
     if (std::fetestexcept(FE_DIVBYZERO) != 0) names += "divide by zero, ";
     if (std::fetestexcept(FE_INVALID) != 0) names += "invalid, ";
@@ -143,9 +157,7 @@ void each_case(const Visit& visit) {
 
 TEST_CASE("floating point: nothing that a trap could be set for") {
     each_case([](const bend::DeformJob& job, const bend::Sockets& sockets) {
-        std::feclearexcept(FE_ALL_EXCEPT);
-        const Outputs outputs(job, sockets);
-        CHECK(raised() == "");
+        CHECK(raised_by(job, sockets) == "");
     });
 }
 
@@ -154,9 +166,7 @@ TEST_CASE("floating point: nor with transforms as large and as small as the work
         for (const float size : {1e-6f, 1e6f}) {
             for (int axis = 0; axis < 3; ++axis) job.transform[axis][axis] = size;
             job.transform[3] = glm::vec3(-size);
-            std::feclearexcept(FE_ALL_EXCEPT);
-            const Outputs outputs(job, sockets);
-            CHECK(raised() == "");
+            CHECK(raised_by(job, sockets) == "");
         }
     });
 }

@@ -144,6 +144,15 @@ void store_tangents(const Results<L> (&results)[batches<L>], float* first, std::
         [](float* at, typename Single::Row row) { Single::store_row(at, row); });
 }
 
+/// Returns where the last whole unit ends that has one of `vertices` and fits `room`. The unit at j is
+/// followed by the one at `next`.
+template <class L>
+std::size_t end_of_units(std::size_t j, std::size_t next, std::size_t vertices, std::size_t room) {
+    if (next >= vertices) return j + unit<L>;
+    const std::size_t more = (vertices - next + unit<L> - 1) / unit<L> * unit<L>;
+    return next + (more < room - unit<L> ? more : room - unit<L>);
+}
+
 /// Deforms units of vertices and hands each to store(results, j, count), where j counts from `first`. The
 /// first unit has `next` vertices.
 template <class L, Squeeze squeeze, StreamSet streams, class Store>
@@ -156,8 +165,7 @@ void deform_units(const RestColumns& rest, const Coefficients& k, std::size_t fi
         if constexpr (looks_ahead) {
             if (j >= turned) {
                 turned_from = j;
-                turned = next + ColumnBuffer<L>::vertices - unit<L>;
-                turned = turned < vertices ? turned : vertices;
+                turned = end_of_units<L>(j, next, vertices, ColumnBuffer<L>::vertices);
                 fill_column_buffer<L, squeeze>(rest, k, first + turned_from, first + turned, ahead);
             }
         }

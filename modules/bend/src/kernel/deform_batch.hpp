@@ -165,19 +165,19 @@ void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::si
 template <class L>
 struct ColumnBuffer {
     static constexpr std::size_t vertices = 256;
-    alignas(64) float rho_c[vertices + L::width];
-    alignas(64) float rho_s[vertices + L::width];
+    alignas(64) float rho_c[vertices];
+    alignas(64) float rho_s[vertices];
 };
 
-/// Fills the buffer for the vertices [first, last), at most ColumnBuffer::vertices, and for less than a batch
-/// beyond.
+/// Fills the buffer for the vertices [first, last): a batch at least, ColumnBuffer::vertices at most.
 template <class L, Squeeze squeeze>
 void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
                         ColumnBuffer<L>& ahead) {
     for (std::size_t i = first; i < last; i += L::width) {
-        const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, i);
-        L::store(ahead.rho_c + (i - first), b.rho_c);
-        L::store(ahead.rho_s + (i - first), b.rho_s);
+        const std::size_t at = i + L::width <= last ? i : last - L::width;
+        const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, at);
+        L::store(ahead.rho_c + (at - first), b.rho_c);
+        L::store(ahead.rho_s + (at - first), b.rho_s);
     }
 }
 
