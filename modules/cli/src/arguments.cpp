@@ -2,6 +2,7 @@
 #include "arguments.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/error.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <glm/geometric.hpp>
@@ -196,9 +197,13 @@ fit::Cylinder read_fit(const std::filesystem::path& file) {
         throw InputError(file.string() + ": cannot be read, since it is not a regular file" + mend);
     std::ifstream stream(file);
     if (!stream) throw InputError(file.string() + ": cannot be read" + mend);
+    constexpr std::size_t most = std::size_t{1} << 20;  // a report has some thousand characters
+    std::string text(most + 1, '\0');
+    text.resize(static_cast<std::size_t>(stream.read(text.data(), most + 1).gcount()));
+    if (text.size() > most) throw InputError(file.string() + ": has more than " + io::size_text(most) + mend);
     fit::Cylinder cylinder;
     try {
-        const nlohmann::json report = nlohmann::json::parse(stream);
+        const nlohmann::json report = nlohmann::json::parse(text);
         cylinder = cylinder_from(report.contains("fit") ? report.at("fit") : report);
     } catch (const nlohmann::json::exception& error) {
         throw InputError(file.string() + ": not a fit (" + reason(error) + ")" + mend);

@@ -5,6 +5,7 @@
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
+#include <goffer/mesh/mesh.hpp>
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
@@ -91,6 +92,8 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
     } catch (const fit::SizeError& error) {
         throw InputError(file.string() + ": " + error.what() + ", or allow more with --max-memory");
     } catch (const fit::Error& error) {
+        throw InputError(file.string() + ": " + error.what());
+    } catch (const mesh::Error& error) {
         throw InputError(file.string() + ": " + error.what());
     }
 }

@@ -54,9 +54,13 @@ std::FILE* open_new(const fs::path& file) {
     if (descriptor < 0) return nullptr;
     (void)flock(descriptor, LOCK_EX | LOCK_NB);  // some file systems have none: nothing is removed there
     struct stat status {};
-    if (fstat(descriptor, &status) == 0 && status.st_nlink > 0) return fdopen(descriptor, "wb");
+    const bool ours = fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+    std::FILE* const stream = ours ? fdopen(descriptor, "wb") : nullptr;
+    if (stream) return stream;
+    const int reason = ours ? errno : EEXIST;
+    if (ours) unlink(file.c_str());
     close(descriptor);
-    errno = EEXIST;
+    errno = reason;
     return nullptr;
 }
 

@@ -70,16 +70,35 @@ bool FaceCutter::holds(Corner a, Corner b, Corner c, Corner point, bool strictly
 
 /// Whether the triangle of a corner and its neighbors can be cut off: the corner is convex, and nothing else
 /// of the face lies in it. If something does, then also a corner that is not convex, so that only these are
-/// looked at. `lenient` allows triangles without area and corners on edges.
+/// looked at, and most of them only at the triangle's box. `lenient` allows triangles without area and
+/// corners on edges.
 bool FaceCutter::is_ear(Corner corner, bool lenient) const {
     const Corner a = ring_.before[corner], c = ring_.after[corner];
     const double area = twice_area(a, corner, c);
     if (lenient ? area < -rounding(a, corner, c) : !(area > 0)) return false;
-    for (Corner point = ring_.after[c]; point != a; point = ring_.after[point]) {
-        if (twice_area(ring_.before[point], point, ring_.after[point]) > 0) continue;
-        if (holds(a, corner, c, point, lenient)) return false;
+    const glm::dvec2 low = glm::min(glm::min(points_[a], points_[corner]), points_[c]);
+    const glm::dvec2 high = glm::max(glm::max(points_[a], points_[corner]), points_[c]);
+    return std::ranges::none_of(reflex_.corners, [&](Corner point) {
+        const glm::dvec2 at = points_[point];
+        if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) return false;
+        return point != a && point != corner && point != c && holds(a, corner, c, point, lenient);
+    });
+}
+
+/// Takes a corner into the list of those that are not convex, or out of it.
+void FaceCutter::note_turn(Corner corner, bool convex) {
+    std::size_t& place = reflex_.place[corner];
+    if ((place == Reflex::none) == convex) return;
+    if (convex) {
+        const Corner last = reflex_.corners.back();
+        reflex_.corners[place] = last;
+        reflex_.place[last] = place;
+        reflex_.corners.pop_back();
+        reflex_.place[corner] = Reflex::none;
+    } else {
+        place = reflex_.corners.size();
+        reflex_.corners.push_back(corner);
     }
-    return true;
 }
 
 void FaceCutter::find_ears(Corner start, bool lenient) {
@@ -96,8 +115,10 @@ void FaceCutter::clip(Corner corner, bool lenient) {
     ring_.after[a] = c;
     ring_.before[c] = a;
     --ring_.left;
-    ears_[a] = is_ear(a, lenient);
-    ears_[c] = is_ear(c, lenient);
+    note_turn(corner, true);
+    for (const Corner beside : {a, c})
+        note_turn(beside, twice_area(ring_.before[beside], beside, ring_.after[beside]) > 0);
+    for (const Corner beside : {a, c}) ears_[beside] = is_ear(beside, lenient);
 }
 
 /// Returns false where corners are left that are no ears: the face crosses itself.
@@ -110,6 +131,9 @@ bool FaceCutter::clip_ears() {
         ring_.after[k] = (k + 1) % size;
     }
     ring_.left = size;
+    reflex_.corners.clear();
+    reflex_.place.assign(size, Reflex::none);
+    for (Corner k = 0; k < size; ++k) note_turn(k, twice_area(ring_.before[k], k, ring_.after[k]) > 0);
     ears_.assign(size, false);
     triangles_.clear();
     Corner corner = 0;

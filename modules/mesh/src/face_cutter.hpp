@@ -37,12 +37,20 @@ private:
         std::size_t left = 0;
     };
 
+    /// The corners that are left and not convex, in no order, and where each corner is among them.
+    struct Reflex {
+        std::vector<Corner> corners;
+        std::vector<std::size_t> place;
+        static constexpr std::size_t none = ~std::size_t{0};
+    };
+
     bool lay_flat(std::size_t first, std::size_t size);
     [[nodiscard]] double twice_area(Corner a, Corner b, Corner c) const;
     [[nodiscard]] double rounding(Corner a, Corner b, Corner c) const;
     [[nodiscard]] bool concave() const;
     [[nodiscard]] bool holds(Corner a, Corner b, Corner c, Corner point, bool strictly) const;
     [[nodiscard]] bool is_ear(Corner corner, bool lenient) const;
+    void note_turn(Corner corner, bool convex);
     void find_ears(Corner start, bool lenient);
     void clip(Corner corner, bool lenient);
     bool clip_ears();
@@ -54,6 +62,7 @@ private:
     std::vector<glm::dvec2> points_;  ///< of the face, in the plane, counterclockwise
     double reach_ = 0;                ///< largest coordinate of the face, by which its positions are rounded
     Ring ring_;
+    Reflex reflex_;
     std::vector<bool> ears_;
     std::vector<Corner> triangles_, clipped_;
     std::vector<std::size_t> corners_;

@@ -28,7 +28,8 @@ class Budget;
 
 /// `file` is where the bytes will go: references to material files are kept valid from there.
 [[nodiscard]] std::string write_obj(const Mesh& mesh, const std::filesystem::path& file);
-/// The file that a new OBJ names for its materials.
+/// The file that a new OBJ names for its materials: of its own name, with a number behind it where somebody
+/// else has a file there.
 [[nodiscard]] std::filesystem::path mtl_beside(const std::filesystem::path& obj);
 /// The materials of a mesh that is written anew; empty if it has none, or if it keeps the mtllib lines of the
 /// OBJ that it came from.

@@ -115,11 +115,14 @@ void apply_sparse(const Document& document, const Value& accessor, const Run& li
                   std::vector<T>& values) {
     const Value sparse = accessor["sparse"];
     const std::uint64_t count = sparse["count"].whole();
+    const std::size_t elements = values.size() / components;
+    if (count > elements)
+        sparse["count"].fail("is " + std::to_string(count) + ", but the accessor has " +
+                             std::to_string(elements) + " elements; export the file again");
     const Value indices = sparse["indices"], replacements = sparse["values"];
     const Run where = run_of(document, indices, component_type(indices, true), 1, count);
     Run what = run_of(document, replacements, like.component, components, count);
     what.normalized = like.normalized;
-    const std::size_t elements = values.size() / components;
     for (std::size_t i = 0; i < count; ++i) {
         std::uint32_t element = 0;
         copy_element(where, i, 1, &element);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <tuple>
@@ -131,14 +132,25 @@ Json float_fields(const std::vector<float>& values, std::size_t components, bool
 }
 
 std::size_t Edit::replace(Replacement replacement) {
-    const auto same = std::find_if(replacements_.begin(), replacements_.end(), [&](const Replacement& other) {
-        return other.origin == replacement.origin && other.target == replacement.target &&
-               other.bytes == replacement.bytes && other.fields == replacement.fields;
+    const OwnerAndHash key(replacement.origin, std::hash<std::string>()(replacement.bytes));
+    const auto [begin, end] = numbers_.equal_range(key);
+    const auto same = std::find_if(begin, end, [&](const auto& known) {
+        const Replacement& other = replacements_[known.second];
+        return other.target == replacement.target && other.bytes == replacement.bytes &&
+               other.fields == replacement.fields;
     });
-    const std::size_t number =
-        document_.count("accessors") + static_cast<std::size_t>(same - replacements_.begin());
-    if (same == replacements_.end()) replacements_.push_back(std::move(replacement));
-    return number;
+    const std::size_t number = same != end ? same->second : replacements_.size();
+    if (same == end) {
+        numbers_.emplace(key, number);
+        replacements_.push_back(std::move(replacement));
+    }
+    return document_.count("accessors") + number;
+}
+
+/// Notes that an entry of the output's meshes stands for a mesh of the source.
+void Edit::use_entry(std::size_t mesh, std::size_t entry) {
+    const Json& primitives = json_["meshes"][entry]["primitives"];
+    entries_.emplace(OwnerAndHash(mesh, std::hash<Json>()(primitives)), entry);
 }
 
 /// A mesh that an unchanged node shows, maybe in another scene, must stay as it is.
@@ -149,26 +161,28 @@ void Edit::keep_shown_elsewhere(const std::vector<Shape>& changed) {
     each(document_.json, "nodes", [&](const Json& node) {
         std::set<std::size_t> shown;
         if (!nodes.contains(number++)) add_index(node, "mesh", shown);
-        for (const std::size_t mesh : shown) mesh_entries_[mesh] = {mesh};
+        for (const std::size_t mesh : shown)
+            if (mesh < document_.count("meshes") && taken_meshes_.insert(mesh).second) use_entry(mesh, mesh);
     });
 }
 
 /// Gives a node a mesh entry with its primitives: one that another node has got, the mesh's own, or a clone.
 void Edit::place_one(Shape shape) {
-    std::vector<std::size_t>& entries = mesh_entries_[shape.mesh];
-    const auto same = std::find_if(entries.begin(), entries.end(), [&](std::size_t entry) {
-        return json_["meshes"][entry]["primitives"] == shape.primitives;
+    const OwnerAndHash key(shape.mesh, std::hash<Json>()(shape.primitives));
+    const auto [begin, end] = entries_.equal_range(key);
+    const auto same = std::find_if(begin, end, [&](const auto& known) {
+        return json_["meshes"][known.second]["primitives"] == shape.primitives;
     });
     std::size_t entry = shape.mesh;
-    if (same != entries.end()) {
-        entry = *same;
+    if (same != end) {
+        entry = same->second;
     } else {
-        if (!entries.empty()) {
+        if (!taken_meshes_.insert(shape.mesh).second) {
             entry = json_["meshes"].size();
             json_["meshes"].push_back(document_.json["meshes"][shape.mesh]);
         }
         json_["meshes"][entry]["primitives"] = std::move(shape.primitives);
-        entries.push_back(entry);
+        use_entry(shape.mesh, entry);
     }
     if (entry != shape.mesh) json_["nodes"][shape.node]["mesh"] = entry;
 }

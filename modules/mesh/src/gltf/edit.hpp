@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Changes some accessors of a document and keeps everything else: what bending and refining share.
@@ -59,7 +60,10 @@ public:
     [[nodiscard]] Output finish() &&;
 
 private:
+    using OwnerAndHash = std::pair<std::size_t, std::size_t>;
+
     void place_one(Shape shape);
+    void use_entry(std::size_t mesh, std::size_t entry);
     void keep_shown_elsewhere(const std::vector<Shape>& changed);
     void renumber(const std::vector<std::size_t>& number);
     Json accessor_for(Replacement& replacement, std::set<std::size_t>& taken_views);
@@ -69,9 +73,10 @@ private:
     const Document& document_;
     Json json_;
     std::vector<Replacement> replacements_;
-    std::map<std::size_t, std::string> new_views_;  ///< bytes, by the view's number
-    /// For each mesh of the source, the entries in use for it, its own first.
-    std::map<std::size_t, std::vector<std::size_t>> mesh_entries_;
+    std::multimap<OwnerAndHash, std::size_t> numbers_;  ///< of replacements, by origin and bytes
+    std::map<std::size_t, std::string> new_views_;      ///< bytes, by the view's number
+    std::set<std::size_t> taken_meshes_;                ///< of the source: those whose own entry is in use
+    std::multimap<OwnerAndHash, std::size_t> entries_;  ///< in use, by mesh of the source and primitives
 };
 
 }  // namespace goffer::mesh::gltf

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <utility>
 
 namespace goffer::mesh::gltf {
@@ -46,28 +49,38 @@ Key unused_key(const Mesh& mesh, std::uint32_t vertex) {
     return key;
 }
 
+/// The corners of the faces by their vertices: those of vertex v, in their order, are from first[v] to
+/// first[v + 1].
+struct CornersOfVertices {
+    std::vector<std::size_t> corners, first;
+};
+
+CornersOfVertices corners_of_vertices(const Mesh& mesh) {
+    CornersOfVertices of;
+    of.first.assign(mesh.positions.size() + 1, 0);
+    for (const std::uint32_t vertex : mesh.corners) ++of.first[vertex + 1];
+    std::partial_sum(of.first.begin(), of.first.end(), of.first.begin());
+    std::vector<std::size_t> next(of.first.begin(), std::prev(of.first.end()));
+    of.corners.resize(mesh.corners.size());
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+        of.corners[next[mesh.corners[corner]]++] = corner;
+    return of;
+}
+
 Split split(const Mesh& mesh) {
-    // The keys of each vertex, each with its number in the order of use.
-    std::vector<std::vector<std::pair<Key, std::uint32_t>>> of_vertex(mesh.positions.size());
-    std::vector<std::uint32_t> use;
-    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-        auto& known = of_vertex[mesh.corners[corner]];
-        Key key = key_at(mesh, corner);
-        auto same =
-            std::find_if(known.begin(), known.end(), [&](const auto& entry) { return entry.first == key; });
-        if (same == known.end())
-            same = known.insert(known.end(), {std::move(key), static_cast<std::uint32_t>(known.size())});
-        use.push_back(same->second);
-    }
+    const CornersOfVertices of = corners_of_vertices(mesh);
     Split result;
-    std::vector<std::uint32_t> first;
-    for (std::uint32_t vertex = 0; vertex < of_vertex.size(); ++vertex) {
-        first.push_back(static_cast<std::uint32_t>(result.keys.size()));
-        for (auto& [key, number] : of_vertex[vertex]) result.keys.push_back(std::move(key));
-        if (of_vertex[vertex].empty()) result.keys.push_back(unused_key(mesh, vertex));
-    }
-    for (std::size_t corner = 0; corner < use.size(); ++corner) {
-        result.corners.push_back(first[mesh.corners[corner]] + use[corner]);
+    result.corners.resize(mesh.corners.size());
+    std::map<Key, std::uint32_t> known;
+    for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        known.clear();
+        for (std::size_t i = of.first[vertex]; i < of.first[vertex + 1]; ++i) {
+            const auto next = static_cast<std::uint32_t>(result.keys.size());
+            const auto [entry, is_new] = known.try_emplace(key_at(mesh, of.corners[i]), next);
+            if (is_new) result.keys.push_back(entry->first);
+            result.corners[of.corners[i]] = entry->second;
+        }
+        if (known.empty()) result.keys.push_back(unused_key(mesh, vertex));
     }
     return result;
 }

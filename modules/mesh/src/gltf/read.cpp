@@ -58,6 +58,7 @@ private:
     [[nodiscard]] std::vector<float> stream(const Value& attributes, const char* name, std::size_t width,
                                             std::size_t vertices);
     void spend(const Value& reference, std::size_t width);
+    void take_entry(std::size_t mesh);
     void warn(const std::string& what) { mesh_.warnings.push_back(what); }
     template <class T>
     [[nodiscard]] Attribute<T> finish(Gathered<T>&& gathered) const;
@@ -70,7 +71,8 @@ private:
     Gathered<glm::vec4> tangents_;
     std::vector<Gathered<glm::vec2>> uvs_;
     Budget& budget_;
-    std::uint64_t unbacked_ = 0;  ///< elements that have no bytes behind them
+    std::uint64_t unbacked_ = 0;                         ///< elements that have no bytes behind them
+    std::map<std::size_t, std::uint64_t> entry_memory_;  ///< of entries of the document's meshes
 };
 
 /// Nodes and primitives may repeat an accessor without end. To be called before it is read: its values are
@@ -150,10 +152,31 @@ std::string name_of(const Value& primitive, const Value& node, const Value& mesh
     return name.empty() ? mesh.text_or("name", "") : name;
 }
 
+/// What a value takes in memory, all in all.
+std::uint64_t memory_of(const Json& json) {
+    std::uint64_t bytes = sizeof(Json);
+    if (json.is_string()) bytes += sizeof(std::string) + json.get_ref<const std::string&>().size();
+    if (json.is_array()) bytes += sizeof(Json::array_t);
+    if (json.is_object()) bytes += sizeof(Json::object_t);
+    if (json.is_structured())
+        for (const auto& [key, child] : json.items())
+            bytes += memory_of(child) + (json.is_object() ? sizeof(std::string) + key.size() : 0);
+    return bytes;
+}
+
+/// Takes what a node's entry of the meshes needs in an output: each may be bent in its own way, and is then
+/// written with all that the entry holds, once as JSON and once as text.
+void SceneReader::take_entry(std::size_t mesh) {
+    const auto [known, is_new] = entry_memory_.try_emplace(mesh, 0);
+    if (is_new) known->second = memory_of(document_.json["meshes"][mesh]);
+    budget_.take(2 * known->second);
+}
+
 void SceneReader::read_node(const PlacedNode& placed) {
     const Value node = document_.root()["nodes"][placed.node];
     if (!node.has("mesh")) return;
     const Value mesh = document_.entry("meshes", node["mesh"]);
+    take_entry(node["mesh"].whole());
     if (node.has("skin")) warn(node.path() + " is skinned: it is bent in its rest shape, as stored");
     const Placement placement = begin_block(placed).placement;
     if (placement.singular()) {
@@ -174,6 +197,7 @@ void SceneReader::read_node(const PlacedNode& placed) {
         read_primitive(placed, primitive, known);
         blocks_[part_block_[part]].primitives.push_back(i);
         mesh_.parts[part].name = name_of(primitive, node, mesh);
+        budget_.take(2 * mesh_.parts[part].name.size());
         morphed = morphed || primitive.has("targets");
     }
     if (morphed) warn(node.path() + " has morph targets: it is bent in its rest shape, without them");

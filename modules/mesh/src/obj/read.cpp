@@ -47,6 +47,7 @@ private:
     void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
     void warn_of_textures(const std::filesystem::path& library,
                           std::span<const tinyobj::material_t> materials);
+    std::vector<tinyobj::material_t> read_libraries();
     void read_materials();
     [[noreturn]] void fail_at(std::string_view place, const std::string& what) const;
 
@@ -291,11 +292,21 @@ void ObjReader::warn_of_textures(const std::filesystem::path& library,
                                  ", which is not there; put it beside the material file");
 }
 
-void ObjReader::read_materials() {
+/// Reads the material files, each once. The file's name is looked up for each, which takes far longer than to
+/// read the line that names it: hence the limit.
+std::vector<tinyobj::material_t> ObjReader::read_libraries() {
+    constexpr std::size_t most = 1000;
     std::vector<tinyobj::material_t> found;
+    std::set<std::string_view> lines;
     std::set<std::filesystem::path> read;
     for (const std::string_view line : libraries_) {
+        if (!lines.insert(line).second) continue;
         for (const std::string_view name : library_names(file_, line)) {
+            if (read.size() >= most || lines.size() > most) {
+                mesh_.warnings.push_back("materials are left out: there are more than " +
+                                         std::to_string(most) + " material files; merge them");
+                return found;
+            }
             const std::optional<std::filesystem::path> library = files_.find(name);
             if (!library) {
                 mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
@@ -305,6 +316,11 @@ void ObjReader::read_materials() {
             }
         }
     }
+    return found;
+}
+
+void ObjReader::read_materials() {
+    const std::vector<tinyobj::material_t> found = read_libraries();
     std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
     for (const tinyobj::material_t& entry : found) {
         const auto used = material_of_.find(trimmed(entry.name));

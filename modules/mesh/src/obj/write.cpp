@@ -5,6 +5,7 @@
 #include <goffer/io/error.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -167,6 +168,18 @@ const ObjSource* source_of(const Mesh& mesh) {
     return source && only_bent(mesh, source->read) ? source : nullptr;
 }
 
+/// The first line of the material files that are written here.
+constexpr std::string_view materials_heading = "# Materials written by goffer\n";
+
+/// Whether there is no such file, or one that was written here.
+bool free_for_materials(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return true;
+    std::string heading(materials_heading.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(heading.data(), static_cast<std::streamsize>(heading.size()));
+    return heading == materials_heading;
+}
+
 }  // namespace
 
 void append_corner(std::string& out, const Mesh& mesh, std::size_t corner) {
@@ -186,14 +199,20 @@ std::string write_obj(const Mesh& mesh, const std::filesystem::path& file) {
     return write_anew(mesh, file);
 }
 
+/// A file of that name that others wrote may hold the materials of another model.
 std::filesystem::path mtl_beside(const std::filesystem::path& obj) {
-    return std::filesystem::path(obj).replace_filename(io::one_line(obj.stem().string()) + ".mtl");
+    const std::string stem = io::one_line(obj.stem().string());
+    std::filesystem::path file = std::filesystem::path(obj).replace_filename(stem + ".mtl");
+    for (int i = 2; !free_for_materials(file); ++i)
+        file.replace_filename(stem + "_" + std::to_string(i) + ".mtl");
+    return file;
 }
 
 std::string write_mtl(const Mesh& mesh) {
     std::string out;
     if (source_of(mesh)) return out;
     const std::vector<std::string> names = material_names(mesh);
+    if (!names.empty()) out = materials_heading;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const glm::vec4& color = mesh.materials[i].base_color;
         out += "newmtl " + names[i] + "\nKd";

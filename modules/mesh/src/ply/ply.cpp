@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace goffer::mesh::ply {
 namespace {
@@ -83,6 +84,8 @@ private:
 
     Header header_;
     std::string_view rest_, line_;
+    std::set<std::string_view> element_names_;
+    std::set<Role> roles_;  ///< that properties of the last element have
     bool has_format_ = false;
 };
 
@@ -108,7 +111,8 @@ void HeaderReader::take(std::string_view keyword, std::string_view arguments) {
     if (keyword == "property") return take_property(arguments);
     if (!header_.elements.empty())
         fail_here(quoted(keyword) + " is not a word of a PLY header; is the file damaged?");
-    // Blender 2.4 wrote its name there, and left out the word comment.
+    // Blender 2.4 wrote its name there, and left out the word comment. One line is enough to say so.
+    if (!header_.warnings.empty()) return;
     header_.warnings.push_back(line_of(header_.bytes, line_.data()) + ": " + quoted(keyword) +
                                " is not a word of a PLY header: the line is taken for a comment");
 }
@@ -131,8 +135,9 @@ void HeaderReader::take_element(std::string_view arguments) {
     if (!count || *count < 0)
         fail_here("element count " + quoted(word) +
                   " is not a whole number of 0 or more; export the mesh again");
-    if (header_.find(element.name))
+    if (!element_names_.insert(element.name).second)
         fail_here("element " + quoted(element.name) + " is there twice; remove one of them");
+    roles_.clear();
     element.count = static_cast<std::uint64_t>(*count);
     header_.elements.push_back(std::move(element));
 }
@@ -152,7 +157,7 @@ void HeaderReader::take_property(std::string_view arguments) {
     if (property.name.empty()) fail_here("a property has no name; give it one");
     Element& element = header_.elements.back();
     property.role = role_of(element, property);
-    if (element.find(property.role)) property.role = Role::other;  // only the first of a role counts
+    if (!roles_.insert(property.role).second) property.role = Role::other;  // only the first of a role counts
     element.properties.push_back(property);
 }
 

@@ -113,7 +113,8 @@ struct LoadOptions {
 /// A mesh that differs from the file that it came from in positions, normals and tangents only is given back
 /// as that file with these replaced, if the format is the same (.glb and .gltf are one). Any other mesh is
 /// written anew, with what the format can carry; an OBJ then gets its materials in a file of the same name
-/// with the ending .mtl. Files are written beside their place and renamed: on failure an existing file stays
+/// with the ending .mtl, or, where that is there and was not written by save(), with a number behind the
+/// name. Files are written beside their place and renamed: on failure an existing file stays
 /// as it was.
 ///
 /// Throws Error if the ending is unknown, the mesh does not fit together (see load), or a value cannot be
