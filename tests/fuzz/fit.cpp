@@ -10,7 +10,7 @@
 #include <goffer/paper/base.hpp>
 
 #include <glm/geometric.hpp>
-#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,11 +105,12 @@ void run(const std::string& line, const std::string& json) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    static tbb::task_arena one_thread(1);
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     const std::size_t line = std::min(bytes.find('\n'), bytes.size());
     try {
-        run(bytes.substr(0, line), bytes.substr(std::min(line + 1, bytes.size())));
+        one_thread.execute(
+            [&] { run(bytes.substr(0, line), bytes.substr(std::min(line + 1, bytes.size()))); });
     } catch (const cli::UsageError& error) {
         require(*error.what() != 0, "an error says what is wrong");
     } catch (const cli::InputError& error) {

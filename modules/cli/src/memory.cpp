@@ -34,16 +34,6 @@ std::optional<std::uint64_t> container() {
 // GLB, 0.66 GB as OBJ, and 0.85 GB with --png and --ghost (x86-64).
 constexpr std::uint64_t bytes_per_vertex = 300, bytes_per_triangle = 300;
 
-}  // namespace
-
-std::optional<std::uint64_t> free_memory() {
-    const std::optional<std::uint64_t> free = machine();
-    const std::optional<std::uint64_t> limit = container();
-    return free && limit ? std::min(*free, *limit) : (free ? free : limit);
-}
-
-namespace {
-
 /// CLI11 alone takes -1 for the largest number.
 CLI::Validator size_word() {
     constexpr std::size_t most_digits = 15;
@@ -57,6 +47,12 @@ CLI::Validator size_word() {
 }
 
 }  // namespace
+
+std::optional<std::uint64_t> free_memory() {
+    const std::optional<std::uint64_t> free = machine();
+    const std::optional<std::uint64_t> limit = container();
+    return free && limit ? std::min(*free, *limit) : (free ? free : limit);
+}
 
 void add_memory_word(CLI::App& command, mesh::Limits& limits) {
     limits.vertices = limits.triangles = std::numeric_limits<std::uint32_t>::max();

@@ -30,13 +30,17 @@ PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
 /// Makes positions come out in steps of the box, 0..65535, which the packed kernel rounds. On an axis where
 /// the box is too thin or too long for float to count its steps, all are at its low side.
 void quantize(Coefficients& k, const Bounds& bounds) noexcept {
+    constexpr float thinnest = 1e-33f, longest = 1e38f;
     for (int row = 0; row < 3; ++row) {
         const float extent = bounds.high[row] - bounds.low[row];
-        constexpr float thinnest = 1e-33f, longest = 1e38f;
-        const bool counted = extent > thinnest && extent < longest;
-        const float scale = counted ? 65535.0f / extent : 0.0f;
-        for (int c = 0; c < 3; ++c) k.matrix[4 * c + row] = counted ? k.matrix[4 * c + row] * scale : 0.0f;
-        k.offset[row] = counted ? (k.offset[row] - bounds.low[row]) * scale : 0.0f;
+        if (!(extent > thinnest && extent < longest)) {
+            for (int c = 0; c < 3; ++c) k.matrix[4 * c + row] = 0.0f;
+            k.offset[row] = 0.0f;
+            continue;
+        }
+        const float scale = 65535.0f / extent;
+        for (int c = 0; c < 3; ++c) k.matrix[4 * c + row] *= scale;
+        k.offset[row] = (k.offset[row] - bounds.low[row]) * scale;
     }
 }
 
