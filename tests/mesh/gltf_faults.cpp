@@ -25,10 +25,40 @@ std::string error_when(const std::function<void(Document&)>& spoil) {
 
 TEST_CASE("gltf: the way out of a compression is a tool that knows it") {
     Document document = tetra();
-    document.json["extensionsUsed"] = {"KHR_meshopt_compression"};
+    document.json["extensionsRequired"] = {"KHR_meshopt_compression"};
     CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltfpack -noq -i IN -o OUT"));
-    document.json["extensionsUsed"] = {"EXT_meshopt_compression"};
+    document.json["extensionsRequired"] = {"EXT_meshopt_compression"};
     CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltf-transform copy IN OUT"));
+}
+
+TEST_CASE("gltf: of data that are compressed and plain, the plain ones are read, and kept alone") {
+    Document document = tetra();
+    const goffer::mesh::Mesh plain = load_document(document);
+    const std::string uri = "data:application/octet-stream;base64," + base64(document.buffer);
+    const Json fallback = {{"EXT_meshopt_compression", {{"fallback", true}}}};
+    document.json["buffers"] = {
+        {{"byteLength", document.buffer.size()}, {"uri", uri}, {"extensions", fallback}}};
+    document.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                                                {"byteLength", 9}};
+    document.json["extensionsUsed"] = {"EXT_meshopt_compression", "KHR_draco_mesh_compression"};
+    primitive_of(document)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                                          {"attributes", {{"POSITION", 0}}}};
+    goffer::mesh::Mesh read = load_text("d.gltf", document.gltf());
+    CHECK(read.positions == plain.positions);
+    CHECK(read.corners == plain.corners);
+    read.positions[0].x -= 1;
+    const std::string out = saved(read, "d.gltf");
+    CHECK(out.find("ompression") == std::string::npos);
+    CHECK(out.find("extensions") == std::string::npos);
+
+    Document without = document;
+    without.json["buffers"][0].erase("uri");
+    CHECK(tells(load_error("d.gltf", without.gltf()),
+                "extensionsUsed[0]: the mesh is compressed with EXT_meshopt"));
+    without = document;
+    without.json["accessors"][0].erase("bufferView");
+    CHECK(tells(load_error("d.gltf", without.gltf()),
+                "extensionsUsed[1]: the mesh is compressed with KHR_draco"));
 }
 
 TEST_CASE("gltf: what is broken is named with its place and the way out") {
@@ -84,7 +114,6 @@ TEST_CASE("gltf: what is broken is named with its place and the way out") {
         {set("/extensionsRequired", "[\"KHR_draco_mesh_compression\"]"),
          "extensionsRequired[0]: the mesh is compressed with KHR_draco_mesh_compression, which cannot be "
          "read; decompress it: gltf-transform"},
-        {set("/extensionsUsed", "[\"EXT_meshopt_compression\"]"), "compressed with EXT_meshopt_compression"},
         {set("/meshes", "3"), "meshes: is a JSON number, expected an array"},
     };
     for (const auto& known : cases) {

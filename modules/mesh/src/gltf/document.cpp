@@ -100,22 +100,6 @@ void check_version(const Value& root) {
     }
 }
 
-void refuse_compression(const Value& root) {
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        for (std::size_t i = 0; root.has(list) && i < root[list].size(); ++i) {
-            const std::string& name = root[list][i].text();
-            if (name != "KHR_draco_mesh_compression" && name != "EXT_meshopt_compression" &&
-                name != "KHR_meshopt_compression")
-                continue;
-            // gltf-transform, of version 4.5 and before, does not know KHR_meshopt_compression.
-            const std::string tool =
-                name.starts_with("KHR_m") ? "gltfpack -noq -i IN -o OUT" : "gltf-transform copy IN OUT";
-            root[list][i].fail("the mesh is compressed with " + name +
-                               ", which cannot be read; decompress it: " + tool);
-        }
-    }
-}
-
 std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size, Budget& budget) {
     if (uri.text().empty() || has_scheme(uri.text())) {
         uri.fail("is " + mesh::quoted(uri.text()) +
@@ -220,7 +204,7 @@ std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
     document->json = parse(parts.json, budget);
     const Value root = document->root();
     check_version(root);
-    refuse_compression(root);
+    use_plain_data(document->json);
     for (std::size_t i = 0; i < document->count("buffers"); ++i) {
         document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->files, budget));
     }

@@ -46,13 +46,6 @@ void add_index(const Json& owner, const char* key, std::set<std::size_t>& found)
     if (owner.is_object() && owner.contains(key)) add_number(owner[key], found);
 }
 
-/// Calls `visit` for each element of owner[key], where that is an array or object.
-template <class Owner, class Visit>
-void each(Owner& owner, const char* key, Visit&& visit) {
-    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_structured()) return;
-    for (auto& element : owner[key]) visit(element);
-}
-
 std::set<std::size_t> used_accessors(const Json& json) {
     std::set<std::size_t> used;
     const auto add = [&](const Json& index) { add_number(index, used); };

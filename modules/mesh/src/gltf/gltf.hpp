@@ -91,6 +91,17 @@ struct Document : Source {
                                                             std::string_view bytes,
                                                             const LoadOptions& options, Budget& budget);
 
+/// Refuses a document whose meshes are compressed. Where they are also there in plain, for readers that do
+/// not know the compression, takes the compressed copies out.
+void use_plain_data(Json& json);
+
+/// Calls `visit` for each element of owner[key], where that is an array or object.
+template <class Owner, class Visit>
+void each(Owner& owner, const char* key, Visit&& visit) {
+    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_structured()) return;
+    for (auto& element : owner[key]) visit(element);
+}
+
 /// Says which images are not where their URIs lead, or may not be read; broken ones are not looked at.
 [[nodiscard]] std::vector<std::string> missing_images(const Document& document);
 

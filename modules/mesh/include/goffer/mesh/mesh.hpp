@@ -105,7 +105,7 @@ struct LoadOptions {
 ///
 /// Throws Error if the file cannot be read or is not of these formats, has a buffer outside its folder, is
 /// beyond the limits, a position or normal is not finite, an index is out of range, there is no vertex or no
-/// face, or a glTF is compressed.
+/// face, or a glTF is compressed and has no plain copy of its data.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
