@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
 #include "support/models.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -28,6 +29,9 @@ Words damped(const char* amplitude) {
 
 constexpr double length = 10;
 constexpr std::array<int, 3> angles{30, 90, 180};
+
+/// Of the angles, by their places: all, or the one in the middle.
+const std::size_t first_angle = rounds<std::size_t>(0, 1), last_angle = rounds<std::size_t>(angles.size(), 2);
 
 /// A base cylinder of so many columns and 2 k steps + 1 rows, and what bending does to it.
 class Cylinder {
@@ -71,7 +75,7 @@ private:
 /// One column of the table of known values in per cent, met to the last digit but one.
 void check_table(int folds, const std::array<double, 3>& known) {
     const Cylinder cylinder(256, folds, 128);
-    for (std::size_t i = 0; i < angles.size(); ++i) {
+    for (std::size_t i = first_angle; i < last_angle; ++i) {
         const double change = 100 * cylinder.area_change(angles[i]);
         std::printf("area, k = %2d, %3d degrees: %+.4f %% (known %+.3f)\n", folds, angles[i], change,
                     known[i]);
@@ -122,7 +126,8 @@ TEST_CASE("area: known values, 10 folds") {
 TEST_CASE("area: amplitude area keeps it, as the grid grows finer") {
     for (const int folds : {3, 6}) {
         const Cylinder coarse(128, folds, 64), fine(256, folds, 128);
-        for (const int angle : angles) {
+        for (std::size_t i = first_angle; i < last_angle; ++i) {
+            const int angle = angles[i];
             const double limit =
                 (4 * fine.area_change(angle, damped("area")) - coarse.area_change(angle, damped("area"))) / 3;
             std::printf("area kept, k = %2d, %3d degrees: within %.1e\n", folds, angle, std::abs(limit));
@@ -146,7 +151,8 @@ TEST_CASE("columns: of the bare bend as long as eq 9 and 10 say, the outer one a
 TEST_CASE("columns: of the wrinkled base keep their lengths (P3)") {
     for (const int folds : {6, 10}) {
         const Cylinder cylinder(48, folds, 256);
-        for (const int angle : angles) {
+        for (std::size_t i = first_angle; i < last_angle; ++i) {
+            const int angle = angles[i];
             (void)cylinder.area_change(angle);
             double worst = 0;
             for (const double l : cylinder.column_lengths()) worst = std::max(worst, std::abs(l - 1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -105,7 +106,8 @@ TEST_CASE("bend: the tip goes where the closed form says, in the direction asked
     const Folder folder;
     base(folder, "base.ply", {"--caps"});
     for (const double angle : {1e-3, 20.0, 90.0, 170.0}) {
-        for (const double direction : {0.0, 30.0, 90.0, 200.0, -45.0, 720.0}) {
+        for (const double direction : {30.0, 200.0, 0.0, 90.0, -45.0, 720.0}) {
+            if (!all_rounds() && direction != 30 && direction != 200) continue;
             CAPTURE(angle);
             CAPTURE(direction);
             const Words pose{"--angle", std::to_string(angle), "--direction", std::to_string(direction)};

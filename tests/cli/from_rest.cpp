@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -181,7 +182,9 @@ TEST_CASE("from rest: by max with a direction goes that way until the angle is t
 
 TEST_CASE("from rest: any finite number beyond the largest is clamped, with the same warning") {
     const Bent bent;
-    for (const std::string angle : {"3600", "36001", "100000", "1e9", "-1e9", "1e300", "-1.7e308"}) {
+    std::vector<std::string> beyond{"3600", "-1e9", "1e300"};
+    if (all_rounds()) beyond.insert(beyond.end(), {"36001", "100000", "1e9", "-1.7e308"});
+    for (const std::string& angle : beyond) {
         for (const std::string option : {"--angle", "--by"}) {
             CAPTURE(angle);
             CAPTURE(option);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/rounds.hpp"
 #include "synthetic.hpp"
 
 #include <doctest/doctest.h>
@@ -40,7 +41,7 @@ TEST_CASE("16 k + 1 uniform rows carry exactly k folds, one row less does not") 
         for (const bool closed : {false, true}) {
             const Recipe recipe{.columns = 24, .rows = 16 * folds, .length = 12, .closed = closed};
             const Recipe less{.columns = 24, .rows = 16 * folds - 1, .length = 12, .closed = closed};
-            for (int i = 0; i < 5; ++i) {
+            for (int i = 0; i < test::rounds(5, 1); ++i) {
                 const test::Placing placing = test::random_placing(120, random);
                 CHECK(capacity(test::placed(test::cylinder(recipe, random), placing)) == folds);
                 CHECK(capacity(test::placed(test::cylinder(less, random), placing)) == folds - 1);
