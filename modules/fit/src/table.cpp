@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace goffer::fit {
 namespace {
@@ -92,17 +93,17 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
         throw Error("rho_max: " + text(rho_max) + " is not a distance; give 0 or more");
     }
     const double outermost = std::max(rho_max, radius);
+    const double most = profile.kind == Profile::Kind::even ? max_even_squeeze : 1 - 1e-9;
+    std::optional<paper::Wave> wave;
+    if (wrinkles(amplitude, folds)) wave.emplace(profile, folds, most);
     const auto search = [&](double own) {
-        const double most = profile.kind == Profile::Kind::even ? max_even_squeeze : 1;
         double low = 0;
         double high = most * length / (2 * radius);
         for (int step = 0; step < 60; ++step) {
             const double alpha = (low + high) / 2;
-            const double squeeze = std::min(2 * alpha * radius / length, 1 - 1e-9);
+            const double squeeze = 2 * alpha * radius / length;
             const double lift =
-                wrinkles(amplitude, folds)
-                    ? own * profile.crest() * paper::amplitude(profile, folds, length, squeeze)
-                    : 0;
+                wave ? own * profile.crest() * wave->column(squeeze).amplitude * length / 2 : 0;
             (length / alpha - radius > outermost + lift ? low : high) = alpha;
         }
         return low;
