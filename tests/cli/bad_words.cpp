@@ -82,9 +82,21 @@ TEST_CASE("bad words: what does not go together") {
 
 TEST_CASE("bad words: no or another command, unknown options, too many words") {
     const Place place;
-    refused(place.folder, 2, {}, {"subcommand is required", "goffer --help"});
-    refused(place.folder, 2, {"fold", "base.ply"}, {"no command 'fold'", "goffer --help"});
+    refused(place.folder, 2, {}, {"give a command: base, inspect, refine, bend, crowd; see goffer --help"});
+    refused(place.folder, 2, {"fold", "base.ply"}, {"no command fold", "see goffer --help"});
     refused(place.folder, 2, {"bend"}, {"required"});
+    refused(place.folder, 2, {"bent", "base.ply"}, {"no command bent; did you mean bend?"});
+    refused(place.folder, 2, {"--angle", "3", "bend"},
+            {"no option --angle before a command", "see goffer --help"});
+    const Words bend{"bend", "base.ply", "-o", "out.ply"};
+    refused(place.folder, 2, bend + Words{"--angel", "40"},
+            {"no option --angel; did you mean --angle?", "see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"--fold=3"}, {"no option --fold; did you mean --folds?"});
+    refused(place.folder, 2, {"bend", "base.ply", "--angle"},
+            {"--angle needs a value; see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"--xyzzy"}, {"no option --xyzzy; see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"other.ply"},
+            {"'other.ply' is a word too many; see goffer bend --help"});
     refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required"});
     refused(place.folder, 2, {"inspect"}, {"model is required"});
     refused(place.folder, 2, {"base"}, {"--output is required"});

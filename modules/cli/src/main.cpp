@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "usage.hpp"
 
 #include <goffer/fit/geometry.hpp>
 #include <goffer/io/atomic_file.hpp>
@@ -14,7 +15,6 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <vector>
 
 #ifndef _WIN32
 #include <fcntl.h>
@@ -37,10 +37,7 @@ int complain(ExitCode code, std::string text) {
 int usage(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
         return app.exit(error);  // --help, --version
-    const std::vector<std::string> left = app.remaining();
-    const bool no_command = app.get_subcommands().empty() && !left.empty();
-    return complain(wrong_usage, (no_command ? "there is no command '" + left.front() + "'" : error.what()) +
-                                     std::string("; see 'goffer --help' or 'goffer COMMAND --help'"));
+    return complain(wrong_usage, fault_of(app, error));
 }
 
 /// A signal that ends the command leaves no unfinished file behind, and ends it as it would have.

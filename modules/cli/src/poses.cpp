@@ -249,11 +249,12 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
         const std::string which = region_words(i, targets.size());
         report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
                                               number(targets[i].direction) + ", at most " + number(limit));
-        report.line(i == 0 ? "folds" : "", which + std::to_string(binding.folds(i)) + " of " +
-                                               std::to_string(binding.folds_capacity(i)) +
-                                               " that the mesh carries");
         if (beyond && !all_the_way) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        report.line(i == 0 ? "folds" : "",
+                    region_words(i, targets.size()) + std::to_string(binding.folds(i)) + " of " +
+                        std::to_string(binding.folds_capacity(i)) + " that the mesh carries");
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = binding.folds_capacity();
     report.json["pose"] = poses[0];

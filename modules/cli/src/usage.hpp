@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+/// What to say of words that the command line does not take.
+
+namespace goffer::cli {
+
+/// Returns a sentence that names the word at fault, the known word that is nearest to it, and the help to
+/// look into. `app` has parsed the words and thrown `error`.
+[[nodiscard]] std::string fault_of(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace goffer::cli
