@@ -86,6 +86,14 @@ TEST_CASE("many: nodes that show one mesh, each bent in its own way") {
           }) < at_most);
 }
 
+TEST_CASE("many: values below a long name in JSON") {
+    CHECK(growth_of(1000, [](std::size_t n) {
+              Document document = tetra();
+              document.json[std::string(100 * n, 'x')] = std::vector<Json>(n, Json{{"name", "a"}});
+              CHECK(load_document(document).warnings.empty());
+          }) < at_most);
+}
+
 TEST_CASE("many: faces about one vertex, each with a normal of its own") {
     CHECK(growth_of(2000, [](std::size_t n) {
               std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + lines(n, "vn 1 0 ", "\n");

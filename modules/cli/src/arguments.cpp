@@ -94,6 +94,12 @@ std::optional<double> one_angle(const std::string& text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+[[noreturn]] void refuse_number(const std::string& option, const std::string& part, const std::string& text,
+                                const std::string& wanted) {
+    throw UsageError(option + ": '" + part + "' in '" + text + "' is not a number" + wanted +
+                     "; give numbers with commas between them");
+}
+
 /// What `read` makes of the parts of `text`. `wanted` says in the error what each should be.
 template <class Read>
 std::vector<double> read_list(const std::string& option, const std::string& text, const std::string& wanted,
@@ -102,9 +108,7 @@ std::vector<double> read_list(const std::string& option, const std::string& text
     std::istringstream parts(text + ",");
     for (std::string part; std::getline(parts, part, ',');) {
         const std::optional<double> value = read(part);
-        if (!value)
-            throw UsageError(option + ": '" + part + "' in '" + text + "' is not a number" + wanted +
-                             "; give numbers with commas between them");
+        if (!value) refuse_number(option, part, text, wanted);
         numbers.push_back(*value);
     }
     return numbers;

@@ -44,6 +44,15 @@ std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& mode
     return folds;
 }
 
+/// What to say of folds that were asked for, and that the mesh cannot carry.
+std::string too_coarse(const fit::Binding& binding, std::size_t region) {
+    const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
+    return "the mesh has vertices for " +
+           counted(static_cast<std::size_t>(binding.folds_capacity(region)), "fold") + ", not " +
+           std::to_string(binding.folds(region)) + ": wrinkles are coarse, and the area " + area +
+           " kept; goffer refine adds vertices";
+}
+
 /// What to say of a region that nobody asked a number of folds for, of which it has fewer than the `wanted`
 /// ones that would suit it. Empty: nothing.
 std::string too_few(const fit::RegionBinding& region, int wanted, bool even, bool ranged) {
@@ -228,11 +237,7 @@ void warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
                                               : too_few(binding.regions[r], wanted[r], even,
                                                         !request.options.wrinkle_range.whole());
         if (asked && binding.folds(r) > binding.folds_capacity(r)) {
-            const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
-            report.warn(which + "the mesh has vertices for " +
-                        counted(static_cast<std::size_t>(binding.folds_capacity(r)), "fold") + ", not " +
-                        std::to_string(binding.folds(r)) + ": wrinkles are coarse, and the area " + area +
-                        " kept; goffer refine adds vertices");
+            report.warn(which + too_coarse(binding, r));
         } else if (!few.empty()) {
             report.warn(which + few);
         }

@@ -32,7 +32,7 @@ std::vector<double> read_degrees(const std::string& option, const std::string& t
 }
 
 std::vector<double> read_directions(const std::string& text, std::size_t count) {
-    const std::vector<double> degrees = read_numbers("--directions", text);
+    std::vector<double> degrees = read_numbers("--directions", text);
     if (degrees.size() != count) refuse_count("--directions", degrees.size(), count);
     return degrees;
 }
@@ -190,6 +190,7 @@ std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& reques
 
 std::vector<bend::Pose> poses_of(const std::vector<Target>& targets) {
     std::vector<bend::Pose> poses;
+    poses.reserve(targets.size());
     for (const Target& target : targets) poses.push_back(target.pose);
     return poses;
 }

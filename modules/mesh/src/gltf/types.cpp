@@ -27,16 +27,30 @@ bool is_whole(const Json& json) {
 }
 
 /// Looks for fields of the wrong type; what `extras` and extensions hold is theirs.
+/// The path of a member. Of a long name, which many paths may have in them, it has the beginning.
+std::string member_of(const std::string& path, const std::string& name) {
+    constexpr std::size_t most = 100;
+    std::string place = path;
+    if (!place.empty()) place += '.';
+    return place.append(name, 0, most);
+}
+
+/// The path of an element.
+std::string element_of(const std::string& path, std::size_t element) {
+    std::string place = path;
+    return place.append("[").append(std::to_string(element)).append("]");
+}
+
 class TypeChecker {
 public:
     void check(const Json& json, const std::string& key, const std::string& path) {
         if (json.is_array()) {
             for (std::size_t i = 0; i < json.size(); ++i)
-                if (json[i].is_structured()) check(json[i], key, path + "[" + std::to_string(i) + "]");
+                if (json[i].is_structured()) check(json[i], key, element_of(path, i));
         }
         if (!json.is_object()) return;
         for (const auto& [name, value] : json.items()) {
-            const std::string place = path.empty() ? name : path + "." + name;
+            const std::string place = member_of(path, name);
             check_field(key, name, value, place);
             if (value.is_structured() && name != "extras" && name != "extensions") check(value, name, place);
         }
@@ -60,7 +74,7 @@ private:
         expect(value.is_object(), value, place, "an object");
         if (!value.is_object()) return;
         for (const auto& [extension, fields] : value.items())
-            expect(fields.is_object(), fields, place + "." + extension, "an object");
+            expect(fields.is_object(), fields, member_of(place, extension), "an object");
     }
 
     void expect(bool fits, const Json& value, const std::string& place, const char* expected) {
