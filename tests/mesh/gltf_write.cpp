@@ -94,6 +94,20 @@ void check_model(const char* name) {
 
 }  // namespace
 
+TEST_CASE("gltf: what only another scene shows stays as it is, whatever it is") {
+    for (const Json& other : {Json::object(), Json(3), Json{{"primitives", 7}}}) {
+        CAPTURE(other.dump());
+        Document document = tetra();
+        document.json["meshes"].push_back(other);
+        document.json["nodes"].push_back({{"mesh", 1}});
+        document.json["scenes"].push_back({{"nodes", {1}}});
+        auto mesh = load_document(document);
+        mesh.positions[0].x -= 1;
+        const std::string out = saved(mesh, "d.gltf");
+        CHECK(Json::parse(out)["meshes"][1] == other);
+    }
+}
+
 TEST_CASE("gltf: an unchanged document comes out as it came in, to the last bit and in its order") {
     const Document document = rich();
     const Mesh mesh = load_document(document);

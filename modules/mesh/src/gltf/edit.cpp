@@ -148,14 +148,17 @@ void Edit::use_entry(std::size_t mesh, std::size_t entry) {
 
 /// A mesh that an unchanged node shows, maybe in another scene, must stay as it is.
 void Edit::keep_shown_elsewhere(const std::vector<Shape>& changed) {
-    std::set<std::size_t> nodes;
-    for (const Shape& shape : changed) nodes.insert(shape.node);
+    std::set<std::size_t> nodes, meshes;
+    for (const Shape& shape : changed) {
+        nodes.insert(shape.node);
+        meshes.insert(shape.mesh);
+    }
     std::size_t number = 0;
     each(document_.json, "nodes", [&](const Json& node) {
         std::set<std::size_t> shown;
         if (!nodes.contains(number++)) add_index(node, "mesh", shown);
         for (const std::size_t mesh : shown)
-            if (mesh < document_.count("meshes") && taken_meshes_.insert(mesh).second) use_entry(mesh, mesh);
+            if (meshes.contains(mesh) && taken_meshes_.insert(mesh).second) use_entry(mesh, mesh);
     });
 }
 
