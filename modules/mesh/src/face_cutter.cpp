@@ -58,8 +58,9 @@ bool FaceCutter::concave() const {
     return false;
 }
 
-/// Whether `point` lies in the counterclockwise triangle a, b, c, its edges included unless `strictly`. One
-/// in the place of a corner does not: a face that goes around a hole comes by there twice.
+/// Whether `point` lies in the counterclockwise triangle a, b, c, its edges included unless `strictly`. A
+/// corner of the triangle does not, nor one in its place: a face that goes around a hole comes by there
+/// twice.
 bool FaceCutter::holds(Corner a, Corner b, Corner c, Corner point, bool strictly) const {
     for (const Corner corner : {a, b, c})
         if (points_[corner] == points_[point]) return false;
@@ -81,7 +82,7 @@ bool FaceCutter::is_ear(Corner corner, bool lenient) const {
     return std::ranges::none_of(reflex_.corners, [&](Corner point) {
         const glm::dvec2 at = points_[point];
         if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) return false;
-        return point != a && point != corner && point != c && holds(a, corner, c, point, lenient);
+        return holds(a, corner, c, point, lenient);
     });
 }
 
