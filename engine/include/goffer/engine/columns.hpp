@@ -30,6 +30,8 @@ public:
 
     [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// Floats from the start of a column to that of the next.
+    [[nodiscard]] std::size_t stride() const noexcept { return stride_; }
     /// Bytes allocated, with the padding.
     [[nodiscard]] std::size_t bytes() const noexcept { return columns_ * stride_ * sizeof(float); }
 

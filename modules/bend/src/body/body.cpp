@@ -2,10 +2,12 @@
 #include "body/body_data.hpp"
 
 #include <cassert>
+#include <utility>
 
 namespace goffer::bend {
 
 Body::Body() noexcept = default;
+Body::Body(std::unique_ptr<const BodyData> data) noexcept : data_(std::move(data)) {}
 Body::Body(Body&& other) noexcept = default;
 Body& Body::operator=(Body&& other) noexcept = default;
 Body::~Body() = default;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "body/layout.hpp"
 #include "kernel/args.hpp"
 #include "kernel/rest_columns.hpp"
 
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 /// What a Body holds: for goffer's own sources.
@@ -46,6 +48,13 @@ struct Bands {
     bool shaped = false;       ///< the body has a shape
 };
 
+/// How many bands a step of 1 in v is: 0 where all vertices lie at one height.
+[[nodiscard]] inline float bands_per_height(const Bands& bands) noexcept {
+    constexpr float least = 1e-18f;  // below it heights were not made from doubles
+    const float extent = bands.highest - bands.lowest;
+    return extent > least ? static_cast<float>(Bands::count) / extent : 0.0f;
+}
+
 /// D / L at a place between the edges of bands: j at edge j.
 [[nodiscard]] inline float drift_at(const Bands& bands, float place) noexcept {
     const float inside = std::clamp(place, 0.0f, static_cast<float>(Bands::count));
@@ -72,8 +81,11 @@ struct RegionData {
 };
 
 struct BodyData {
-    Columns storage;      ///< the memory that `columns` points into
+    Columns storage;                     ///< the memory that `columns` points into; empty if it is a file's
+    std::shared_ptr<const void> memory;  ///< the file's, where the body owns a share of it
     RestColumns columns;  ///< padded as Columns says; null for columns that the body does not have
+    ColumnLayout layout;
+    std::size_t stride = 0;  ///< floats from one column to the next
     std::size_t vertex_count = 0;
     std::vector<RegionInput> inputs;  ///< what the regions were made from
     std::vector<Region> regions;      ///< one per input
@@ -84,5 +96,14 @@ struct BodyData {
     double length = 0;
     double radius = 0;
 };
+
+/// The bands of the vertices [first, last), which are a region's.
+[[nodiscard]] Bands bands_of(const RestColumns& columns, std::size_t first, std::size_t last) noexcept;
+
+void set_frame(BodyData& data, const glm::dvec3& origin, const glm::dmat3& axes, double radius) noexcept;
+
+/// Adds the next region, made from `input`, which is the next one of data.inputs. The columns and the frame
+/// are there.
+void add_region(BodyData& data, const RegionInput& input, const Bands& bands);
 
 }  // namespace goffer::bend

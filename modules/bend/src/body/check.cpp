@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "body/body_data.hpp"
+#include "body/check.hpp"
 
-#include <goffer/bend/body.hpp>
+#include "body/body_data.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -146,33 +146,11 @@ BodyFault check_counts(const BodyInput& input) noexcept {
     return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
 }
 
-BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region, double radius,
-                       double depth) noexcept {
-    constexpr double most = std::numeric_limits<double>::max(), max_wrinkle = Range::max_wrinkle;
-    const double slack = 1e-3 * region.length;
-    const double growth = depth * std::fabs(v.wrinkle);
-    const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
-    const double max_drift = region.length * radius * region.max_scale;
-    const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
-                               {BodyField::z, v.z, -slack, region.length + slack},
-                               {BodyField::rho, v.rho, 0, Range::max_length},
-                               {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
-                               {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
-                               {BodyField::wrinkle, growth, 0, Range::max_growth},
-                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
-                               {BodyField::rho, reach, 0, Range::max_radius_ratio},
-                               {BodyField::scale, v.scale, 1 / Range::max_scale, region.max_scale},
-                               {BodyField::scale_slope, v.scale_slope * region.length / v.scale,
-                                -Range::max_taper, Range::max_taper},
-                               {BodyField::drift, v.drift, -max_drift, max_drift}};
-    return first_fault(numbers, index);
-}
-
 BodyFault check_vertices(const BodyInput& input) noexcept {
     std::size_t i = 0;
     for (const RegionInput& region : input.regions) {
         const double radius = radius_of(region, input.radius);
-        const double depth = wrinkle_of(region, radius).depth;
+        const double depth = deepest_wrinkle(region, radius);
         for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
             const BodyFault fault = check_vertex(input.vertices[i], i, region, radius, depth);
             if (!fault.none()) return fault;
@@ -184,9 +162,7 @@ BodyFault check_vertices(const BodyInput& input) noexcept {
 BodyFault check_units(BodyField field, std::span<const RestVector> vectors, std::size_t count) noexcept {
     if (vectors.size() != count) return {field, Reason::count};
     for (std::size_t i = 0; i < count; ++i) {
-        const auto [rho, beta, z] = vectors[i];
-        const Reason reason = reason_of(rho * rho + beta * beta + z * z, 1 - 1e-3, 1 + 1e-3);
-        if (reason != Reason::none) return {field, reason, i};
+        if (const BodyFault fault = check_unit(field, vectors[i], i); !fault.none()) return fault;
     }
     return {};
 }
@@ -213,7 +189,7 @@ BodyFault check_regions(const BodyInput& input) noexcept {
         const BodyFault fault = check_region(input.regions[r], r, input.radius);
         if (!fault.none()) return fault;
     }
-    return check_counts(input);
+    return {};
 }
 
 BodyFault check_vectors(const BodyInput& input) noexcept {
@@ -228,8 +204,45 @@ BodyFault check_vectors(const BodyInput& input) noexcept {
 
 }  // namespace
 
+double deepest_wrinkle(const RegionInput& region, double radius) noexcept {
+    return wrinkle_of(region, radius).depth;
+}
+
+BodyFault check_rig(const BodyInput& input) noexcept {
+    const BodyFault fault = check_frame(input);
+    return fault.none() ? check_regions(input) : fault;
+}
+
+BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region, double radius,
+                       double depth) noexcept {
+    constexpr double most = std::numeric_limits<double>::max(), max_wrinkle = Range::max_wrinkle;
+    const double slack = 1e-3 * region.length;
+    const double growth = depth * std::fabs(v.wrinkle);
+    const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
+    const double max_drift = region.length * radius * region.max_scale;
+    const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
+                               {BodyField::z, v.z, -slack, region.length + slack},
+                               {BodyField::rho, v.rho, 0, Range::max_length},
+                               {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
+                               {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
+                               {BodyField::wrinkle, growth, 0, Range::max_growth},
+                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
+                               {BodyField::rho, reach, 0, Range::max_radius_ratio},
+                               {BodyField::scale, v.scale, 1 / Range::max_scale, region.max_scale},
+                               {BodyField::scale_slope, v.scale_slope * region.length / v.scale,
+                                -Range::max_taper, Range::max_taper},
+                               {BodyField::drift, v.drift, -max_drift, max_drift}};
+    return first_fault(numbers, index);
+}
+
+BodyFault check_unit(BodyField field, const RestVector& vector, std::size_t index) noexcept {
+    const auto [rho, beta, z] = vector;
+    const Reason reason = reason_of(rho * rho + beta * beta + z * z, 1 - 1e-3, 1 + 1e-3);
+    return reason == Reason::none ? BodyFault{} : BodyFault{field, reason, index};
+}
+
 BodyFault Body::check(const BodyInput& input) noexcept {
-    for (const auto part : {check_frame, check_regions, check_vertices, check_vectors}) {
+    for (const auto part : {check_rig, check_counts, check_vertices, check_vectors}) {
         if (const BodyFault fault = part(input); !fault.none()) return fault;
     }
     return {};

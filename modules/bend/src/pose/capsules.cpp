@@ -32,9 +32,7 @@ float widest(const Bands& bands, float amplitude, float from, float to) noexcept
 
 /// Where the arc has the angle of height v = z / L - 1/2: v itself, without a shape.
 float shifted(const Bands& bands, const Coefficients& k, float v) noexcept {
-    const float extent = bands.highest - bands.lowest;
-    const float per_height = extent > 0 ? static_cast<float>(Bands::count) / extent : 0.0f;
-    return v - k.curvature * drift_at(bands, (v - bands.lowest) * per_height);
+    return v - k.curvature * drift_at(bands, (v - bands.lowest) * bands_per_height(bands));
 }
 
 /// An upper bound for the factor that the linear part M of `transform` stretches vectors by: the root of the

@@ -140,6 +140,8 @@ struct BodyData;
 class Body {
 public:
     Body() noexcept;
+    /// For goffer's own sources.
+    explicit Body(std::unique_ptr<const BodyData> data) noexcept;
     Body(Body&& other) noexcept;
     Body& operator=(Body&& other) noexcept;
     ~Body();
@@ -174,7 +176,7 @@ public:
     [[nodiscard]] glm::dvec3 origin() const noexcept;
     /// Columns e1, e2, e3 of the body frame, in model space.
     [[nodiscard]] glm::dmat3 axes() const noexcept;
-    /// Bytes of memory that the body takes, itself included.
+    /// Bytes of memory that the body takes, itself included. Columns that lie in a body file do not count.
     [[nodiscard]] std::size_t bytes() const noexcept;
     /// For goffer's own sources; null if the body is empty.
     [[nodiscard]] const BodyData* data() const noexcept { return data_.get(); }

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "body/check.hpp"
+#include "file/format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace goffer::bend {
+namespace {
+
+using Range = WorkingRange;
+
+/// What is written was rounded to float, so that a number at its limit may lie beyond by this share of it.
+constexpr double rounding = 1e-6;
+
+/// The lowest and the highest of some floats, as integers in the same order: one loop finds both, and what is
+/// not finite lies outside all finite ones. The mapping is its own inverse.
+struct Extent {
+    std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
+
+    static std::int32_t ordered(std::int32_t bits) noexcept { return bits ^ ((bits >> 31) & 0x7fffffff); }
+
+    [[nodiscard]] bool finite() const noexcept {
+        constexpr float most = std::numeric_limits<float>::max();
+        return low() >= -most && high() <= most;
+    }
+    [[nodiscard]] float low() const noexcept { return std::bit_cast<float>(ordered(lowest)); }
+    [[nodiscard]] float high() const noexcept { return std::bit_cast<float>(ordered(highest)); }
+    [[nodiscard]] double largest() const noexcept {
+        return static_cast<double>(std::max(std::fabs(low()), std::fabs(high())));
+    }
+};
+
+Extent extent_of(const float* column, std::size_t first, std::size_t last) noexcept {
+    Extent extent;
+    for (std::size_t i = first; i < last; ++i) {
+        const std::int32_t value = Extent::ordered(std::bit_cast<std::int32_t>(column[i]));
+        extent.lowest = std::min(extent.lowest, value);
+        extent.highest = std::max(extent.highest, value);
+    }
+    return extent;
+}
+
+/// Whether the sums of squares of `N` columns lie within `slack` of `wanted`. The columns are finite.
+template <std::size_t N>
+bool squares_are(double wanted, double slack, const std::array<const float*, N>& columns, std::size_t first,
+                 std::size_t last) noexcept {
+    const auto low = static_cast<float>(wanted - slack), high = static_cast<float>(wanted + slack);
+    bool within = true;
+    for (std::size_t i = first; i < last; ++i) {
+        float sum = 0;
+        for (const float* column : columns) sum += column[i] * column[i];
+        within = within & (sum >= low) & (sum <= high);
+    }
+    return within;
+}
+
+/// Which number of a vertex a column was made from.
+BodyField field_of(const ColumnLayout& layout, std::size_t column) noexcept {
+    constexpr std::array named{BodyField::beta, BodyField::beta,    BodyField::rho,  BodyField::wrinkle,
+                               BodyField::z,    BodyField::wrinkle, BodyField::slope};
+    constexpr std::array shape{BodyField::scale, BodyField::drift, BodyField::scale_slope};
+    if (column < named.size()) return named[column];
+    if (column < tangents) return BodyField::normals;
+    if (column < layout.first_shape_column())
+        return column == tangent_sign ? BodyField::tangent_signs : BodyField::tangents;
+    return column < layout.first_rest_column() ? shape[column - layout.first_shape_column()]
+                                               : BodyField::beta;
+}
+
+/// A bound on the numbers of a column, with which products of two of them are floats. Where the true one
+/// depends on the region it is found later.
+double most_of(const ColumnLayout& layout, std::size_t column) noexcept {
+    constexpr double unit = 2, scales = 2 * Range::max_scale, least_rest = (1 - Range::max_rest) / 2;
+    const std::size_t shape = layout.first_shape_column(), rest = layout.first_rest_column();
+    if (column >= rest) return column < rest + rest_cosine ? unit : scales / least_rest;
+    if (column >= shape)
+        return column == shape + scale ? scales : static_cast<double>(std::numeric_limits<float>::max());
+    const bool direction = column >= normals || column <= sin_half_beta;
+    return direction && (!layout.tangents || column != tangent_sign)
+               ? unit
+               : static_cast<double>(std::numeric_limits<float>::max());
+}
+
+/// The columns of some vertices of a region.
+class Stretch {
+public:
+    Stretch(const BodyData& data, std::size_t region, double depth) noexcept
+        : data_(data),
+          region_(data.inputs[region]),
+          radius_(radius_of(region_, data.radius)),
+          depth_(depth) {}
+
+    /// The first fault of the vertices [first, last). Where the most extreme numbers of all of them would
+    /// make no good vertex together, looks at each half.
+    [[nodiscard]] BodyFault check(std::size_t first, std::size_t last) const noexcept {
+        const BodyFault fault = check_together(first, last);
+        if (fault.none() || last - first == 1) return fault;
+        const std::size_t middle = first + (last - first) / 2;
+        const BodyFault before = check(first, middle);
+        return before.none() ? check(middle, last) : before;
+    }
+
+private:
+    [[nodiscard]] BodyFault check_together(std::size_t first, std::size_t last) const noexcept {
+        std::array<Extent, std::size_t{all_columns} + all_shape_columns + all_rest_columns> extents;
+        const float* column = data_.columns.cos_half_beta;
+        for (std::size_t c = 0; c < data_.layout.columns(); ++c, column += data_.stride) {
+            extents[c] = extent_of(column, first, last);
+            const BodyField field = field_of(data_.layout, c);
+            if (!extents[c].finite()) return {field, Reason::not_finite, first};
+            if (extents[c].largest() > most_of(data_.layout, c)) return {field, Reason::out_of_range, first};
+        }
+        if (const BodyFault fault = check_relations(first, last); !fault.none()) return fault;
+        const Extent* shape = extents.data() + data_.layout.first_shape_column();
+        const Extent* rest = extents.data() + data_.layout.first_rest_column();
+        return check_vertices(extents.data(), data_.layout.shape ? shape : nullptr,
+                              data_.layout.rest ? rest : nullptr, first);
+    }
+
+    /// What holds of each vertex: directions are of unit length, cosines and sines are of one angle, and
+    /// columns that follow from others do.
+    [[nodiscard]] BodyFault check_relations(std::size_t first, std::size_t last) const noexcept {
+        const RestColumns& c = data_.columns;
+        constexpr double unit = 1e-3 + rounding, angle = 10 * rounding;
+        using Two = std::array<const float*, 2>;
+        using Three = std::array<const float*, 3>;
+        const auto fault = [&](BodyField field) { return BodyFault{field, Reason::out_of_range, first}; };
+        if (!squares_are(2, 2 * angle, Two{c.cos_half_beta, c.sin_half_beta}, first, last))
+            return fault(BodyField::beta);
+        if (!squares_are(1, unit, Three{c.normal[0], c.normal[1], c.normal[2]}, first, last))
+            return fault(BodyField::normals);
+        if (data_.layout.rest && !rest_follows(first, last)) return fault(BodyField::beta);
+        if (data_.layout.tangents &&
+            !squares_are(1, unit, Three{c.tangent[0], c.tangent[1], c.tangent[2]}, first, last))
+            return fault(BodyField::tangents);
+        return {};
+    }
+
+    /// Two vertices of the most extreme numbers, which are what Body::make was given, and what it makes of
+    /// these.
+    [[nodiscard]] BodyFault check_vertices(const Extent* plain, const Extent* shape, const Extent* rest,
+                                           std::size_t index) const noexcept {
+        constexpr double inward = 1 - rounding, outward = 1 + rounding;
+        RestVertex low, high;
+        low.z = (static_cast<double>(plain[height].low()) * inward + 0.5) * region_.length;
+        high.z = (static_cast<double>(plain[height].high()) * inward + 0.5) * region_.length;
+        low.rho = static_cast<double>(plain[rho].low());
+        high.rho = static_cast<double>(plain[rho].high()) * inward;
+        if (shape != nullptr) {
+            low.scale = static_cast<double>(shape[scale].low()) * outward;
+            high.scale = static_cast<double>(shape[scale].high()) * inward;
+            low.drift = static_cast<double>(shape[drift].low()) * inward * region_.length;
+            high.drift = static_cast<double>(shape[drift].high()) * inward * region_.length;
+        }
+        const auto out_of_range = [index](BodyField field) {
+            return BodyFault{field, Reason::out_of_range, index};
+        };
+        if (!(low.scale > 0)) return out_of_range(BodyField::scale);
+        double factor = std::sqrt(low.scale), least_rest_scale = 1;
+        if (rest != nullptr) {
+            least_rest_scale = low.scale / static_cast<double>(rest[rest_scale].high());
+            if (compares_with_rest(region_)) factor = least_rest_scale;
+        }
+        const double offset = plain[radial_offset].largest(), most_taper = Range::max_taper / region_.length;
+        const double taper = offset / least_rest_scale * most_taper;
+        if (offset > plain[wrinkle].largest() * high.rho * (1 + 4 * rounding) + tiny)
+            return out_of_range(BodyField::wrinkle);
+        if (shape != nullptr && shape[ShapeColumn::taper].largest() > taper * (1 + 4 * rounding) + tiny)
+            return out_of_range(BodyField::scale_slope);
+        high.wrinkle = plain[wrinkle].largest() * inward / factor;
+        const double slope_of_factor = shape != nullptr && compares_with_rest(region_) ? taper : 0;
+        high.slope = std::max(plain[slope].largest() * inward - slope_of_factor, 0.0) / factor;
+        const BodyFault fault = check_vertex(low, index, region_, radius_, depth_);
+        return fault.none() ? check_vertex(high, index, region_, radius_, depth_) : fault;
+    }
+
+    /// What columns of RestColumn say of each vertex follows from others: its angle twice over, and S. Where
+    /// a region is not compared with rest, S is 1.
+    [[nodiscard]] bool rest_follows(std::size_t first, std::size_t last) const noexcept {
+        const RestColumns& c = data_.columns;
+        const bool compares = compares_with_rest(region_);
+        const double kappa = compares ? region_.rest_angle * radius_ / region_.length : 0;
+        const auto toward = static_cast<float>(kappa * std::cos(region_.rest_direction));
+        const auto aside = static_cast<float>(kappa * std::sin(region_.rest_direction));
+        const auto outline = static_cast<float>(kappa);
+        constexpr float slack = 4e-6f;
+        bool follows = true;
+        for (std::size_t i = first; i < last; ++i) {
+            const float s = c.scale != nullptr ? c.scale[i] : 1, cosine = c.cos_beta[i], sine = c.sin_beta[i];
+            const float rest = 1 - s * (outline + toward * cosine + aside * sine), per = c.rest_scale[i];
+            follows = follows & (std::fabs(c.cos_half_beta[i] * c.cos_half_beta[i] - 1 - cosine) <= slack) &
+                      (std::fabs(c.cos_half_beta[i] * c.sin_half_beta[i] - sine) <= slack) &
+                      (std::fabs(c.rest_cosine[i] - per * cosine) <= slack * per) &
+                      (std::fabs(c.rest_sine[i] - per * sine) <= slack * per) &
+                      (std::fabs(per * rest - s) <= slack * (s + per));
+        }
+        return follows;
+    }
+
+    /// What a product of numbers that were rounded to 0 may differ by.
+    static constexpr double tiny = 2e-33;
+
+    const BodyData& data_;
+    const RegionInput& region_;
+    double radius_;
+    double depth_;
+};
+
+}  // namespace
+
+BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept {
+    BandsRecord record = {};
+    record.vertex_count = vertex_count;
+    record.lowest = bands.lowest;
+    record.highest = bands.highest;
+    record.drift_error = bands.drift_error;
+    record.max_drift_step = bands.max_drift_step;
+    record.max_scale = bands.max_scale;
+    record.shaped = bands.shaped ? 1 : 0;
+    std::ranges::copy(bands.rho, record.rho);
+    std::ranges::copy(bands.outward, record.outward);
+    std::ranges::copy(bands.inward, record.inward);
+    std::ranges::copy(bands.drift, record.drift);
+    return record;
+}
+
+BodyFault check_columns(const BodyData& data) noexcept {
+    for (std::size_t r = 0; r < data.regions.size(); ++r) {
+        const auto [first, last] = std::pair(data.regions[r].first, data.regions[r].last);
+        if (first == last) continue;
+        const RegionInput& region = data.inputs[r];
+        const double depth = deepest_wrinkle(region, radius_of(region, data.radius));
+        const BodyFault fault = Stretch(data, r, depth).check(first, last);
+        if (!fault.none()) return fault;
+    }
+    return {};
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/body_file.hpp>
+
+#include <cstdio>
+
+namespace goffer::bend {
+namespace {
+
+const char* words_of(FileReason reason) noexcept {
+    switch (reason) {
+        case FileReason::none:
+            break;
+        case FileReason::not_a_body_file:
+            return "not a body file; goffer bake makes one";
+        case FileReason::byte_order:
+            return "made on a machine of the other byte order; bake it again for this one";
+        case FileReason::version:
+            return "of a version that this library does not know; bake it again, or use a newer library";
+        case FileReason::truncated:
+            return "has fewer bytes than it says; copy or bake it again";
+        case FileReason::too_long:
+            return "has more bytes than it says; copy or bake it again";
+        case FileReason::alignment:
+            return "does not begin at a multiple of 64 bytes in memory; use load_copy";
+        case FileReason::checksum:
+            return "was changed since it was written; copy or bake it again";
+        case FileReason::layout:
+            return "does not lie where it must";
+        case FileReason::count:
+            return "too few, too many, or not as many as its other parts say";
+        case FileReason::number:
+            return "not a number, or out of its range";
+        case FileReason::index:
+            return "refers to what is not there";
+        case FileReason::rig:
+            return "does not have the regions, tables and frame of the first level; bind it with bind_level";
+        case FileReason::empty:
+            return "has no body";
+    }
+    return "unknown";
+}
+
+const char* name_of(FileSection section) noexcept {
+    constexpr const char* names[] = {"body file",   "directory", "rig",     "regions",   "wrinkle_rows",
+                                     "factor_rows", "materials", "sockets", "names",     "notes",
+                                     "level",       "bands",     "columns", "triangles", "uvs",
+                                     "source",      "parts"};
+    return names[static_cast<std::size_t>(section)];
+}
+
+}  // namespace
+
+FaultText describe(const BodyFileFault& fault) noexcept {
+    FaultText result;
+    if (fault.none()) {
+        std::snprintf(result.text, sizeof result.text, "no fault");
+        return result;
+    }
+    char level[40] = "", index[24] = "";
+    if (fault.level != BodyFileFault::nowhere)
+        std::snprintf(level, sizeof level, "levels[%zu].", fault.level);
+    if (fault.index != BodyFileFault::nowhere) std::snprintf(index, sizeof index, "[%zu]", fault.index);
+    const FaultText number = describe(fault.body);
+    const char* what = fault.body.none() ? words_of(fault.reason) : number.c_str();
+    std::snprintf(result.text, sizeof result.text, "%s%s%s: %.180s", level, name_of(fault.section), index,
+                  what);
+    return result;
+}
+
+}  // namespace goffer::bend

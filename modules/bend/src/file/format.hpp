@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "body/body_data.hpp"
+
+#include <goffer/bend/body_file.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+/// The records of a body file, version 1, as they lie in it. A change here is a new version.
+/// See modules/bend/README.md, "The body file".
+
+namespace goffer::bend {
+
+struct FileHeader {
+    std::array<char, 8> magic;
+    std::uint32_t byte_order;
+    std::uint32_t version;
+    std::uint64_t bytes;     ///< of the whole file
+    std::uint64_t checksum;  ///< of the whole file, with this number taken as 0
+    std::uint32_t level_count;
+    std::uint32_t zero_word;
+    std::uint64_t zero[3];
+};
+
+/// One for each section, in the order of FileSection: those from `rig` to `notes`, then those from `level` to
+/// `parts` for each level.
+struct SectionRecord {
+    std::uint64_t offset;  ///< of its first byte in the file
+    std::uint64_t count;   ///< of its records
+};
+
+struct RigRecord {
+    double origin[3];
+    double axes[9];  ///< e1, e2, e3
+    double radius;
+};
+
+struct RegionRecord {
+    double length, max_angle, rest_angle, rest_direction, onset, radius, max_scale;
+    float table_max_angle, factors_max_angle;
+    std::uint32_t wrinkle_rows, factor_rows;  ///< how many of these sections' are its own
+};
+
+/// Characters of the section `names`.
+struct NameRecord {
+    std::uint32_t first, count;
+};
+
+struct MaterialRecord {
+    NameRecord name;
+    float base_color[4];
+};
+
+struct SocketRecord {
+    NameRecord name;
+    std::uint64_t region;
+    double vertex[8];  ///< in the order of RestVertex
+    double normal[3], tangent[3];
+};
+
+struct LevelRecord {
+    std::uint64_t vertex_count;
+    std::uint64_t stride;                 ///< floats from one column to the next
+    std::uint32_t tangents, shape, rest;  ///< 1 where it has these columns, else 0
+    float low[3], high[3];                ///< box at rest
+    std::uint32_t zero;
+};
+
+/// A region's vertices in one level. See Bands.
+struct BandsRecord {
+    std::uint64_t vertex_count;
+    float lowest, highest, drift_error, max_drift_step, max_scale;
+    std::uint32_t shaped;
+    float rho[Bands::places], outward[Bands::places], inward[Bands::places], drift[Bands::places];
+};
+
+struct PartRecord {
+    NameRecord name;
+    std::uint32_t first_triangle, triangle_count;
+    std::int32_t material;
+};
+
+inline constexpr std::array<char, 8> file_magic{'G', 'O', 'F', 'F', 'E', 'R', '\r', '\n'};
+inline constexpr std::uint32_t file_byte_order = 0x01020304;
+inline constexpr std::size_t shared_sections = 8;  ///< from `rig` to `notes`
+inline constexpr std::size_t level_sections = 7;   ///< from `level` to `parts`
+
+// Version 1 has these sizes, whatever the compiler thinks of padding.
+static_assert(sizeof(FileHeader) == 64 && sizeof(SectionRecord) == 16 && sizeof(RigRecord) == 104);
+static_assert(sizeof(RegionRecord) == 72 && sizeof(MaterialRecord) == 24 && sizeof(SocketRecord) == 128);
+static_assert(sizeof(LevelRecord) == 56 && sizeof(BandsRecord) == 288 && sizeof(PartRecord) == 20);
+static_assert(wrinkle_degree == 7 && FactorTable::directions == 16 && Bands::count == 11);
+static_assert(all_columns == 14 && all_shape_columns == 3 && all_rest_columns == 5);
+static_assert(column_alignment == 64 && widest_batch == 32);
+
+/// Where the next section begins, behind `bytes` bytes.
+[[nodiscard]] constexpr std::uint64_t aligned(std::uint64_t bytes) noexcept {
+    return (bytes + column_alignment - 1) / column_alignment * column_alignment;
+}
+
+[[nodiscard]] constexpr std::size_t section_count(std::size_t levels) noexcept {
+    return shared_sections + levels * level_sections;
+}
+
+/// The place of a section in the directory. `level` counts from `level` on.
+[[nodiscard]] constexpr std::size_t place_of(FileSection section, std::size_t level) noexcept {
+    const auto place = static_cast<std::size_t>(section) - static_cast<std::size_t>(FileSection::rig);
+    return section < FileSection::level ? place : place + level * level_sections;
+}
+
+/// A region's bands and number of vertices as a record.
+[[nodiscard]] BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept;
+
+/// The first fault in the columns of `data`, all of whose regions are there: what Body::check would refuse,
+/// or no body has. In the time of reading them, unless there is a fault.
+[[nodiscard]] BodyFault check_columns(const BodyData& data) noexcept;
+
+/// The checksum of a file, of which at least the header is there.
+[[nodiscard]] std::uint64_t checksum_of(std::span<const std::byte> bytes) noexcept;
+
+}  // namespace goffer::bend

@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+#include "body/check.hpp"
+#include "file/format.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace goffer::bend {
+namespace {
+
+BodyFileFault check_header(std::span<const std::byte> bytes) {
+    FileHeader header = {};
+    if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
+    const auto fault = [](FileReason reason) { return BodyFileFault{reason}; };
+    if (header.magic != file_magic) return fault(FileReason::not_a_body_file);
+    if (header.byte_order != file_byte_order) {
+        constexpr std::uint32_t other_order = 0x04030201;
+        return fault(header.byte_order == other_order ? FileReason::byte_order : FileReason::not_a_body_file);
+    }
+    if (header.version != body_file_version) return fault(FileReason::version);
+    if (header.bytes > bytes.size()) return fault(FileReason::truncated);
+    if (header.bytes < bytes.size()) return fault(FileReason::too_long);
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % column_alignment != 0)
+        return fault(FileReason::alignment);
+    return {};
+}
+
+BodyFileFault check_rest_of_header(const FileHeader& header) {
+    if (header.level_count == 0 || header.level_count > max_levels)
+        return {FileReason::count, FileSection::level};
+    const bool zeros = header.zero_word == 0 &&
+                       std::ranges::all_of(header.zero, [](std::uint64_t word) { return word == 0; });
+    return zeros ? BodyFileFault{} : BodyFileFault{FileReason::layout, FileSection::header};
+}
+
+/// The sections of a file, whose memory is aligned and begins with a whole header. Sections may only lie one
+/// behind the other, each at the next cache line.
+class Sections {
+public:
+    Sections(std::span<const std::byte> bytes, std::size_t levels) : bytes_(bytes), levels_(levels) {}
+
+    [[nodiscard]] BodyFileFault check() const {
+        const std::uint64_t size = bytes_.size();
+        std::uint64_t end = sizeof(FileHeader) + section_count(levels_) * sizeof(SectionRecord);
+        if (end > size) return {FileReason::truncated, FileSection::directory};
+        for (std::size_t i = 0; i < section_count(levels_); ++i) {
+            const SectionRecord record = records()[i];
+            const std::uint64_t begin = aligned(end);
+            if (record.offset != begin || begin > size || !zeros(end, begin))
+                return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
+            const std::uint64_t bytes_each = size_of(section_at(i));
+            if (record.count > (size - begin) / bytes_each)
+                return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
+            end = begin + record.count * bytes_each;
+        }
+        const bool whole = aligned(end) == size && zeros(end, size);
+        return whole ? BodyFileFault{} : BodyFileFault{FileReason::layout, FileSection::directory};
+    }
+
+    /// The records of a section. T is what size_of() has for it.
+    template <class T>
+    [[nodiscard]] std::span<const T> get(FileSection section, std::size_t level = 0) const {
+        const SectionRecord& record = records()[place_of(section, level)];
+        return {reinterpret_cast<const T*>(bytes_.data() + record.offset),
+                static_cast<std::size_t>(record.count)};
+    }
+
+    /// The characters of a name, or nothing where they are not there.
+    [[nodiscard]] std::optional<std::string_view> name(const NameRecord& name) const {
+        const std::span<const char> all = get<char>(FileSection::names);
+        if (name.first > all.size() || name.count > all.size() - name.first) return std::nullopt;
+        return std::string_view(all.data() + name.first, name.count);
+    }
+
+private:
+    [[nodiscard]] const SectionRecord* records() const {
+        return reinterpret_cast<const SectionRecord*>(bytes_.data() + sizeof(FileHeader));
+    }
+
+    [[nodiscard]] bool zeros(std::uint64_t first, std::uint64_t last) const {
+        const auto gap =
+            bytes_.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first));
+        return std::ranges::all_of(gap, [](std::byte byte) { return byte == std::byte{0}; });
+    }
+
+    static FileSection section_at(std::size_t place) {
+        constexpr auto first = static_cast<std::size_t>(FileSection::rig);
+        const std::size_t in_level = (place - shared_sections) % level_sections;
+        return static_cast<FileSection>(first +
+                                        (place < shared_sections ? place : shared_sections + in_level));
+    }
+
+    static std::size_t size_of(FileSection section) {
+        switch (section) {
+            case FileSection::rig:
+                return sizeof(RigRecord);
+            case FileSection::regions:
+                return sizeof(RegionRecord);
+            case FileSection::wrinkle_rows:
+                return sizeof(WrinkleRow);
+            case FileSection::factor_rows:
+                return sizeof(FactorTable::rows[0]);
+            case FileSection::materials:
+                return sizeof(MaterialRecord);
+            case FileSection::sockets:
+                return sizeof(SocketRecord);
+            case FileSection::level:
+                return sizeof(LevelRecord);
+            case FileSection::bands:
+                return sizeof(BandsRecord);
+            case FileSection::columns:
+                return sizeof(float);
+            case FileSection::triangles:
+            case FileSection::source:
+                return sizeof(std::uint32_t);
+            case FileSection::uvs:
+                return sizeof(glm::vec2);
+            case FileSection::parts:
+                return sizeof(PartRecord);
+            default:
+                return 1;
+        }
+    }
+
+    std::span<const std::byte> bytes_;
+    std::size_t levels_;
+};
+
+bool all_finite(std::span<const float> numbers) {
+    return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });
+}
+
+/// What the views of a BodyFile refer to, beside bytes that are the caller's.
+struct Holdings {
+    Columns copy;  ///< of the file, or none
+    std::vector<std::vector<DrawPart>> parts;
+};
+
+/// What all levels share.
+struct Rig {
+    glm::dvec3 origin{0};
+    glm::dmat3 axes{1};
+    double radius = 0;
+    std::vector<RegionInput> regions;  ///< without vertices
+};
+
+class Loader {
+public:
+    Loader(std::span<const std::byte> bytes, std::size_t levels, Verify verify,
+           std::shared_ptr<Holdings> holdings)
+        : sections_(bytes, levels),
+          levels_(levels),
+          everything_(verify == Verify::everything),
+          holdings_(std::move(holdings)) {
+        file_.memory = holdings_;
+    }
+
+    /// Loads all, or returns the first fault.
+    [[nodiscard]] BodyFileFault load() {
+        for (const auto step :
+             {&Loader::check_sections, &Loader::load_rig, &Loader::load_materials, &Loader::load_sockets}) {
+            if (const BodyFileFault fault = (this->*step)(); !fault.none()) return fault;
+        }
+        const std::span<const char> notes = sections_.get<char>(FileSection::notes);
+        file_.notes = {notes.data(), notes.size()};
+        for (std::size_t level = 0; level < levels_; ++level) {
+            if (BodyFileFault fault = load_level(level); !fault.none()) {
+                fault.level = level;
+                return fault;
+            }
+        }
+        return {};
+    }
+
+    [[nodiscard]] BodyFile file() { return std::move(file_); }
+
+private:
+    [[nodiscard]] BodyFileFault check_sections() { return sections_.check(); }
+
+    static BodyFileFault number(FileSection section, std::size_t index, const BodyFault& body = {}) {
+        return {FileReason::number, section, BodyFileFault::nowhere, index, body};
+    }
+    static BodyFileFault count(FileSection section) { return {FileReason::count, section}; }
+    static BodyFileFault no_such(FileSection section, std::size_t index) {
+        return {FileReason::index, section, BodyFileFault::nowhere, index};
+    }
+
+    [[nodiscard]] BodyFileFault load_rig() {
+        const auto rigs = sections_.get<RigRecord>(FileSection::rig);
+        const auto regions = sections_.get<RegionRecord>(FileSection::regions);
+        auto rows = sections_.get<WrinkleRow>(FileSection::wrinkle_rows);
+        auto factors = sections_.get<std::array<float, FactorTable::directions>>(FileSection::factor_rows);
+        if (rigs.size() != 1) return count(FileSection::rig);
+        if (regions.empty() || regions.size() > max_regions) return count(FileSection::regions);
+        for (int i = 0; i < 3; ++i) {
+            rig_.origin[i] = rigs[0].origin[i];
+            for (int c = 0; c < 3; ++c) rig_.axes[i][c] = rigs[0].axes[3 * i + c];
+        }
+        rig_.radius = rigs[0].radius;
+        for (const RegionRecord& record : regions) {
+            if (record.wrinkle_rows > rows.size()) return count(FileSection::wrinkle_rows);
+            if (record.factor_rows > factors.size()) return count(FileSection::factor_rows);
+            RegionInput region;
+            region.length = record.length;
+            region.max_angle = record.max_angle;
+            region.rest_angle = record.rest_angle;
+            region.rest_direction = record.rest_direction;
+            region.onset = record.onset;
+            region.radius = record.radius;
+            region.max_scale = record.max_scale;
+            region.table.max_angle = record.table_max_angle;
+            region.table.rows.assign(rows.begin(), rows.begin() + record.wrinkle_rows);
+            region.factors.max_angle = record.factors_max_angle;
+            region.factors.rows.assign(factors.begin(), factors.begin() + record.factor_rows);
+            rows = rows.subspan(record.wrinkle_rows);
+            factors = factors.subspan(record.factor_rows);
+            rig_.regions.push_back(std::move(region));
+        }
+        if (!rows.empty()) return count(FileSection::wrinkle_rows);
+        if (!factors.empty()) return count(FileSection::factor_rows);
+        BodyInput input;
+        input.origin = rig_.origin;
+        input.axes = rig_.axes;
+        input.radius = rig_.radius;
+        input.regions = rig_.regions;
+        const BodyFault fault = check_rig(input);
+        return fault.none() ? BodyFileFault{} : number(FileSection::rig, BodyFileFault::nowhere, fault);
+    }
+
+    [[nodiscard]] BodyFileFault load_materials() {
+        const auto records = sections_.get<MaterialRecord>(FileSection::materials);
+        file_.materials.reserve(records.size());
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const auto name = sections_.name(records[i].name);
+            if (!name) return no_such(FileSection::materials, i);
+            const float* c = records[i].base_color;
+            if (!all_finite({c, 4})) return number(FileSection::materials, i);
+            file_.materials.push_back({*name, {c[0], c[1], c[2], c[3]}});
+        }
+        return {};
+    }
+
+    [[nodiscard]] BodyFileFault load_sockets() {
+        const auto records = sections_.get<SocketRecord>(FileSection::sockets);
+        file_.sockets.reserve(records.size());
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const auto name = sections_.name(records[i].name);
+            if (!name || records[i].region >= rig_.regions.size()) return no_such(FileSection::sockets, i);
+            const double* v = records[i].vertex;
+            const double *n = records[i].normal, *t = records[i].tangent;
+            const Socket socket{static_cast<std::size_t>(records[i].region),
+                                {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]},
+                                {n[0], n[1], n[2]},
+                                {t[0], t[1], t[2]}};
+            if (const BodyFault fault = check_socket(socket, i); !fault.none())
+                return number(FileSection::sockets, i, fault);
+            file_.sockets.push_back({*name, socket});
+        }
+        return {};
+    }
+
+    /// As Body::check would find it in what Sockets::make makes.
+    [[nodiscard]] BodyFault check_socket(const Socket& socket, std::size_t index) const {
+        const RegionInput& region = rig_.regions[socket.region];
+        const double radius = radius_of(region, rig_.radius);
+        BodyFault fault = check_vertex(socket.vertex, index, region, radius, deepest_wrinkle(region, radius));
+        if (fault.none()) fault = check_unit(BodyField::normals, socket.normal, index);
+        if (fault.none()) fault = check_unit(BodyField::tangents, socket.tangent, index);
+        return fault;
+    }
+
+    [[nodiscard]] BodyFileFault load_level(std::size_t index) {
+        const auto records = sections_.get<LevelRecord>(FileSection::level, index);
+        if (records.size() != 1) return count(FileSection::level);
+        const LevelRecord& record = records[0];
+        auto data = std::make_unique<BodyData>();
+        if (const BodyFileFault fault = place_columns(*data, record, index); !fault.none()) return fault;
+        if (const BodyFileFault fault = load_regions(*data, index); !fault.none()) return fault;
+        if (everything_) {
+            if (const BodyFileFault fault = check_numbers(*data, index); !fault.none()) return fault;
+        }
+        const float *low = record.low, *high = record.high;
+        for (int c = 0; c < 3; ++c) {
+            if (!(all_finite({low, 3}) && all_finite({high, 3}) && low[c] <= high[c]))
+                return number(FileSection::level, 0);
+        }
+        file_.levels.push_back({});
+        BodyFileLevel& level = file_.levels.back();
+        level.rest_bounds = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+        const std::size_t vertices = data->vertex_count;
+        level.body = Body(std::move(data));
+        return load_mesh(level, index, vertices);
+    }
+
+    [[nodiscard]] BodyFileFault place_columns(BodyData& data, const LevelRecord& record, std::size_t level) {
+        if (record.vertex_count == 0) return count(FileSection::level);
+        if (record.tangents > 1 || record.shape > 1 || record.rest > 1 || record.zero != 0)
+            return {FileReason::layout, FileSection::level};
+        const auto columns = sections_.get<float>(FileSection::columns, level);
+        data.layout = {record.tangents == 1, record.shape == 1, record.rest == 1};
+        constexpr std::uint64_t line = column_alignment / sizeof(float);
+        const bool padded = record.stride >= widest_batch && record.stride % line == 0 &&
+                            record.vertex_count <= record.stride - widest_batch;
+        if (!padded) return {FileReason::layout, FileSection::level};
+        if (columns.size() % data.layout.columns() != 0 ||
+            columns.size() / data.layout.columns() != record.stride)
+            return count(FileSection::columns);
+        data.stride = static_cast<std::size_t>(record.stride);
+        data.vertex_count = static_cast<std::size_t>(record.vertex_count);
+        data.columns = columns_at(columns.data(), data.stride, data.layout);
+        data.memory = file_.memory;
+        return {};
+    }
+
+    [[nodiscard]] BodyFileFault load_regions(BodyData& data, std::size_t level) {
+        const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
+        if (records.size() != rig_.regions.size()) return count(FileSection::bands);
+        data.inputs = rig_.regions;
+        const bool compares = std::ranges::any_of(rig_.regions, compares_with_rest);
+        if (compares && !data.layout.rest) return {FileReason::layout, FileSection::level};
+        std::size_t left = data.vertex_count;
+        for (std::size_t r = 0; r < records.size(); ++r) {
+            if (records[r].vertex_count > left) return count(FileSection::bands);
+            data.inputs[r].vertex_count = static_cast<std::size_t>(records[r].vertex_count);
+            left -= data.inputs[r].vertex_count;
+        }
+        if (left != 0) return count(FileSection::bands);
+        set_frame(data, rig_.origin, rig_.axes, rig_.radius);
+        for (std::size_t r = 0; r < records.size(); ++r) {
+            const std::optional<Bands> bands = bands_from(records[r]);
+            if (!bands) return number(FileSection::bands, r);
+            add_region(data, data.inputs[r], *bands);
+        }
+        return {};
+    }
+
+    static std::optional<Bands> bands_from(const BandsRecord& record) {
+        const float numbers[] = {record.lowest, record.highest, record.drift_error, record.max_drift_step,
+                                 record.max_scale};
+        const bool finite = all_finite(numbers) && all_finite(record.rho) && all_finite(record.outward) &&
+                            all_finite(record.inward) && all_finite(record.drift);
+        constexpr float end = 0.5f + 2e-3f;  // of v, with what WorkingRange lets lie beyond it
+        const bool along = -end <= record.lowest && record.lowest <= record.highest && record.highest <= end;
+        if (!finite || !along || record.shaped > 1) return std::nullopt;
+        Bands bands;
+        bands.lowest = record.lowest;
+        bands.highest = record.highest;
+        bands.drift_error = record.drift_error;
+        bands.max_drift_step = record.max_drift_step;
+        bands.max_scale = record.max_scale;
+        bands.shaped = record.shaped == 1;
+        std::ranges::copy(record.rho, bands.rho.begin());
+        std::ranges::copy(record.outward, bands.outward.begin());
+        std::ranges::copy(record.inward, bands.inward.begin());
+        std::ranges::copy(record.drift, bands.drift.begin());
+        return bands;
+    }
+
+    /// The columns, what lies between them, and what was derived from them.
+    [[nodiscard]] BodyFileFault check_numbers(const BodyData& data, std::size_t level) const {
+        const float* column = data.columns.cos_half_beta;
+        for (std::size_t c = 0; c < data.layout.columns(); ++c, column += data.stride) {
+            const auto padding = std::as_bytes(std::span(column + data.vertex_count, column + data.stride));
+            if (!std::ranges::all_of(padding, [](std::byte byte) { return byte == std::byte{0}; }))
+                return {FileReason::layout, FileSection::columns};
+        }
+        if (const BodyFault fault = check_columns(data); !fault.none())
+            return number(FileSection::columns, fault.index, fault);
+        const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
+        for (std::size_t r = 0; r < records.size(); ++r) {
+            const Region& region = data.regions[r];
+            const BandsRecord made =
+                record_of(bands_of(data.columns, region.first, region.last), data.inputs[r].vertex_count);
+            if (std::memcmp(&made, &records[r], sizeof made) != 0) return number(FileSection::bands, r);
+        }
+        return {};
+    }
+
+    [[nodiscard]] BodyFileFault load_mesh(BodyFileLevel& level, std::size_t index, std::size_t vertices) {
+        DrawMesh& mesh = level.mesh;
+        mesh.triangles = sections_.get<std::uint32_t>(FileSection::triangles, index);
+        mesh.uvs = sections_.get<glm::vec2>(FileSection::uvs, index);
+        mesh.source = sections_.get<std::uint32_t>(FileSection::source, index);
+        if (mesh.triangles.size() % 3 != 0) return count(FileSection::triangles);
+        if (!mesh.uvs.empty() && mesh.uvs.size() != vertices) return count(FileSection::uvs);
+        if (!mesh.source.empty() && mesh.source.size() != vertices) return count(FileSection::source);
+        if (everything_) {
+            const auto bad = std::ranges::find_if(mesh.triangles, [&](auto i) { return i >= vertices; });
+            if (bad != mesh.triangles.end()) {
+                return no_such(FileSection::triangles,
+                               static_cast<std::size_t>(bad - mesh.triangles.begin()) / 3);
+            }
+            for (std::size_t i = 0; i < mesh.uvs.size(); ++i) {
+                if (!all_finite({&mesh.uvs[i].x, 2})) return number(FileSection::uvs, i);
+            }
+        }
+        return load_parts(mesh, index);
+    }
+
+    [[nodiscard]] BodyFileFault load_parts(DrawMesh& mesh, std::size_t index) {
+        const auto records = sections_.get<PartRecord>(FileSection::parts, index);
+        if (records.empty()) return {};
+        std::vector<DrawPart>& parts = holdings_->parts.emplace_back();
+        parts.reserve(records.size());
+        std::uint64_t next = 0;
+        const auto materials = static_cast<std::int64_t>(file_.materials.size());
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const auto name = sections_.name(records[i].name);
+            const std::int32_t material = records[i].material;
+            if (!name || material < -1 || material >= materials) return no_such(FileSection::parts, i);
+            if (records[i].first_triangle != next) return {FileReason::layout, FileSection::parts};
+            next += records[i].triangle_count;
+            parts.push_back({*name, records[i].first_triangle, records[i].triangle_count, material});
+        }
+        if (next != mesh.triangles.size() / 3) return count(FileSection::parts);
+        mesh.parts = parts;
+        return {};
+    }
+
+    Sections sections_;
+    std::size_t levels_;
+    bool everything_;
+    Rig rig_;
+    BodyFile file_;
+    std::shared_ptr<Holdings> holdings_;
+};
+
+std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,
+                                  std::shared_ptr<Holdings> holdings) {
+    std::optional<BodyFile> file;
+    BodyFileFault found = check_header(bytes);
+    if (found.none()) {
+        const auto& header = *reinterpret_cast<const FileHeader*>(bytes.data());
+        if (verify == Verify::everything && checksum_of(bytes) != header.checksum)
+            found = {FileReason::checksum};
+        if (found.none()) found = check_rest_of_header(header);
+        if (found.none()) {
+            Loader loader(bytes, header.level_count, verify, std::move(holdings));
+            found = loader.load();
+            if (found.none()) file = loader.file();
+        }
+    }
+    if (fault != nullptr) *fault = found;
+    return file;
+}
+
+}  // namespace
+
+std::optional<BodyFile> load(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
+    return load_held(bytes, fault, verify, std::make_shared<Holdings>());
+}
+
+std::optional<BodyFile> load_copy(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
+    auto holdings = std::make_shared<Holdings>();
+    holdings->copy = Columns(1, (bytes.size() + sizeof(float) - 1) / sizeof(float));
+    std::byte* copy = std::as_writable_bytes(holdings->copy[0]).data();
+    if (!bytes.empty()) std::memcpy(copy, bytes.data(), bytes.size());
+    return load_held({copy, bytes.size()}, fault, verify, std::move(holdings));
+}
+
+}  // namespace goffer::bend
