@@ -20,6 +20,9 @@ void register_setup(Fixture& fixture);
 /// bind/<vertices>
 void register_bind();
 
+/// load/<everything|checksum|layout>/<vertices>
+void register_load();
+
 /// floor/<fill|fill_nt|copy|copy_nt|fill_cache>/<threads>
 void register_floor(Fixture& fixture);
 

@@ -42,6 +42,7 @@ int main(int count, char** words) {
     register_floor(fixture);
     register_setup(fixture);
     register_bind();
+    register_load();
     register_deform(fixture);
     if (sweep) register_sweep(fixture);
     RatioReporter reporter;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "file/checksum.hpp"
 #include "support/bodies.hpp"
+#include "support/body_bytes.hpp"
+#include "support/files.hpp"
 #include "support/rounds.hpp"
 
 #include <goffer/bend/body_file.hpp>
@@ -75,7 +76,7 @@ struct Drawn {
     }
 };
 
-std::vector<std::byte> bytes_of(const bend::Body& body) {
+std::vector<std::byte> saved(const bend::Body& body) {
     const Drawn drawn(body);
     BodyFileFault fault;
     std::vector<std::byte> bytes = bend::save(drawn.input(), &fault);
@@ -107,29 +108,6 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-/// Bytes at a multiple of 64 bytes, as a mapped file has them.
-class Mapped {
-public:
-    explicit Mapped(std::span<const std::byte> bytes) : memory_(1, bytes.size() / sizeof(float) + 1) {
-        bytes_ = std::as_writable_bytes(memory_[0]).first(bytes.size());
-        std::ranges::copy(bytes, bytes_.begin());
-    }
-    [[nodiscard]] std::span<std::byte> bytes() const { return bytes_; }
-
-private:
-    Columns memory_;
-    std::span<std::byte> bytes_;
-};
-
-/// Makes the checksum fit again, as somebody would who changes a file on purpose.
-void sign(std::span<std::byte> bytes) {
-    std::memset(&bytes[24], 0, 8);
-    bend::Checksum checksum;
-    checksum.add(bytes);
-    const std::uint64_t value = checksum.value();
-    std::memcpy(&bytes[24], &value, sizeof value);
-}
-
 template <class T>
 void put(std::span<std::byte> bytes, std::size_t offset, T value) {
     std::memcpy(&bytes[offset], &value, sizeof value);
@@ -151,7 +129,7 @@ std::size_t begin_of(std::span<const std::byte> bytes, FileSection section) {
 /// What load finds in a body's file after `change(bytes)`, signed again.
 template <class Change>
 BodyFileFault fault_after(const bend::Body& body, const Change& change) {
-    const Mapped file(bytes_of(body));
+    const AlignedBytes file(saved(body));
     change(file.bytes());
     sign(file.bytes());
     BodyFileFault fault;
@@ -167,8 +145,8 @@ TEST_CASE("body file: a body that was saved and loaded deforms to the same bits"
     for (int round = 0; round < rounds(60, 20); ++round) {
         CAPTURE(round);
         const bend::Body body = random_body(random);
-        const std::vector<std::byte> bytes = bytes_of(body);
-        const Mapped mapped(bytes);
+        const std::vector<std::byte> bytes = saved(body);
+        const AlignedBytes mapped(bytes);
         BodyFileFault fault;
         const std::optional<BodyFile> file = bend::load(mapped.bytes(), &fault);
         INFO(bend::describe(fault).c_str());
@@ -178,8 +156,8 @@ TEST_CASE("body file: a body that was saved and loaded deforms to the same bits"
         CHECK(loaded.bytes() < body.bytes());
         for (std::uint32_t seed = 0; seed < 8; ++seed)
             CHECK(same_bits(run_of(loaded, seed), run_of(body, seed)));
-        CHECK(bytes == bytes_of(body));    // nothing by chance
-        CHECK(bytes == bytes_of(loaded));  // and nothing lost
+        CHECK(bytes == saved(body));    // nothing by chance
+        CHECK(bytes == saved(loaded));  // and nothing lost
     }
 }
 
@@ -187,7 +165,7 @@ TEST_CASE("body file: what is drawn, sockets and notes come back") {
     Random random(52);
     const bend::Body body = random_body(random);
     const Drawn drawn(body);
-    const Mapped mapped(bytes_of(body));
+    const AlignedBytes mapped(saved(body));
     const BodyFile file = bend::load(mapped.bytes()).value();
     const auto& [loaded, mesh, box] = file.levels.at(0);
     CHECK(std::ranges::equal(mesh.triangles, drawn.triangles));
@@ -222,7 +200,7 @@ TEST_CASE("body file: a body outlives the file that it was copied from, and the 
     const bend::Body body = random_body(random);
     bend::Body kept;
     {
-        std::vector<std::byte> bytes = bytes_of(body);
+        std::vector<std::byte> bytes = saved(body);
         BodyFile file = bend::load_copy(bytes).value();
         std::ranges::fill(bytes, std::byte{0xff});
         kept = std::move(file.levels[0].body);
@@ -306,7 +284,7 @@ TEST_CASE("body file: what does not fit together is not saved") {
 TEST_CASE("body file: no byte can be changed, added or taken away unnoticed") {
     Random random(56);
     const bend::Body body = random_body(random);
-    const Mapped file(bytes_of(body));
+    const AlignedBytes file(saved(body));
     const std::span<std::byte> bytes = file.bytes();
     const std::size_t step = sanitized ? 7 : 1;
     for (std::size_t i = 0; i < bytes.size(); i += step) {
@@ -331,7 +309,7 @@ TEST_CASE("body file: no byte can be changed, added or taken away unnoticed") {
 TEST_CASE("body file: the reason says what to do") {
     Random random(57);
     const bend::Body body = random_body(random);
-    const Mapped file(bytes_of(body));
+    const AlignedBytes file(saved(body));
     const auto text_after = [&](const auto& change) {
         std::vector<std::byte> bytes(file.bytes().begin(), file.bytes().end());
         change(bytes);
@@ -400,7 +378,7 @@ TEST_CASE("body file: whatever a signed file holds, what is loaded stays within 
     Random random(59);
     std::size_t loaded = 0, refused = 0;
     for (int round = 0; round < rounds(4000, 400); ++round) {
-        const Mapped file(bytes_of(random_body(random)));
+        const AlignedBytes file(saved(random_body(random)));
         const std::span<std::byte> bytes = file.bytes();
         const std::size_t begin = begin_of(bytes, FileSection::level);
         for (std::size_t n = 1 + random() % 3; n-- > 0;) {
@@ -436,13 +414,36 @@ TEST_CASE("body file: whatever a signed file holds, what is loaded stays within 
 TEST_CASE("body file: without verification a changed file still runs within its memory") {
     Random random(60);
     for (int round = 0; round < rounds(4000, 400); ++round) {
-        const Mapped file(bytes_of(random_body(random)));
+        const AlignedBytes file(saved(random_body(random)));
         const std::span<std::byte> bytes = file.bytes();
         for (std::size_t n = 1 + random() % 8; n-- > 0;)
             put(bytes, random() % (bytes.size() / 4) * 4, static_cast<std::uint32_t>(random()));
         if (const auto made = bend::load(bytes, nullptr, bend::Verify::layout))
             run_of(made->levels[0].body, 1);
     }
+}
+
+TEST_CASE("body file: one of version 1 is read, and bends as it did when it was written") {
+    const std::string bytes = bytes_of(GOFFER_SOURCE_DIR "/tests/data/cylinder_v1.goffer");
+    BodyFileFault fault;
+    const std::optional<BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
+    INFO(bend::describe(fault).c_str());
+    REQUIRE(file.has_value());
+    REQUIRE(file->levels.size() == 2);
+    CHECK(file->sockets.at(0).name == "tip");
+    const std::vector<bend::Pose> poses{{0.6f, 0.3f}, {-0.4f, 1.0f}};
+    const bend::Body& body = file->levels[0].body;
+    std::vector<glm::vec3> positions(body.vertex_count());
+    bend::DeformJob job{.body = &body, .poses = poses};
+    job.positions = interleaved<3>(&positions[0].x, positions.size());
+    bend::run(job);
+    const std::pair<std::size_t, glm::vec3> places[] = {{0, {1, 0, 0}},
+                                                        {23, {0.355762f, -0.255346f, 1.06836f}},
+                                                        {46, {0.508074f, -0.924657f, 2.8031f}},
+                                                        {69, {0.383074f, 0.427835f, 4.68014f}},
+                                                        {92, {1.43919f, 1.35038f, 5.92699f}},
+                                                        {115, {2.90247f, 1.36069f, 7.21275f}}};
+    for (const auto& [vertex, place] : places) CHECK(glm::distance(positions[vertex], place) < 5e-5f);
 }
 
 TEST_CASE("body file: the checksum is XXH64") {

@@ -82,7 +82,8 @@ TEST_CASE("bad words: what does not go together") {
 
 TEST_CASE("bad words: no or another command, unknown options, too many words") {
     const Place place;
-    refused(place.folder, 2, {}, {"give a command: base, inspect, refine, bend, crowd; see goffer --help"});
+    refused(place.folder, 2, {},
+            {"give a command: base, inspect, refine, bend, bake, crowd; see goffer --help"});
     refused(place.folder, 2, {"fold", "base.ply"}, {"no command fold", "see goffer --help"});
     refused(place.folder, 2, {"bend"}, {"required"});
     refused(place.folder, 2, {"bent", "base.ply"}, {"no command bent; did you mean bend?"});

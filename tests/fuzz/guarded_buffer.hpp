@@ -28,7 +28,7 @@ namespace goffer::test {
 /// Pages for one array, kept for the next one.
 class GuardedPages {
 public:
-    static constexpr std::size_t pages = 40;
+    static constexpr std::size_t pages = 64;
 
     GuardedPages() {
         void* const memory =

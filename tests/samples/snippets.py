@@ -20,11 +20,14 @@ HEADERS = ("engine/include/**/*.hpp", "modules/*/include/**/*.hpp")
 # What the snippets of a file take for granted.
 ASSUMED = {
     "README.md": """
+        #include <goffer/bend/body_file.hpp>
         #include <goffer/bend/crowd.hpp>
         #include <vector>
         struct Vertex { glm::vec3 position; };
         extern std::vector<Vertex> vertices;
         extern const bend::Body body;
+        extern const std::span<const std::byte> bytes;
+        void complain(const char*);
     """,
     "engine/include/goffer/engine/strided_view.hpp": """
         #include <vector>
@@ -36,6 +39,11 @@ ASSUMED = {
         extern std::vector<Worm> worms;
         extern Registry registry;
         extern std::size_t n;
+    """,
+    "modules/bend/include/goffer/bend/body_file.hpp": """
+        extern const std::span<const std::byte> bytes;
+        extern DeformJob job;
+        void report(const char*);
     """,
     "modules/bend/include/goffer/bend/crowd.hpp": """
         #include <vector>

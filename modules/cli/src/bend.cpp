@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body_file.hpp"
 #include "commands.hpp"
 #include "local_area.hpp"
 #include "model.hpp"
@@ -49,7 +50,7 @@ struct Request {
     int threads;
 
     explicit Request(const BendOptions& options)
-        : pose(options.pose),
+        : pose(options.pose, baked_regions(options.model, options.bind.load.limits)),
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
@@ -138,15 +139,18 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
     for (std::size_t r = 0; r < binding.regions.size(); ++r)
         used.push_back(used_angle(binding.body, r, targets[r].pose));
     const double area_after = fit::surface_area(bent.records.positions, bent.records.triangles);
-    const std::optional<double> base_change = fit::base_area_change(binding, used);
+    std::optional<double> base_change;
+    if (!model.baked) base_change = fit::base_area_change(binding, used);
     nlohmann::ordered_json& json = report.json;
-    report_poses(report, request.pose, targets, binding);
-    json["amplitude"] = request.bind.words.amplitude;
-    json["profile"] = request.bind.words.profile;
+    report_poses(report, request.pose, targets, model);
+    if (!model.baked) {
+        json["amplitude"] = request.bind.words.amplitude;
+        json["profile"] = request.bind.words.profile;
+    }
     json["area_before"] = area_before;
     json["area_after"] = area_after;
     json["base_area_change"] = base_change ? nlohmann::ordered_json(*base_change) : nullptr;
-    json["bind_ms"] = binding.milliseconds;
+    if (!model.baked) json["bind_ms"] = binding.milliseconds;
     json["deform_us"] = bent.microseconds;
     json["isa"] = name(resolve(request.isa));
     json["threads"] = request.threads;
@@ -155,10 +159,11 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
                                    (base_change ? ", " + percent(*base_change) + " of its base" : ""));
     if (!request.bind.options.wrinkle_range.whole())
         report_range(report, request, model, bent.records.positions);
-    report.line("time", number(binding.milliseconds) + " ms to bind, " + number(bent.microseconds) +
-                            " us to deform (" + std::string(name(resolve(request.isa))) +
+    const std::string bind = model.baked ? "" : number(binding.milliseconds) + " ms to bind, ";
+    report.line("time", bind + number(bent.microseconds) + " us to deform (" +
+                            std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
-    warn_of_folds(report, request.bind, model, used);
+    if (!model.baked) warn_of_folds(report, request.bind, model, used);
 }
 
 void run_bend(const BendOptions& options) {
@@ -172,11 +177,11 @@ void run_bend(const BendOptions& options) {
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
-    report_fit(report, model.cylinder);
-    report_suitability(report, model);
+    if (!model.baked) report_fit(report, model.cylinder);
+    if (!model.baked) report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
     report_bend(report, request, model, targets, bent, area_before);
-    report_local_area(report, model, poses, bent.records.positions);
+    in_file(options.model, [&] { report_local_area(report, model, poses, bent.records.positions); });
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
     if (!options.png.empty()) {
@@ -200,7 +205,8 @@ void run_bend(const BendOptions& options) {
 void add_bend(CLI::App& app, Action& action) {
     const auto options = std::make_shared<BendOptions>();
     CLI::App* command = app.add_subcommand("bend", "Bend a model, and write it and a picture of it");
-    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
+        ->required();
     command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
         ->required();
     command->footer(
@@ -212,6 +218,9 @@ void add_bend(CLI::App& app, Action& action) {
     add_refine_word(*command, options->bind, "auto");
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
+    add_level_word(*command, options->bind.level);
+    for (const char* option : {"--fit", "--regions"})
+        options->bind.choices.push_back(command->get_option(option));
     command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();
     command

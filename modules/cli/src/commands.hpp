@@ -7,6 +7,7 @@
 
 namespace goffer::cli {
 
+void add_bake(CLI::App& app, Action& action);
 void add_base(CLI::App& app, Action& action);
 void add_inspect(CLI::App& app, Action& action);
 void add_refine(CLI::App& app, Action& action);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "body_file.hpp"
 #include "commands.hpp"
 #include "model.hpp"
+#include "poses.hpp"
 #include "report.hpp"
 #include "suitability.hpp"
 
 #include <goffer/fit/geometry.hpp>
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/read_file.hpp>
 
 #include <memory>
 
@@ -18,6 +21,7 @@ struct InspectOptions {
     std::string rest = "auto";
     mesh::LoadOptions load;
     std::filesystem::path json;
+    bool said_fit = false;  ///< --axis or --rest
 };
 
 /// The arc of the rest center line, if there is one, beside the straight line that it replaces.
@@ -41,7 +45,80 @@ void report_rest(Report& report, const InspectOptions& options, const BindReques
     report.line("straight residual", number(straight) + " of the radius");
 }
 
+/// Of text out of a file, that a line of the report can hold.
+std::string list_of(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 12;
+    std::string list = std::to_string(names.size());
+    for (std::size_t i = 0; i < names.size() && i < most; ++i) list += (i == 0 ? ": " : ", ") + names[i];
+    return list + (names.size() > most ? ", .." : "");
+}
+
+void report_levels(Report& report, const bend::BodyFile& file) {
+    for (std::size_t i = 0; i < file.levels.size(); ++i) {
+        const auto& [body, mesh, box] = file.levels[i];
+        report.json["levels"].push_back({{"vertices", body.vertex_count()},
+                                         {"triangles", mesh.triangles.size() / 3},
+                                         {"parts", mesh.parts.size()},
+                                         {"uvs", !mesh.uvs.empty()},
+                                         {"tangents", body.has_tangents()},
+                                         {"low", {box.low.x, box.low.y, box.low.z}},
+                                         {"high", {box.high.x, box.high.y, box.high.z}}});
+        report.line(i == 0 ? "levels" : "", std::to_string(i) + ": " + std::to_string(body.vertex_count()) +
+                                                " vertices, " +
+                                                counted(mesh.triangles.size() / 3, "triangle") +
+                                                (mesh.uvs.empty() ? "" : ", texture coordinates") +
+                                                (body.has_tangents() ? ", tangents" : ""));
+    }
+}
+
+void report_regions(Report& report, const bend::Body& body) {
+    const std::span<const bend::RegionInput> regions = body.region_inputs();
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const double limit = degrees(regions[r].max_angle), rest = degrees(regions[r].rest_angle);
+        const double direction = degrees(regions[r].rest_direction);
+        report.json["regions"].push_back({{"length", regions[r].length},
+                                          {"max_angle", limit},
+                                          {"rest_angle", rest},
+                                          {"rest_direction", direction}});
+        std::string line = region_words(r, regions.size()) + "length " + number(regions[r].length) +
+                           ", bends by " + number(limit) + " degrees at most";
+        if (rest != 0) line += ", bent at rest by " + number(rest) + " toward " + number(direction);
+        report.line(r == 0 ? "body" : "", line);
+    }
+}
+
+void inspect_body_file(const InspectOptions& options) {
+    if (options.said_fit) {
+        throw UsageError("--axis, --rest: " + options.model.string() +
+                         " is a body file, which was fitted already; leave them out");
+    }
+    Report report(options.json);
+    const bend::BodyFile file = read_body_file(options.model, options.load.limits);
+    const nlohmann::ordered_json notes = read_notes(file);
+    std::vector<std::string> sockets, materials;
+    for (const bend::NamedSocket& socket : file.sockets) sockets.emplace_back(socket.name);
+    for (const bend::DrawMaterial& material : file.materials) materials.emplace_back(material.name);
+    report.json["file"] = options.model.string();
+    report.json["bytes"] = io::size_of_file(options.model);
+    report.json["radius"] = file.levels[0].body.radius();
+    report.line("body file",
+                options.model.string() + ", " + std::to_string(io::size_of_file(options.model)) + " bytes");
+    report_levels(report, file);
+    report_regions(report, file.levels[0].body);
+    report.line("radius", number(file.levels[0].body.radius()));
+    report.line("sockets", list_of(sockets));
+    report.line("materials", list_of(materials));
+    report.json["sockets"] = sockets;
+    report.json["materials"] = materials;
+    report.json["notes"] = notes;
+    if (const auto model = notes.find("model"); model != notes.end() && model->is_string())
+        report.line("made from", model->get<std::string>());
+    io::AtomicFiles outputs;
+    report.finish(outputs);
+}
+
 void run_inspect(const InspectOptions& options) {
+    if (is_body_file(options.model)) return inspect_body_file(options);
     BindWords words;
     words.axis = options.axis;
     words.rest = options.rest;
@@ -74,11 +151,15 @@ void add_inspect(CLI::App& app, Action& action) {
     const auto options = std::make_shared<InspectOptions>();
     CLI::App* command =
         app.add_subcommand("inspect", "Fit the base cylinder to a model and say what was found");
-    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
+        ->required();
     add_fit_words(*command, options->axis, options->rest);
     add_load_words(*command, options->load);
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
-    command->callback([options, &action] { action = [options] { run_inspect(*options); }; });
+    command->callback([options, command, &action] {
+        options->said_fit = command->count("--axis") + command->count("--rest") > 0;
+        action = [options] { run_inspect(*options); };
+    });
 }
 
 }  // namespace goffer::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model.hpp"
 
+#include "body_file.hpp"
 #include "memory.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
@@ -95,6 +96,12 @@ CLI::Validator refine_word() {
 
 }  // namespace
 
+void add_level_word(CLI::App& command, std::size_t& level) {
+    command
+        .add_option("--level", level, "Take this level of detail of a body file; 0 is the finest (default)")
+        ->check(CLI::Range(std::size_t{0}, bend::max_levels - 1));
+}
+
 void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
     command.add_flag("--allow-outside", options.allow_outside,
                      "Read what a model names outside its folder too (buffers, images, material files), and "
@@ -157,6 +164,12 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
+    for (const CLI::Option* option : command.get_options()) {
+        for (const char* name : {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness",
+                                 "--shape", "--paper", "--wrinkle-range", "--onset", "--axis", "--rest"}) {
+            if (option->check_lname(name + 2)) words.choices.push_back(option);
+        }
+    }
     add_load_words(command, words.load);
 }
 
@@ -169,6 +182,7 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
                         usual + ")")
         ->expected(0, 1)
         ->check(refine_word());
+    words.choices.push_back(command.get_option("--refine"));
 }
 
 BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
@@ -193,10 +207,16 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
 BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                       const std::filesystem::path& fit) {
     const Progress progress("reading " + file.string());
+    if (is_body_file(file)) return baked_model(file, request);
+    if (request.words.level > 0)
+        throw UsageError("--level: " + file.string() + " is a model, and has no levels; leave it out");
     mesh::Mesh mesh = mesh::load(file, request.words.load);
     const mesh::Limits& limits = request.words.load.limits;
     check_memory(file.string(), mesh, limits);
-    mesh::VertexArrays rest = mesh::vertex_arrays(mesh);
+    const auto arrays = [&] {
+        return request.with_uvs ? mesh::vertex_arrays_with_uvs(mesh) : mesh::vertex_arrays(mesh);
+    };
+    mesh::VertexArrays rest = arrays();
     fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
@@ -211,7 +231,7 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
         const bool automatic = request.refine == "auto";
         growth = in_file(file, [&] { return refine(mesh, cylinder, request.options, limits, automatic); });
         if (growth->triangles_after != growth->triangles_before) {
-            rest = mesh::vertex_arrays(mesh);
+            rest = arrays();
             geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
         } else if (automatic) {
             growth.reset();

@@ -34,7 +34,13 @@ struct BindWords {
     std::string rest = "auto";
     std::optional<double> onset = {};
     std::string refine = "off";  ///< split edges until the mesh carries the folds: auto, on, off
+    std::size_t level = 0;       ///< of a body file
+    /// The options of all these but `load` and `level`: a body file has no use for one that is said.
+    std::vector<const CLI::Option*> choices = {};
 };
+
+/// Adds --level, for a body file in the place of a model. `level` must outlive `command`.
+void add_level_word(CLI::App& command, std::size_t& level);
 
 /// Adds --allow-outside and --max-memory: what is read of a model. `options` must outlive `command`.
 void add_load_words(CLI::App& command, mesh::LoadOptions& options);
@@ -56,6 +62,7 @@ struct BindRequest {
     fit::RestPose rest;
     fit::BindOptions options;
     std::string refine;
+    bool with_uvs = false;  ///< a vertex of the body for each texture coordinate of a vertex
 
     /// `regions`: as PoseRequest's; none for a body of one region.
     explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
@@ -70,10 +77,14 @@ struct BoundModel {
     fit::Cylinder cylinder;  ///< the base that it is bound to
     fit::Binding binding;
     std::optional<Growth> growth = {};  ///< where the mesh was refined, or was to be with --refine on
+    /// It comes from a body file: of its binding only the body, its cylinder without radii, and the regions'
+    /// lengths and folds are there; of its mesh what is drawn.
+    bool baked = false;
 };
 
-/// Reads, fits, refines and binds `file`; says so on a terminal where that takes long. `fit`: a report that
-/// the cylinder is taken from, or empty. Throws an error that names the file at fault.
+/// Reads, fits, refines and binds `file`, or loads it if it is a body file; says so on a terminal where that
+/// takes long. `fit`: a report that the cylinder is taken from, or empty. Throws an error that names the file
+/// at fault.
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
 

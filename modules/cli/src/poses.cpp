@@ -2,6 +2,7 @@
 #include "poses.hpp"
 
 #include "arguments.hpp"
+#include "model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,10 +129,9 @@ void add_angle_words(CLI::App& command, PoseWords& words, const std::string& ang
             ->check(angle_word(true))
             ->type_name("FLOAT|max")
             ->capture_default_str();
-    CLI::Option* const regions = command.add_option(
-        "--regions", words.regions, "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3");
+    command.add_option("--regions", words.regions,
+                       "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3");
     command.add_option("--angles", words.angles, "Turn each region by an angle of its own, as 40,-60,20")
-        ->needs(regions)
         ->excludes(one);
 }
 
@@ -156,12 +156,17 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
             ->check(angle_word(false));
     command
         .add_option("--directions", words.directions, "Bend each region in a direction of its own, as 0,0,90")
-        ->needs("--regions")
         ->excludes(toward);
 }
 
-PoseRequest::PoseRequest(const PoseWords& words) : from_rest(words.by.has_value()) {
-    if (words.regions) regions = read_regions(*words.regions);
+PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions> baked)
+    : regions(words.regions ? read_regions(*words.regions) : std::move(baked)),
+      from_rest(words.by.has_value()) {
+    for (const auto& [said, option] : {std::pair(words.angles.has_value(), "--angles"),
+                                       std::pair(words.directions.has_value(), "--directions")}) {
+        if (said && !words.regions && regions.empty())
+            throw UsageError(std::string(option) + ": is for a body of several regions; add --regions");
+    }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
     const double shared = read_angles(from_rest ? "--by" : "--angle", words.by.value_or(words.angle))[0];
@@ -227,7 +232,8 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
 }
 
 void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
-                  const fit::Binding& binding) {
+                  const BoundModel& model) {
+    const fit::Binding& binding = model.binding;
     const bend::Body& body = binding.body;
     nlohmann::ordered_json poses, regions;
     bool clamped = false;
@@ -252,7 +258,8 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
                                               number(targets[i].direction) + ", at most " + number(limit));
         if (beyond && !all_the_way) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
-    for (std::size_t i = 0; i < targets.size(); ++i)
+    const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
+    for (std::size_t i = 0; known && i < targets.size(); ++i)
         report.line(i == 0 ? "folds" : "",
                     region_words(i, targets.size()) + std::to_string(binding.folds(i)) + " of " +
                         std::to_string(binding.folds_capacity(i)) + " that the mesh carries");

@@ -17,6 +17,8 @@
 
 namespace goffer::cli {
 
+struct BoundModel;
+
 /// Words on poses. Lists are numbers with commas between them, from base to tip.
 struct PoseWords {
     std::string angle = "90";
@@ -40,7 +42,8 @@ struct PoseRequest {
     std::vector<double> angles;               ///< degrees, one per region; an infinity: as far as it can
     std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
 
-    explicit PoseRequest(const PoseWords& words);
+    /// `baked`: the regions of a body that has them already, if it has several.
+    explicit PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions> baked = {});
 };
 
 /// Where a region is bent to. Angle and direction are degrees, the angle counts from straight.
@@ -80,6 +83,6 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
 /// Says what each region was bent to, and warns of those that were clamped. Of a body that is bent at rest it
 /// also says what angles count from, and whether it is straightened.
 void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
-                  const fit::Binding& binding);
+                  const BoundModel& model);
 
 }  // namespace goffer::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "body_file.hpp"
 #include "commands.hpp"
 #include "memory.hpp"
 #include "model.hpp"
@@ -45,6 +46,7 @@ void run_refine(const RefineOptions& options) {
                  {{"-o", options.output}, {"--json", options.json}});
     check_model_output(options.output);
     Report report(options.json);
+    refuse_body_file(options.model);
     const BoundModel model = bind_model(options.model, request, options.fit);
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));

@@ -50,14 +50,14 @@ Extent extent_of(const float* column, std::size_t first, std::size_t last) noexc
 template <std::size_t N>
 bool squares_are(double wanted, double slack, const std::array<const float*, N>& columns, std::size_t first,
                  std::size_t last) noexcept {
-    const auto low = static_cast<float>(wanted - slack), high = static_cast<float>(wanted + slack);
-    bool within = true;
+    float low = static_cast<float>(wanted), high = low;
     for (std::size_t i = first; i < last; ++i) {
         float sum = 0;
         for (const float* column : columns) sum += column[i] * column[i];
-        within = within & (sum >= low) & (sum <= high);
+        low = std::min(low, sum);
+        high = std::max(high, sum);
     }
-    return within;
+    return static_cast<double>(low) >= wanted - slack && static_cast<double>(high) <= wanted + slack;
 }
 
 /// Which number of a vertex a column was made from.
@@ -190,17 +190,19 @@ private:
         const auto aside = static_cast<float>(kappa * std::sin(region_.rest_direction));
         const auto outline = static_cast<float>(kappa);
         constexpr float slack = 4e-6f;
-        bool follows = true;
+        float beyond = 0;  // the largest distance beyond what rounding explains
         for (std::size_t i = first; i < last; ++i) {
             const float s = c.scale != nullptr ? c.scale[i] : 1, cosine = c.cos_beta[i], sine = c.sin_beta[i];
             const float rest = 1 - s * (outline + toward * cosine + aside * sine), per = c.rest_scale[i];
-            follows = follows & (std::fabs(c.cos_half_beta[i] * c.cos_half_beta[i] - 1 - cosine) <= slack) &
-                      (std::fabs(c.cos_half_beta[i] * c.sin_half_beta[i] - sine) <= slack) &
-                      (std::fabs(c.rest_cosine[i] - per * cosine) <= slack * per) &
-                      (std::fabs(c.rest_sine[i] - per * sine) <= slack * per) &
-                      (std::fabs(per * rest - s) <= slack * (s + per));
+            const float half = c.cos_half_beta[i];
+            const float angle =
+                std::max(std::fabs(half * half - 1 - cosine), std::fabs(half * c.sin_half_beta[i] - sine));
+            const float scaled =
+                std::max(std::fabs(c.rest_cosine[i] - per * cosine), std::fabs(c.rest_sine[i] - per * sine));
+            const float scale = std::fabs(per * rest - s) - slack * (s + per);
+            beyond = std::max({beyond, angle - slack, scaled - slack * per, scale});
         }
-        return follows;
+        return beyond <= 0;
     }
 
     /// What a product of numbers that were rounded to 0 may differ by.

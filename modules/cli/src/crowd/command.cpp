@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body_file.hpp"
 #include "commands.hpp"
 #include "crowd/crowd.hpp"
 #include "crowd/render.hpp"
@@ -45,6 +46,15 @@ bend::Stores parse_stores(const std::string& text) {
     return text == "streaming" ? bend::Stores::non_temporal : bend::Stores::automatic;
 }
 
+/// The regions of the first body file that has several: the other models are to have as many.
+std::vector<fit::RegionOptions> regions_in(const CrowdOptions& options) {
+    for (const std::filesystem::path& model : options.models) {
+        std::vector<fit::RegionOptions> regions = baked_regions(model, options.bind.load.limits);
+        if (!regions.empty()) return regions;
+    }
+    return {};
+}
+
 /// Everything that can be refused by looking at the words alone.
 struct CrowdRequest {
     PoseRequest pose;
@@ -54,7 +64,7 @@ struct CrowdRequest {
     int threads;
 
     explicit CrowdRequest(const CrowdOptions& options)
-        : pose(options.pose),
+        : pose(options.pose, regions_in(options)),
           targets(targets_from_straight(pose)),
           bind(options.bind, pose.regions),
           plan{.instances = options.instances,
@@ -92,7 +102,7 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
         warn_of_angle(report, where + region_words(r, targets.size()), targets[r].angle,
                       degrees(static_cast<double>(body.max_angle(r))), "it is bent so far at most");
     }
-    warn_of_folds(report, request.bind, model, used, where);
+    if (!model.baked) warn_of_folds(report, request.bind, model, used, where);
 }
 
 void report_models(Report& report, const CrowdRequest& request, std::span<const BoundModel> models) {
@@ -209,7 +219,7 @@ void add_crowd(CLI::App& app, Action& action) {
         "Bend a crowd of models, frame after frame, and say how fast that is, next to a fill of memory");
     command
         ->add_option("models", options->models,
-                     "Models, about as many of each: .glb, .gltf, .obj, .ply or .stl")
+                     "Models, about as many of each: .glb, .gltf, .obj, .ply, .stl, or body files")
         ->required();
     command->add_option("--instances", options->instances, "Bend this many instances, of all models together")
         ->check(CLI::Range(1, 1'000'000))
@@ -224,6 +234,8 @@ void add_crowd(CLI::App& app, Action& action) {
     options->bind.amplitude = "paper";  // the factors of `mesh` cost time in each frame
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "off");
+    options->bind.choices.push_back(command->get_option("--regions"));
+    add_level_word(*command, options->bind.level);
     command
         ->add_option(
             "--streams", options->streams,

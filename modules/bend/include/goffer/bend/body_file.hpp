@@ -89,13 +89,22 @@ struct BodyFileLevel {
     Bounds rest_bounds;  ///< the tight box of all vertices at rest, model space
 };
 
-/// What a file holds. Spans and names refer to its bytes, or to `memory`.
+/// What a file holds; move-only. Spans and names refer to its bytes, and are good for as long as this object.
+/// Its bodies may be moved out of it, and outlive it.
 struct BodyFile {
     std::vector<BodyFileLevel> levels;  ///< from fine to coarse, at least one
     std::vector<DrawMaterial> materials;
     std::vector<NamedSocket> sockets;
     std::string_view notes;
-    std::shared_ptr<const void> memory;  ///< bodies have a share of their own, so they may outlive the rest
+
+    /// For goffer's own sources: load() makes files.
+    explicit BodyFile(std::shared_ptr<const void> memory) noexcept;
+    BodyFile(BodyFile&& other) noexcept;
+    BodyFile& operator=(BodyFile&& other) noexcept;
+    ~BodyFile();
+
+private:
+    std::shared_ptr<const void> memory_;
 };
 
 /// A part of a file. From `level` on there is one for each level.
@@ -159,12 +168,18 @@ enum class Verify : std::uint8_t {
     /// All of it: the checksum, and each number, so that a file from anywhere does no harm. The runs of its
     /// bodies are as safe as those of Body::make's, and all indices refer to what is there.
     everything,
+    /// That no byte has changed since it was written, and what takes no time: for files that come from where
+    /// nobody means harm.
+    checksum,
     /// What takes no time: loading does not touch columns, triangles or texture coordinates, which a mapped
     /// file then reads when they are first used. For files that were verified once, by whoever installed
     /// them. In one that was changed since then, these are any bits: a run stays within its memory and writes
     /// numbers that mean nothing, but an index of a triangle may be that of no vertex.
     layout,
 };
+
+/// Whether `bytes` begin as a body file does: to tell it from other files by its content.
+[[nodiscard]] bool is_body_file(std::span<const std::byte> bytes) noexcept;
 
 /// Returns what `bytes` hold, which is used where it lies: the memory belongs to the caller, must begin at a
 /// multiple of 64 bytes (mapped files do) and must outlive the file and its bodies, unchanged. Returns

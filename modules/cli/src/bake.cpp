@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "body_file.hpp"
+#include "commands.hpp"
+#include "memory.hpp"
+#include "model.hpp"
+#include "poses.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "suitability.hpp"
+
+#include <goffer/fit/bake.hpp>
+#include <goffer/fit/sockets.hpp>
+#include <goffer/io/atomic_file.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+struct BakeOptions {
+    std::filesystem::path model;
+    std::vector<std::filesystem::path> levels;
+    std::filesystem::path output;
+    PoseWords pose;
+    BindWords bind;
+    std::filesystem::path fit;
+    std::vector<std::string> sockets;
+    std::filesystem::path json;
+};
+
+/// A socket as it was asked for: at the surface, next to a point.
+struct SocketWords {
+    std::string name;
+    glm::dvec3 point{0};
+};
+
+SocketWords parse_socket(const std::string& text) {
+    const std::size_t sign = text.find('=');
+    const std::string mend = "; give NAME=X,Y,Z, as in hat=0,0,9.5";
+    if (sign == text.npos || sign == 0)
+        throw UsageError("--socket: '" + text + "' has no name before a '='" + mend);
+    const std::vector<double> point = read_numbers("--socket", text.substr(sign + 1));
+    if (point.size() != 3) throw UsageError("--socket: '" + text + "' has not three numbers" + mend);
+    return {text.substr(0, sign), {point[0], point[1], point[2]}};
+}
+
+/// Everything that can be refused by looking at the words alone.
+struct BakeRequest {
+    BindRequest bind;
+    std::vector<SocketWords> sockets;
+
+    explicit BakeRequest(const BakeOptions& options) : bind(options.bind, PoseRequest(options.pose).regions) {
+        bind.with_uvs = true;
+        for (const std::string& text : options.sockets) {
+            const SocketWords socket = parse_socket(text);
+            const auto same = [&](const SocketWords& other) { return other.name == socket.name; };
+            if (std::ranges::any_of(sockets, same))
+                throw UsageError("--socket: there are two named '" + socket.name + "'");
+            sockets.push_back(socket);
+        }
+        if (!options.fit.empty() && bind.axis)
+            throw UsageError("--axis: the axis is in the file of --fit; give one of them");
+        if (options.levels.size() + 1 > bend::max_levels)
+            throw UsageError("--lod: a body file has " + std::to_string(bend::max_levels) +
+                             " levels at most, of which MODEL is one");
+        if (mesh::can_save(options.output))
+            throw UsageError("-o: " + options.output.string() +
+                             " is the name of a model; a body file ends in .goffer, or as you like");
+        std::vector<NamedFile> inputs{{"MODEL", options.model}, {"--fit", options.fit}};
+        for (const std::filesystem::path& level : options.levels) inputs.push_back({"--lod", level});
+        check_places(inputs, {{"-o", options.output}, {"--json", options.json}});
+        check_output(options.output);
+    }
+};
+
+/// A level of detail: its mesh, bound to the rig, and what is drawn of it.
+struct Level {
+    BoundModel model;
+    std::vector<bend::DrawPart> parts;
+};
+
+BoundModel bind_next(const std::filesystem::path& file, const BindRequest& request, const fit::Binding& rig) {
+    const Progress progress("reading " + file.string());
+    refuse_body_file(file);
+    BoundModel model;
+    model.file = file;
+    model.mesh = mesh::load(file, request.words.load);
+    check_memory(file.string(), model.mesh, request.words.load.limits);
+    model.rest = mesh::vertex_arrays_with_uvs(model.mesh);
+    const fit::Geometry geometry{model.rest.positions, model.rest.triangles, model.rest.normals,
+                                 model.rest.tangents};
+    model.binding = in_file(file, [&] { return fit::bind_level(geometry, rig); });
+    model.cylinder = rig.cylinder;
+    return model;
+}
+
+/// Parts as stretches of triangles. `place` of a material: which of the file's it is.
+std::vector<bend::DrawPart> parts_of(const mesh::Mesh& mesh, const std::vector<std::int32_t>& place) {
+    std::vector<bend::DrawPart> parts;
+    std::uint32_t first = 0;
+    for (const mesh::Part& part : mesh.parts) {
+        std::uint32_t count = 0;
+        for (std::uint32_t face = 0; face < part.face_count; ++face)
+            count += mesh.faces[part.first_face + face] - 2;
+        const std::int32_t material = part.material < 0 ? -1 : place[static_cast<std::size_t>(part.material)];
+        parts.push_back({part.name, first, count, material});
+        first += count;
+    }
+    return parts;
+}
+
+/// The levels' materials, those of equal name and color once. Sets the levels' parts.
+std::vector<bend::DrawMaterial> materials_of(std::vector<Level>& levels) {
+    std::vector<bend::DrawMaterial> all;
+    for (Level& level : levels) {
+        std::vector<std::int32_t> place;
+        for (const mesh::Material& own : level.model.mesh.materials) {
+            const auto same = std::ranges::find_if(all, [&](const bend::DrawMaterial& other) {
+                return other.name == own.name && other.base_color == own.base_color;
+            });
+            place.push_back(static_cast<std::int32_t>(same - all.begin()));
+            if (same == all.end()) all.push_back({own.name, own.base_color});
+        }
+        level.parts = parts_of(level.model.mesh, place);
+    }
+    return all;
+}
+
+std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::vector<SocketWords>& words) {
+    const mesh::VertexArrays& rest = model.rest;
+    const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
+    std::vector<bend::NamedSocket> sockets;
+    for (const auto& [name, point] : words) {
+        sockets.push_back(
+            {name, in_file(model.file, [&] { return fit::socket_near(model.binding, geometry, point); })});
+    }
+    return sockets;
+}
+
+/// Warns of what shows at a right angle, or as far as the body bends.
+void warn_of_binding(Report& report, const BakeRequest& request, const BoundModel& model) {
+    const bend::Body& body = model.binding.body;
+    std::vector<double> angles;
+    for (std::size_t r = 0; r < body.region_count(); ++r) {
+        const double share = body.region_inputs()[r].length / body.length();
+        angles.push_back(std::min(static_cast<double>(body.max_angle(r)), share * std::numbers::pi / 2));
+    }
+    warn_of_folds(report, request.bind, model, angles);
+}
+
+void report_body(Report& report, const std::vector<Level>& levels, std::size_t bytes,
+                 const BakeOptions& options) {
+    const fit::Binding& binding = levels[0].model.binding;
+    for (std::size_t r = 0; r < binding.regions.size(); ++r) {
+        const double limit = degrees(static_cast<double>(binding.body.max_angle(r)));
+        report.json["regions"].push_back({{"length", binding.regions[r].length},
+                                          {"folds", binding.folds(r)},
+                                          {"folds_capacity", binding.folds_capacity(r)},
+                                          {"max_angle", limit}});
+        report.line(r == 0 ? "body" : "", region_words(r, binding.regions.size()) + "bends by " +
+                                              number(limit) + " degrees at most, " +
+                                              counted(static_cast<std::size_t>(binding.folds(r)), "fold"));
+    }
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const BoundModel& model = levels[i].model;
+        const std::size_t triangles = model.rest.triangles.size() / 3;
+        report.json["levels"].push_back({{"file", model.file.string()},
+                                         {"vertices", model.binding.body.vertex_count()},
+                                         {"triangles", triangles},
+                                         {"uvs", !model.rest.uvs.empty()},
+                                         {"tangents", model.binding.body.has_tangents()}});
+        report.line(i == 0 ? "levels" : "", std::to_string(i) + ": " + model.file.string() + ", " +
+                                                std::to_string(model.binding.body.vertex_count()) +
+                                                " vertices, " + counted(triangles, "triangle"));
+    }
+    report.json["bytes"] = bytes;
+    report.line("written", options.output.string() + ", " + std::to_string(bytes) + " bytes");
+}
+
+void run_bake(const BakeOptions& options) {
+    const BakeRequest request(options);
+    Report report(options.json);
+    refuse_body_file(options.model);
+    std::vector<Level> levels(1 + options.levels.size());
+    levels[0].model = bind_model(options.model, request.bind, options.fit);
+    const BoundModel& finest = levels[0].model;
+    for (std::size_t i = 0; i < options.levels.size(); ++i)
+        levels[i + 1].model = bind_next(options.levels[i], request.bind, finest.binding);
+
+    const std::vector<bend::DrawMaterial> materials = materials_of(levels);
+    const std::vector<bend::NamedSocket> sockets = sockets_on(finest, request.sockets);
+    const std::string notes =
+        notes_of(finest, request.bind).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::vector<fit::BakeLevel> baked;
+    for (const Level& level : levels) {
+        const mesh::VertexArrays& rest = level.model.rest;
+        baked.push_back({&level.model.binding, {rest.triangles, rest.uvs, rest.vertex, level.parts}});
+    }
+    const std::vector<std::byte> bytes = in_file(options.model, [&] {
+        return fit::bake({baked, materials, sockets, notes});
+    });
+    report_model(report, options.model, finest.mesh,
+                 fit::surface_area(finest.rest.positions, finest.rest.triangles));
+    report_fit(report, finest.cylinder);
+    report_suitability(report, finest);
+    if (finest.growth) report_growth(report, *finest.growth);
+    report_body(report, levels, bytes.size(), options);
+    warn_of_binding(report, request, finest);
+    io::AtomicFiles outputs;
+    outputs.add(options.output).write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    report.finish(outputs);
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<BakeOptions>();
+    CLI::App* command =
+        app.add_subcommand("bake", "Bind a model and write a body file, which a game loads without parsing");
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
+    command->add_option("-o,--output", options->output, "Write the body file here")->required();
+    command->add_option("--lod", options->levels,
+                        "Add a coarser model of the same body as a level of detail; once for each, from fine "
+                        "to coarse");
+    command->add_option(
+        "--socket", options->sockets,
+        "Add a socket NAME=X,Y,Z: the place of the surface that is nearest to this point; once for each");
+    command->add_option("--regions", options->pose.regions,
+                        "Give the body regions that bend on their own: their shares of the length");
+    add_bind_words(*command, options->bind);
+    add_refine_word(*command, options->bind, "auto");
+    command->add_option("--fit", options->fit,
+                        "Take the base cylinder from a report of 'goffer inspect --json'");
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, &action] { action = [options] { run_bake(*options); }; });
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "body_file.hpp"
+
+#include "memory.hpp"
+#include "poses.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/io/read_file.hpp>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <span>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+/// A word that says how to bind is wrong for a body that was bound already.
+void refuse_choices(const std::filesystem::path& file, const BindRequest& request) {
+    for (const CLI::Option* option : request.words.choices) {
+        if (option->count() == 0) continue;
+        throw UsageError(option->get_name() + ": " + file.string() +
+                         " is a body file, for which that was decided when it was baked; bake its model "
+                         "again with it");
+    }
+}
+
+/// The base cylinder as far as the body knows it: without its radii.
+fit::Cylinder cylinder_of(const bend::Body& body) {
+    fit::Cylinder cylinder;
+    cylinder.origin = body.origin();
+    cylinder.axis = body.axes()[2];
+    cylinder.zero = body.axes()[0];
+    cylinder.length = body.length();
+    cylinder.radius = body.radius();
+    for (const bend::RegionInput& region : body.region_inputs()) cylinder.rest_angle += region.rest_angle;
+    cylinder.rest_direction = body.region_inputs()[0].rest_direction;
+    return cylinder;
+}
+
+/// Streams of a body at rest, as a mesh with the level's triangles.
+mesh::Mesh rest_mesh(const bend::BodyFile& file, const bend::BodyFileLevel& level) {
+    const bend::Body& body = level.body;
+    const std::size_t count = body.vertex_count();
+    mesh::Mesh mesh;
+    mesh.positions.resize(count);
+    mesh.normals.values.resize(count);
+    std::vector<bend::Pose> poses;
+    for (const bend::Region& region : body.regions()) poses.push_back(region.rest);
+    bend::DeformJob job{.body = &body, .poses = poses};
+    job.positions = interleaved<3>(&mesh.positions[0].x, count);
+    job.normals = interleaved<3>(&mesh.normals.values[0].x, count);
+    if (body.has_tangents()) {
+        mesh.tangents.values.resize(count);
+        job.tangents = interleaved<4>(&mesh.tangents.values[0].x, count);
+    }
+    bend::run(job);
+    if (!level.mesh.uvs.empty()) {
+        mesh.uvs.emplace_back();
+        mesh.uvs[0].values.assign(level.mesh.uvs.begin(), level.mesh.uvs.end());
+    }
+    mesh.corners.assign(level.mesh.triangles.begin(), level.mesh.triangles.end());
+    mesh.faces.assign(mesh.corners.size() / 3, 3);
+    for (const bend::DrawPart& part : level.mesh.parts)
+        mesh.parts.push_back(
+            {std::string(part.name), part.material, part.first_triangle, part.triangle_count});
+    if (mesh.parts.empty()) mesh.parts.push_back({"", -1, 0, static_cast<std::uint32_t>(mesh.faces.size())});
+    for (const bend::DrawMaterial& material : file.materials)
+        mesh.materials.push_back({std::string(material.name), material.base_color});
+    return mesh;
+}
+
+/// A whole number of 0 to 1e6 at a place of the notes; 0 where there is none.
+int noted(const nlohmann::ordered_json& notes, std::size_t region, const char* name) {
+    const auto regions = notes.find("regions");
+    if (regions == notes.end() || !regions->is_array() || region >= regions->size()) return 0;
+    const nlohmann::ordered_json& own = (*regions)[region];
+    const auto value = own.is_object() ? own.find(name) : own.end();
+    if (!own.is_object() || value == own.end() || !value->is_number_integer()) return 0;
+    return static_cast<int>(std::clamp<std::int64_t>(value->get<std::int64_t>(), 0, 1'000'000));
+}
+
+}  // namespace
+
+bool is_body_file(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe's bytes come once
+    std::array<char, 8> first{};
+    std::ifstream stream(file, std::ios::binary);
+    return stream.read(first.data(), first.size()) && bend::is_body_file(std::as_bytes(std::span(first)));
+}
+
+void refuse_body_file(const std::filesystem::path& file) {
+    if (is_body_file(file)) throw InputError(file.string() + ": is a body file already; give a model");
+}
+
+bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits) {
+    if (io::size_of_file(file) > limits.memory / 4) {  // the bytes, a copy of them, and what is drawn
+        throw InputError(file.string() + ": takes more than the " + io::size_text(limits.memory) +
+                         " of memory that are allowed; allow more with --max-memory");
+    }
+    const std::string bytes = io::read_file(file);
+    bend::BodyFileFault fault;
+    std::optional<bend::BodyFile> loaded = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
+    if (!loaded) throw InputError(file.string() + ": " + bend::describe(fault).c_str());
+    return std::move(*loaded);
+}
+
+std::vector<fit::RegionOptions> baked_regions(const std::filesystem::path& file, const mesh::Limits& limits) {
+    std::vector<fit::RegionOptions> regions;
+    if (!is_body_file(file)) return regions;
+    const bend::BodyFile loaded = read_body_file(file, limits);
+    const bend::Body& body = loaded.levels[0].body;
+    if (body.region_count() == 1) return regions;
+    for (const bend::RegionInput& region : body.region_inputs())
+        regions.push_back({region.length / body.length(), std::nullopt});
+    return regions;
+}
+
+BoundModel baked_model(const std::filesystem::path& file, const BindRequest& request) {
+    refuse_choices(file, request);
+    bend::BodyFile loaded = read_body_file(file, request.words.load.limits);
+    if (request.words.level >= loaded.levels.size())
+        throw InputError(file.string() + ": has " + counted(loaded.levels.size(), "level") + ", of which " +
+                         std::to_string(request.words.level) + " is not one; --level counts from 0");
+    bend::BodyFileLevel& level = loaded.levels[request.words.level];
+    const std::size_t wanted = std::max<std::size_t>(request.options.regions.size(), 1);
+    if (level.body.region_count() != wanted)
+        throw InputError(file.string() + ": has " + counted(level.body.region_count(), "region") + ", not " +
+                         std::to_string(wanted) + "; bend it by itself, or with bodies of as many");
+    if (level.mesh.triangles.empty())
+        throw InputError(file.string() + ": has no triangles, only what a runtime deforms; bake its model");
+    BoundModel model;
+    model.file = file;
+    model.mesh = rest_mesh(loaded, level);
+    check_memory(file.string(), model.mesh, request.words.load.limits);
+    model.rest = mesh::vertex_arrays(model.mesh);
+    model.cylinder = cylinder_of(level.body);
+    model.baked = true;
+    const nlohmann::ordered_json notes = read_notes(loaded);
+    for (std::size_t r = 0; r < wanted; ++r) {
+        model.binding.regions.push_back({level.body.region_inputs()[r].length, noted(notes, r, "folds"),
+                                         noted(notes, r, "folds_capacity")});
+    }
+    model.binding.cylinder = model.cylinder;
+    model.binding.body = std::move(level.body);
+    return model;
+}
+
+nlohmann::ordered_json notes_of(const BoundModel& model, const BindRequest& request) {
+    nlohmann::ordered_json regions;
+    for (const fit::RegionBinding& region : model.binding.regions) {
+        regions.push_back(
+            {{"length", region.length}, {"folds", region.folds}, {"folds_capacity", region.folds_capacity}});
+    }
+    return {{"model", model.file.filename().string()},
+            {"amplitude", request.words.amplitude},
+            {"profile", request.words.profile},
+            {"fit_residual", model.cylinder.residual},
+            {"regions", regions}};
+}
+
+nlohmann::ordered_json read_notes(const bend::BodyFile& file) {
+    constexpr std::size_t most = 1'000'000;
+    const auto object = nlohmann::ordered_json::object();
+    if (file.notes.size() > most) return object;
+    nlohmann::ordered_json notes = nlohmann::ordered_json::parse(file.notes, nullptr, false);
+    return notes.is_object() ? notes : object;
+}
+
+}  // namespace goffer::cli
