@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef GOFFER_H
+#define GOFFER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* goffer for C, and for every language that calls C. One library, libgoffer, has all of it.
+ *
+ * Bodies are bound from arrays, or loaded from a body file (goffer bake). A job deforms one instance into the
+ * caller's memory, a crowd many, from the caller's columns. What C++ headers say of the same things holds
+ * here; they are named in brackets.
+ *
+ * A function that can fail returns null or 0, and says why in one line in *error, unless that is null. No
+ * exception leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to
+ * const may be called from several threads at the same time. Objects that goffer_.._free takes belong to the
+ * caller; null may be freed. Angles are radians, lengths are in the mesh's units. */
+
+#ifdef _WIN32
+#ifdef GOFFER_BUILDING
+#define GOFFER_API __declspec(dllexport)
+#else
+#define GOFFER_API __declspec(dllimport)
+#endif
+#else
+#define GOFFER_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of the library, as "0.1.0". */
+GOFFER_API const char* goffer_version(void);
+
+typedef struct goffer_error {
+    char text[512];
+} goffer_error;
+
+/* Characters that no 0 ends. */
+typedef struct goffer_string {
+    const char* data;
+    size_t size;
+} goffer_string;
+
+typedef struct goffer_pose {
+    float angle;     /* of the region's arc, at most its largest */
+    float direction; /* about the axis, from e1 toward e2 */
+} goffer_pose;
+
+typedef struct goffer_bounds {
+    float low[3], high[3];
+} goffer_bounds;
+
+/* ---- Bodies [goffer/bend/body.hpp] ---- */
+
+typedef struct goffer_body goffer_body;
+
+/* A mesh in the caller's memory. [fit::Geometry] */
+typedef struct goffer_mesh {
+    const float* positions; /* 3 floats per vertex */
+    const float* normals;   /* null, or 3 floats per vertex */
+    const float* tangents;  /* null, or 4 floats per vertex */
+    size_t vertex_count;
+    const uint32_t* triangles; /* 3 vertices each */
+    size_t triangle_count;
+} goffer_mesh;
+
+enum { GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED, GOFFER_PROFILE_SMOOTH }; /* profiles */
+enum { GOFFER_AMPLITUDE_NONE, GOFFER_AMPLITUDE_PAPER, GOFFER_AMPLITUDE_AREA, GOFFER_AMPLITUDE_MESH };
+
+/* How to bind. goffer_bind_defaults() has what suits a mesh that nobody has looked at. [fit::BindOptions] */
+typedef struct goffer_bind_options {
+    size_t size; /* sizeof(goffer_bind_options) */
+    int profile, amplitude;
+    double roundness;                   /* of GOFFER_PROFILE_EVEN, 0 to 0.5 */
+    int folds;                          /* of each region; negative: what suits it */
+    double fold_length;                 /* in radii; 0: the profile's own */
+    int one_radius;                     /* not 0: the base is a cylinder, whatever the body's shape */
+    int straight;                       /* not 0: the rest shape is taken for straight */
+    double onset;                       /* negative: what suits the body */
+    double wrinkle_first, wrinkle_last; /* shares of the length that may wrinkle: 0, 1 */
+    const double* axis;                 /* null, or 3 numbers from base to tip */
+    const double* shares;               /* null, or what each region is of the length; adds up to 1 */
+    size_t region_count;                /* of shares */
+} goffer_bind_options;
+
+GOFFER_API goffer_bind_options goffer_bind_defaults(void);
+
+/* Fits the base cylinder and binds the mesh to it; `options` may be null. Offline: it
+ * allocates, and takes longer than a frame. [fit::bind] */
+GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options* options,
+                                         goffer_error* error);
+/* Not for the bodies of a file. */
+GOFFER_API void goffer_body_free(goffer_body* body);
+
+GOFFER_API size_t goffer_body_vertex_count(const goffer_body* body);
+GOFFER_API size_t goffer_body_region_count(const goffer_body* body);
+GOFFER_API int goffer_body_has_tangents(const goffer_body* body);
+GOFFER_API double goffer_body_length(const goffer_body* body);
+GOFFER_API double goffer_body_radius(const goffer_body* body);
+GOFFER_API float goffer_body_max_angle(const goffer_body* body, size_t region);
+GOFFER_API goffer_pose goffer_body_rest_pose(const goffer_body* body, size_t region);
+/* Which vertex of the bound mesh each vertex of the body is; null where the order is the mesh's, and for
+ * bodies of a file, which have goffer_file_mesh().source. */
+GOFFER_API const uint32_t* goffer_body_order(const goffer_body* body);
+
+/* ---- Body files [goffer/bend/body_file.hpp] ---- */
+
+typedef struct goffer_file goffer_file;
+
+enum { GOFFER_VERIFY_EVERYTHING, GOFFER_VERIFY_CHECKSUM, GOFFER_VERIFY_LAYOUT };
+
+/* Loads a body file from memory. With `copy` the bytes are not needed afterward; without it they must begin
+ * at a multiple of 64 bytes, as a mapped file's do, and stay as they are until goffer_file_free(). */
+GOFFER_API goffer_file* goffer_file_load(const void* bytes, size_t size, int verify, int copy,
+                                         goffer_error* error);
+/* Frees its bodies too. */
+GOFFER_API void goffer_file_free(goffer_file* file);
+
+/* What is drawn of a level. `uvs` and `source` may be null. The memory is the file's. */
+typedef struct goffer_file_draw {
+    const uint32_t* triangles; /* 3 vertices of the body each */
+    size_t triangle_count;
+    const float* uvs;       /* 2 floats per vertex, v up */
+    const uint32_t* source; /* which vertex of the model each vertex is */
+    size_t part_count;
+    goffer_bounds rest_bounds;
+} goffer_file_draw;
+
+typedef struct goffer_part {
+    goffer_string name;
+    uint32_t first_triangle, triangle_count;
+    int32_t material; /* -1: none */
+} goffer_part;
+
+typedef struct goffer_material {
+    goffer_string name;
+    float base_color[4]; /* linear RGBA */
+} goffer_material;
+
+/* Levels count from 0, the finest. Indices must be in range. */
+GOFFER_API size_t goffer_file_level_count(const goffer_file* file);
+GOFFER_API const goffer_body* goffer_file_body(const goffer_file* file, size_t level);
+GOFFER_API goffer_file_draw goffer_file_mesh(const goffer_file* file, size_t level);
+GOFFER_API goffer_part goffer_file_part(const goffer_file* file, size_t level, size_t part);
+GOFFER_API size_t goffer_file_material_count(const goffer_file* file);
+GOFFER_API goffer_material goffer_file_material(const goffer_file* file, size_t material);
+GOFFER_API size_t goffer_file_socket_count(const goffer_file* file);
+GOFFER_API goffer_string goffer_file_socket_name(const goffer_file* file, size_t socket);
+GOFFER_API goffer_string goffer_file_notes(const goffer_file* file);
+
+/* ---- One instance [goffer/bend/job.hpp] ---- */
+
+/* Component c of vertex i is written `stride` * i bytes behind component[c]. All null: not wanted. The fourth
+ * component is a tangent's w. */
+typedef struct goffer_stream {
+    float* component[4];
+    size_t stride; /* a multiple of 4 */
+    size_t count;  /* vertices that the memory holds */
+} goffer_stream;
+
+/* 12 bytes a vertex, as goffer/bend/packed.hpp says. */
+typedef struct goffer_packed_stream {
+    void* first;
+    size_t stride;
+    size_t count;
+} goffer_packed_stream;
+
+typedef struct goffer_job {
+    const goffer_body* body;
+    const goffer_pose* poses; /* one for each region */
+    size_t pose_count;
+    float wrinkle_weight;   /* 0 to 1: set it to 1 for full wrinkles */
+    const float* transform; /* null, or 12 floats: four columns of 3, as glm::mat4x3 */
+    goffer_stream positions, normals, tangents;
+    goffer_packed_stream packed;
+    goffer_stream previous_positions;
+    const goffer_pose* previous_poses; /* as many as poses */
+    const float* previous_transform;
+} goffer_job;
+
+typedef struct goffer_job_result {
+    int clamped; /* an angle was beyond the largest, and was clamped to it */
+    int at_rest; /* a pose was not finite, and all were taken as at rest */
+} goffer_job_result;
+
+/* 1 if the job may run. What ran once may run again with any numbers in poses, weight and transforms. */
+GOFFER_API int goffer_job_validate(const goffer_job* job, goffer_error* error);
+/* The job must validate. Allocates nothing. */
+GOFFER_API goffer_job_result goffer_job_run(const goffer_job* job);
+/* The same on all threads, with oneTBB if the library has it: for one large body. */
+GOFFER_API goffer_job_result goffer_job_run_parallel(const goffer_job* job);
+/* From the poses alone; streams are not looked at. job->body and poses must be given. */
+GOFFER_API goffer_bounds goffer_job_bounds(const goffer_job* job);
+
+typedef struct goffer_capsule {
+    float from[3], to[3], radius;
+} goffer_capsule;
+
+/* Writes `pieces` >= 1 capsules for each region. */
+GOFFER_API void goffer_job_capsules(const goffer_job* job, size_t pieces, goffer_capsule* result);
+
+/* ---- Crowds [goffer/bend/crowd.hpp] ---- */
+
+/* `count` elements, `stride` bytes apart, the first one `offset` bytes behind `data`. `data` null: not given.
+ * In pages of a power of two, `data` is an array of the pages' addresses, and page_size how many elements
+ * each holds; 0: no pages. A stride of 0: the same for all. */
+typedef struct goffer_column {
+    const void* data;
+    size_t count;
+    uint32_t stride, offset;
+    size_t page_size;
+} goffer_column;
+
+enum { GOFFER_COLUMNS3, GOFFER_COLUMNS4, GOFFER_ROWS4 }; /* TransformColumn::MatrixLayout */
+
+typedef struct goffer_batch {
+    const goffer_body* body;
+    size_t count;             /* instances */
+    const uint32_t* indices;  /* null, or `count` of them: the element that each one reads */
+    goffer_column poses;      /* goffer_pose; those of further regions behind the first one's */
+    goffer_column transforms; /* floats, as transform_layout says; not given: the identity */
+    int transform_layout;
+    goffer_column wrinkle_weights; /* float; not given: 1 */
+    goffer_column previous_poses, previous_transforms;
+    goffer_column visible, changed, update_intervals; /* uint8_t; not given: 1 */
+    goffer_stream positions, normals, tangents;
+    goffer_packed_stream packed;
+    goffer_stream previous_positions;
+    goffer_bounds* bounds;        /* null, or `count` of them, which a run sets */
+    goffer_column vertex_offsets; /* uint32_t; not given: instance i begins at i * vertex_step */
+    size_t vertex_step;
+    int scratch_gaps;
+} goffer_batch;
+
+typedef struct goffer_crowd_result {
+    size_t deformed, clamped, at_rest;
+} goffer_crowd_result;
+
+typedef struct goffer_crowd goffer_crowd;
+
+/* A crowd of `batch_count` empty batches. */
+GOFFER_API goffer_crowd* goffer_crowd_create(size_t batch_count, goffer_error* error);
+GOFFER_API void goffer_crowd_free(goffer_crowd* crowd);
+/* Sets batch `index`, which must be in range. What the batch points to is read when the crowd runs, so that
+ * it is to be set again only where an address or a count changes. Allocates nothing. */
+GOFFER_API int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batch,
+                                goffer_error* error);
+/* The number of the frame, by which update_intervals count. */
+GOFFER_API void goffer_crowd_set_frame(goffer_crowd* crowd, uint32_t frame);
+GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
+/* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
+ * caller's. The crowd must validate. The bits are the same. */
+GOFFER_API goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd);
+GOFFER_API goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd);
+GOFFER_API goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces);
+/* The bounds of each instance of a batch, from its poses alone; `result` holds as many. */
+GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result);
+
+/* ---- Sockets [goffer/bend/sockets.hpp] ---- */
+
+typedef struct goffer_sockets goffer_sockets;
+
+typedef struct goffer_socket_frame {
+    float position[3];
+    float axes[9]; /* columns: along the surface, across, outward */
+} goffer_socket_frame;
+
+/* All sockets of a file. */
+GOFFER_API goffer_sockets* goffer_file_sockets(const goffer_file* file, goffer_error* error);
+/* Sockets of a bound body, at the places of `mesh`, which is the one that it was bound from, that are nearest
+ * to `count` points of 3 floats. */
+GOFFER_API goffer_sockets* goffer_body_sockets(const goffer_body* body, const goffer_mesh* mesh,
+                                               const float* points, size_t count, goffer_error* error);
+GOFFER_API void goffer_sockets_free(goffer_sockets* sockets);
+GOFFER_API size_t goffer_sockets_count(const goffer_sockets* sockets);
+/* Writes the frame of each socket at the job's poses, transform and weight. Allocates nothing. */
+GOFFER_API void goffer_sockets_frames(const goffer_sockets* sockets, const goffer_job* job,
+                                      goffer_socket_frame* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

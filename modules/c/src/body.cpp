@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "convert.hpp"
+
+#include <goffer/fit/cylinder.hpp>
+
+#include <memory>
+
+using namespace goffer;
+using namespace goffer::c;
+
+// The arrays of C are read as those of GLM.
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::vec4) == 4 * sizeof(float));
+
+namespace {
+
+fit::Profile profile_of(const goffer_bind_options& options) {
+    constexpr paper::Profile::Kind kinds[] = {paper::Profile::Kind::even, paper::Profile::Kind::damped,
+                                              paper::Profile::Kind::smooth};
+    if (options.profile < GOFFER_PROFILE_EVEN || options.profile > GOFFER_PROFILE_SMOOTH)
+        throw fit::Error("profile: no such one; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or GOFFER_PROFILE_SMOOTH");
+    return {kinds[options.profile], options.roundness};
+}
+
+fit::Amplitude amplitude_of(const goffer_bind_options& options) {
+    constexpr fit::Amplitude amplitudes[] = {fit::Amplitude::none, fit::Amplitude::paper,
+                                             fit::Amplitude::area, fit::Amplitude::mesh};
+    if (options.amplitude < GOFFER_AMPLITUDE_NONE || options.amplitude > GOFFER_AMPLITUDE_MESH)
+        throw fit::Error("amplitude: no such one; use one of GOFFER_AMPLITUDE_..");
+    return amplitudes[options.amplitude];
+}
+
+fit::BindOptions options_of(const goffer_bind_options& given) {
+    fit::BindOptions options;
+    options.profile = profile_of(given);
+    options.amplitude = amplitude_of(given);
+    if (given.folds >= 0) options.folds = given.folds;
+    if (given.fold_length != 0) options.fold_length = given.fold_length;
+    if (given.one_radius != 0) options.shape = fit::ShapeMode::cylinder;
+    if (!(given.onset < 0)) options.onset = given.onset;
+    options.wrinkle_range = {given.wrinkle_first, given.wrinkle_last};
+    if (given.region_count > 0 && given.shares == nullptr)
+        throw fit::Error("shares: null; give one for each region");
+    for (std::size_t i = 0; i < given.region_count; ++i)
+        options.regions.push_back({given.shares[i], std::nullopt});
+    return options;
+}
+
+fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& options) {
+    const fit::Geometry geometry = geometry_of(mesh);
+    fit::check(geometry);
+    std::optional<glm::dvec3> axis;
+    if (options.axis != nullptr) axis = glm::dvec3(options.axis[0], options.axis[1], options.axis[2]);
+    const auto rest = options.straight != 0 ? fit::RestPose::straight : fit::RestPose::automatic;
+    return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest), options_of(options));
+}
+
+}  // namespace
+
+fit::Geometry goffer::c::geometry_of(const goffer_mesh& mesh) {
+    if (mesh.positions == nullptr) throw fit::Error("positions: null; give 3 floats for each vertex");
+    if (mesh.triangles == nullptr) throw fit::Error("triangles: null; give 3 indices for each");
+    const auto vectors = [&](const float* first) {
+        return std::span(reinterpret_cast<const glm::vec3*>(first), first != nullptr ? mesh.vertex_count : 0);
+    };
+    const std::span tangents(reinterpret_cast<const glm::vec4*>(mesh.tangents),
+                             mesh.tangents != nullptr ? mesh.vertex_count : 0);
+    return {
+        vectors(mesh.positions), {mesh.triangles, 3 * mesh.triangle_count}, vectors(mesh.normals), tangents};
+}
+
+const char* goffer_version(void) {
+    return GOFFER_VERSION;
+}
+
+goffer_bind_options goffer_bind_defaults(void) {
+    goffer_bind_options options = {};
+    options.size = sizeof options;
+    options.profile = GOFFER_PROFILE_EVEN;
+    options.amplitude = GOFFER_AMPLITUDE_PAPER;
+    options.roundness = 0.25;
+    options.folds = -1;
+    options.onset = -1;
+    options.wrinkle_last = 1;
+    return options;
+}
+
+goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options* options,
+                              goffer_error* error) {
+    return guarded(error, [&]() -> goffer_body* {
+        if (mesh == nullptr) throw fit::Error("mesh: null");
+        if (options != nullptr && options->size != sizeof *options)
+            throw fit::Error("options: of another size; begin with goffer_bind_defaults()");
+        auto body = std::make_unique<goffer_body>();
+        body->binding = bind(*mesh, options != nullptr ? *options : goffer_bind_defaults());
+        body->body = &body->binding->body;
+        return body.release();
+    });
+}
+
+void goffer_body_free(goffer_body* body) {
+    if (body != nullptr && body->binding) delete body;
+}
+
+size_t goffer_body_vertex_count(const goffer_body* body) {
+    return body != nullptr ? body->body->vertex_count() : 0;
+}
+
+size_t goffer_body_region_count(const goffer_body* body) {
+    return body != nullptr ? body->body->region_count() : 0;
+}
+
+int goffer_body_has_tangents(const goffer_body* body) {
+    return body != nullptr && body->body->has_tangents() ? 1 : 0;
+}
+
+double goffer_body_length(const goffer_body* body) {
+    return body != nullptr ? body->body->length() : 0;
+}
+
+double goffer_body_radius(const goffer_body* body) {
+    return body != nullptr ? body->body->radius() : 0;
+}
+
+float goffer_body_max_angle(const goffer_body* body, size_t region) {
+    return region < goffer_body_region_count(body) ? body->body->max_angle(region) : 0;
+}
+
+goffer_pose goffer_body_rest_pose(const goffer_body* body, size_t region) {
+    if (region >= goffer_body_region_count(body)) return {0, 0};
+    const bend::Pose rest = body->body->rest_pose(region);
+    return {rest.angle, rest.direction};
+}
+
+const uint32_t* goffer_body_order(const goffer_body* body) {
+    if (body == nullptr || !body->binding || body->binding->order.empty()) return nullptr;
+    return body->binding->order.data();
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/body_file.hpp>
+#include <goffer/bend/crowd.hpp>
+#include <goffer/fit/bind.hpp>
+
+#include <goffer.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+
+/// C's structs as C++ has them, and what stands behind its handles.
+
+/// A body of its own, or one of a file.
+struct goffer_body {
+    std::optional<goffer::fit::Binding> binding;  ///< where it was bound here
+    const goffer::bend::Body* body = nullptr;     ///< the binding's, or the file's
+};
+
+namespace goffer::c {
+
+inline void say(goffer_error* error, const char* text) noexcept {
+    if (error != nullptr) std::snprintf(error->text, sizeof error->text, "%s", text);
+}
+
+/// What `work` returns, or nothing where it throws; *error says which.
+template <class Work>
+auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
+    say(error, "");
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        say(error, "not enough memory");
+    } catch (const std::exception& thrown) {
+        say(error, thrown.what());
+    } catch (...) {
+        say(error, "an unknown error");
+    }
+    return {};
+}
+
+[[nodiscard]] inline const bend::Body* body_of(const goffer_body* body) noexcept {
+    return body != nullptr ? body->body : nullptr;
+}
+
+[[nodiscard]] bend::DeformJob job_of(const goffer_job& job) noexcept;
+[[nodiscard]] Stream3 stream3(const goffer_stream& stream) noexcept;
+[[nodiscard]] Stream4 stream4(const goffer_stream& stream) noexcept;
+[[nodiscard]] bend::PackedStream packed_of(const goffer_packed_stream& stream) noexcept;
+[[nodiscard]] goffer_bounds bounds_of(const bend::Bounds& bounds) noexcept;
+[[nodiscard]] fit::Geometry geometry_of(const goffer_mesh& mesh);
+
+}  // namespace goffer::c

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "convert.hpp"
+#include "sockets.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+using namespace goffer;
+using namespace goffer::c;
+
+struct goffer_file {
+    bend::BodyFile file;
+    std::vector<goffer_body> bodies;  // one for each level
+};
+
+namespace {
+
+goffer_string string_of(std::string_view text) noexcept {
+    return {text.data(), text.size()};
+}
+
+bend::Verify verify_of(int verify) {
+    constexpr bend::Verify ways[] = {bend::Verify::everything, bend::Verify::checksum, bend::Verify::layout};
+    if (verify < GOFFER_VERIFY_EVERYTHING || verify > GOFFER_VERIFY_LAYOUT)
+        throw std::invalid_argument("verify: no such way; use one of GOFFER_VERIFY_..");
+    return ways[verify];
+}
+
+}  // namespace
+
+goffer_file* goffer_file_load(const void* bytes, size_t size, int verify, int copy, goffer_error* error) {
+    return guarded(error, [&]() -> goffer_file* {
+        const std::span all(static_cast<const std::byte*>(bytes), bytes != nullptr ? size : 0);
+        bend::BodyFileFault fault;
+        std::optional<bend::BodyFile> loaded =
+            (copy != 0 ? bend::load_copy : bend::load)(all, &fault, verify_of(verify));
+        if (!loaded) throw std::invalid_argument(bend::describe(fault).c_str());
+        auto file = std::make_unique<goffer_file>(goffer_file{std::move(*loaded), {}});
+        file->bodies.resize(file->file.levels.size());
+        for (std::size_t i = 0; i < file->bodies.size(); ++i)
+            file->bodies[i].body = &file->file.levels[i].body;
+        return file.release();
+    });
+}
+
+void goffer_file_free(goffer_file* file) {
+    delete file;
+}
+
+size_t goffer_file_level_count(const goffer_file* file) {
+    return file != nullptr ? file->bodies.size() : 0;
+}
+
+const goffer_body* goffer_file_body(const goffer_file* file, size_t level) {
+    return level < goffer_file_level_count(file) ? &file->bodies[level] : nullptr;
+}
+
+goffer_file_draw goffer_file_mesh(const goffer_file* file, size_t level) {
+    const bend::BodyFileLevel& from = file->file.levels[level];
+    const bend::DrawMesh& mesh = from.mesh;
+    return {mesh.triangles.data(),
+            mesh.triangles.size() / 3,
+            mesh.uvs.empty() ? nullptr : &mesh.uvs[0].x,
+            mesh.source.empty() ? nullptr : mesh.source.data(),
+            mesh.parts.size(),
+            bounds_of(from.rest_bounds)};
+}
+
+goffer_part goffer_file_part(const goffer_file* file, size_t level, size_t part) {
+    const bend::DrawPart& from = file->file.levels[level].mesh.parts[part];
+    return {string_of(from.name), from.first_triangle, from.triangle_count, from.material};
+}
+
+size_t goffer_file_material_count(const goffer_file* file) {
+    return file != nullptr ? file->file.materials.size() : 0;
+}
+
+goffer_material goffer_file_material(const goffer_file* file, size_t material) {
+    const bend::DrawMaterial& from = file->file.materials[material];
+    const glm::vec4& c = from.base_color;
+    return {string_of(from.name), {c.r, c.g, c.b, c.a}};
+}
+
+size_t goffer_file_socket_count(const goffer_file* file) {
+    return file != nullptr ? file->file.sockets.size() : 0;
+}
+
+goffer_string goffer_file_socket_name(const goffer_file* file, size_t socket) {
+    return string_of(file->file.sockets[socket].name);
+}
+
+goffer_string goffer_file_notes(const goffer_file* file) {
+    return string_of(file->file.notes);
+}
+
+goffer_sockets* goffer_file_sockets(const goffer_file* file, goffer_error* error) {
+    return guarded(error, [&]() -> goffer_sockets* {
+        if (file == nullptr) throw std::invalid_argument("file: null");
+        std::vector<bend::Socket> sockets;
+        for (const bend::NamedSocket& socket : file->file.sockets) sockets.push_back(socket.socket);
+        return make_sockets(file->file.levels[0].body, sockets);
+    });
+}
