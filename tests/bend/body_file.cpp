@@ -363,6 +363,7 @@ TEST_CASE("body file: a forged one is refused for what is in it") {
     CHECK(at(FileSection::bands, 36, 0.25f).section == FileSection::bands);
     CHECK(at(FileSection::materials, 0, 0xffffffffu).reason == FileReason::index);
     CHECK(at(FileSection::parts, 4, 1000u).reason == FileReason::index);
+    CHECK(at(FileSection::parts, 24, 5u).reason == FileReason::index);  // characters of another name
     for (std::size_t place = 0; place < 15; ++place) {
         for (const std::size_t field : {0, 8}) {
             const BodyFileFault fault = fault_after(body, [&](std::span<std::byte> bytes) {

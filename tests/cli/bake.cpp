@@ -52,14 +52,15 @@ TEST_CASE("bake: inspect tells what is in a body file") {
     const Folder folder;
     copy_of(folder, "log_01.glb");
     well(folder,
-         {"bake", "log_01.glb", "-o", "log.goffer", "--socket", "hat=0,1,0", "--socket", "side=0,0.5,1"});
+         {"bake", "log_01.glb", "-o", "log.goffer", "--socket", "hat=0,1,0", "--socket", "side=0,0.5,0.2"});
     const json found = report(folder, {"inspect", "log.goffer"});
     REQUIRE(found["levels"].size() == 1);
     CHECK(found["levels"][0]["triangles"] == 9432);
     CHECK(found["levels"][0]["uvs"] == true);
     CHECK(found["sockets"] == json::array({"hat", "side"}));
     CHECK(found["materials"] == json::array({"basic"}));
-    CHECK(found["notes"]["model"] == "log_01.glb");
+    CHECK(found["made_from"]["model"] == "log_01.glb");
+    CHECK(found["regions"][0]["folds"] == 9);
     CHECK(found["regions"][0]["max_angle"].get<double>() > 90);
     CHECK(well(folder, {"inspect", "log.goffer"}).find("sockets           2: hat, side\n") !=
           std::string::npos);
@@ -139,7 +140,8 @@ TEST_CASE("bake: what is asked for wrongly") {
         refused(folder, 2, {"bake", "base.ply", "-o", "a.goffer", "--socket", socket}, {"--socket"});
     refused(folder, 2, {"bake", "base.ply", "-o", "a.goffer", "--socket", "a=0,0,0", "--socket", "a=0,0,1"},
             {"--socket", "two named 'a'"});
-    refused(folder, 1, {"bake", "base.ply", "--lod", "long.ply", "-o", "a.goffer"}, {"long.ply", "outside"});
+    refused(folder, 1, {"bake", "base.ply", "--lod", "long.ply", "-o", "a.goffer"},
+            {"long.ply", "no level of detail"});
     refused(folder, 1, {"bake", "base.ply", "--lod", "nothing.ply", "-o", "a.goffer"}, {"nothing.ply"});
 }
 
@@ -159,6 +161,9 @@ TEST_CASE("bake: a damaged body file is refused with the reason") {
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     write(bytes);
     refused(folder, 1, {"inspect", "bad.goffer"}, {"bad.goffer", "changed since"});
+    refused(folder, 2, {"inspect", "worm.goffer", "--json", "worm.goffer"}, {"--json", "worm.goffer"});
+    write("x");
+    refused(folder, 1, {"inspect", "bad.goffer"}, {"bad.goffer", "not a body file"});
     refused(folder, 1, {"inspect", "worm.goffer", "--max-memory", "1M"}, {"worm.goffer", "--max-memory"});
 }
 
@@ -186,8 +191,9 @@ TEST_CASE("bake: a body file that only a runtime has made, without triangles or 
     CHECK(report(folder, {"inspect", "bare.goffer"})["levels"][0]["triangles"] == 0);
     refused(folder, 1, {"bend", "bare.goffer", "-o", "a.ply"}, {"bare.goffer", "no triangles"});
     const std::vector<std::uint32_t> triangles{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-    for (const std::string_view notes :
-         {"", "[[[", "{\"regions\": 3}", "{\"regions\": [{\"folds\": -1e30}]}", "{\"model\": {}}"}) {
+    const std::string deep = "{\"model\": " + std::string(30000, '[') + std::string(30000, ']') + "}";
+    for (const std::string_view notes : {"", "[[[", "{\"regions\": 3}", "{\"regions\": [{\"folds\": -1e30}]}",
+                                         "{\"model\": {}}", deep.c_str()}) {
         CAPTURE(notes);
         write(triangles, notes);
         CHECK(run(folder, {"inspect", "bare.goffer"}).code == 0);

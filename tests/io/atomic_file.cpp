@@ -223,8 +223,11 @@ TEST_CASE("read file: a regular file, and nothing that might never end") {
 }
 
 TEST_CASE("error: text fit for a terminal, and sizes") {
-    CHECK(escaped("a\x1b[31m\x7f\t\xc2\x9b") == "a\\x1b[31m\\x7f\\x09\xc2\\x9b");
+    CHECK(escaped("a\x1b[31m\x7f\t\xc2\x9b") == "a\\x1b[31m\\x7f\\x09\\xc2\\x9b");
     CHECK(escaped("gr\xc3\xbc\xc3\x9f") == "gr\xc3\xbc\xc3\x9f");
+    CHECK(escaped("\xe2\x82\xac \xf0\x9f\x90\x9b") == "\xe2\x82\xac \xf0\x9f\x90\x9b");
+    CHECK(escaped("\x9b\x33\x31m \xe2\x80\xae \xe2\x82") == "\\x9b31m \\xe2\\x80\\xae \\xe2\\x82");
+    CHECK(escaped("\xc0\xaf \xed\xa0\x80") == "\\xc0\\xaf \\xed\\xa0\\x80");
     CHECK(size_text(std::uint64_t{3} << 30) == "3 GiB");
     CHECK(size_text(1536) == "1536 bytes");
     CHECK(size_text(5 << 20) == "5 MiB");

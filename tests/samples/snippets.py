@@ -45,6 +45,13 @@ ASSUMED = {
         extern DeformJob job;
         void report(const char*);
     """,
+    "modules/bend/include/goffer/bend/body_table.hpp": """
+        #include <goffer/bend/body_file.hpp>
+        #include <goffer/bend/crowd.hpp>
+        extern std::optional<BodyFile> file, reloaded;
+        extern BodyTable bodies;
+        extern Batch batch;
+    """,
     "modules/bend/include/goffer/bend/crowd.hpp": """
         #include <vector>
         struct Vertex { float x, y, z; };

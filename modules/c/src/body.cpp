@@ -17,7 +17,8 @@ fit::Profile profile_of(const goffer_bind_options& options) {
     constexpr paper::Profile::Kind kinds[] = {paper::Profile::Kind::even, paper::Profile::Kind::damped,
                                               paper::Profile::Kind::smooth};
     if (options.profile < GOFFER_PROFILE_EVEN || options.profile > GOFFER_PROFILE_SMOOTH)
-        throw fit::Error("profile: no such one; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or GOFFER_PROFILE_SMOOTH");
+        throw fit::Error(
+            "profile: no such one; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or GOFFER_PROFILE_SMOOTH");
     return {kinds[options.profile], options.roundness};
 }
 

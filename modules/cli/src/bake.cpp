@@ -8,11 +8,15 @@
 #include "report.hpp"
 #include "suitability.hpp"
 
+#include <goffer/bend/sockets.hpp>
 #include <goffer/fit/bake.hpp>
 #include <goffer/fit/sockets.hpp>
 #include <goffer/io/atomic_file.hpp>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -43,6 +47,9 @@ SocketWords parse_socket(const std::string& text) {
     if (sign == text.npos || sign == 0)
         throw UsageError("--socket: '" + text + "' has no name before a '='" + mend);
     const std::vector<double> point = read_numbers("--socket", text.substr(sign + 1));
+    constexpr double far = 1e30;
+    if (std::ranges::any_of(point, [](double x) { return std::fabs(x) > far; }))
+        throw UsageError("--socket: '" + text + "' is beyond all floats" + mend);
     if (point.size() != 3) throw UsageError("--socket: '" + text + "' has not three numbers" + mend);
     return {text.substr(0, sign), {point[0], point[1], point[2]}};
 }
@@ -92,7 +99,12 @@ BoundModel bind_next(const std::filesystem::path& file, const BindRequest& reque
     model.rest = mesh::vertex_arrays_with_uvs(model.mesh);
     const fit::Geometry geometry{model.rest.positions, model.rest.triangles, model.rest.normals,
                                  model.rest.tangents};
-    model.binding = in_file(file, [&] { return fit::bind_level(geometry, rig); });
+    try {
+        model.binding = fit::bind_level(geometry, rig);
+    } catch (const fit::Error& error) {
+        throw InputError(file.string() +
+                         ": is no level of detail of MODEL, but another body: " + error.what());
+    }
     model.cylinder = rig.cylinder;
     return model;
 }
@@ -138,6 +150,36 @@ std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::ve
             {name, in_file(model.file, [&] { return fit::socket_near(model.binding, geometry, point); })});
     }
     return sockets;
+}
+
+Notes notes_of(const BoundModel& model, const BindRequest& request) {
+    Notes notes{model.file.filename().string(), request.words.amplitude, request.words.profile, {}};
+    for (const fit::RegionBinding& region : model.binding.regions)
+        notes.regions.push_back({region.folds, region.folds_capacity});
+    return notes;
+}
+
+/// Says where sockets are at rest, and warns of one that was asked for far away from the body.
+void report_sockets(Report& report, const BoundModel& model, const std::vector<SocketWords>& words,
+                    const std::vector<bend::NamedSocket>& named) {
+    std::vector<bend::Socket> places;
+    for (const bend::NamedSocket& socket : named) places.push_back(socket.socket);
+    const auto sockets = bend::Sockets::make(model.binding.body, places);
+    if (!sockets) return;  // there is none
+    std::vector<bend::Pose> rest;
+    for (const bend::Region& region : model.binding.body.regions()) rest.push_back(region.rest);
+    std::vector<bend::SocketFrame> frames(sockets->count());
+    sockets->frames(rest, frames);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const glm::dvec3 at = frames[i].position;
+        const double away = glm::distance(at, words[i].point);
+        report.json["sockets"].push_back({{"name", words[i].name}, {"place", {at.x, at.y, at.z}}});
+        report.line(i == 0 ? "sockets" : "",
+                    words[i].name + " at " + number(at.x) + ", " + number(at.y) + ", " + number(at.z));
+        if (away > model.binding.body.length() / 2)
+            report.warn("socket '" + words[i].name + "': the surface is " + number(away) +
+                        " away from the point; are its numbers in the model's space?");
+    }
 }
 
 /// Warns of what shows at a right angle, or as far as the body bends.
@@ -192,8 +234,7 @@ void run_bake(const BakeOptions& options) {
 
     const std::vector<bend::DrawMaterial> materials = materials_of(levels);
     const std::vector<bend::NamedSocket> sockets = sockets_on(finest, request.sockets);
-    const std::string notes =
-        notes_of(finest, request.bind).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    const std::string notes = text_of(notes_of(finest, request.bind));
     std::vector<fit::BakeLevel> baked;
     for (const Level& level : levels) {
         const mesh::VertexArrays& rest = level.model.rest;
@@ -208,7 +249,12 @@ void run_bake(const BakeOptions& options) {
     report_suitability(report, finest);
     if (finest.growth) report_growth(report, *finest.growth);
     report_body(report, levels, bytes.size(), options);
+    report_sockets(report, finest, request.sockets, sockets);
     warn_of_binding(report, request, finest);
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        if (levels[i].model.binding.body.vertex_count() >= levels[i - 1].model.binding.body.vertex_count())
+            report.warn(levels[i].model.file.string() + ": is not coarser than the level before it");
+    }
     io::AtomicFiles outputs;
     outputs.add(options.output).write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     report.finish(outputs);
@@ -222,12 +268,16 @@ void add_bake(CLI::App& app, Action& action) {
         app.add_subcommand("bake", "Bind a model and write a body file, which a game loads without parsing");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
     command->add_option("-o,--output", options->output, "Write the body file here")->required();
-    command->add_option("--lod", options->levels,
-                        "Add a coarser model of the same body as a level of detail; once for each, from fine "
-                        "to coarse");
-    command->add_option(
-        "--socket", options->sockets,
-        "Add a socket NAME=X,Y,Z: the place of the surface that is nearest to this point; once for each");
+    command
+        ->add_option("--lod", options->levels,
+                     "Add a coarser model of the same body as a level of detail; once for each, from fine "
+                     "to coarse")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--socket", options->sockets,
+                     "Add a socket NAME=X,Y,Z: the place of the surface that is nearest to this point of the "
+                     "model's space; once for each")
+        ->allow_extra_args(false);
     command->add_option("--regions", options->pose.regions,
                         "Give the body regions that bend on their own: their shares of the length");
     add_bind_words(*command, options->bind);

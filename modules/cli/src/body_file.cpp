@@ -71,14 +71,29 @@ mesh::Mesh rest_mesh(const bend::BodyFile& file, const bend::BodyFileLevel& leve
     return mesh;
 }
 
-/// A whole number of 0 to 1e6 at a place of the notes; 0 where there is none.
-int noted(const nlohmann::ordered_json& notes, std::size_t region, const char* name) {
-    const auto regions = notes.find("regions");
-    if (regions == notes.end() || !regions->is_array() || region >= regions->size()) return 0;
-    const nlohmann::ordered_json& own = (*regions)[region];
-    const auto value = own.is_object() ? own.find(name) : own.end();
-    if (!own.is_object() || value == own.end() || !value->is_number_integer()) return 0;
-    return static_cast<int>(std::clamp<std::int64_t>(value->get<std::int64_t>(), 0, 1'000'000));
+/// Of a field that is a short text.
+std::string noted_text(const nlohmann::json& notes, const char* name) {
+    constexpr std::size_t longest = 1000;
+    const auto field = notes.find(name);
+    if (field == notes.end() || !field->is_string()) return {};
+    return field->get<std::string>().substr(0, longest);
+}
+
+/// Of a field that is a whole number from 0 to 1e6.
+int noted_number(const nlohmann::json& notes, const char* name) {
+    const auto field = notes.find(name);
+    if (field == notes.end() || !field->is_number_integer()) return 0;
+    return static_cast<int>(std::clamp<std::int64_t>(field->get<std::int64_t>(), 0, 1'000'000));
+}
+
+/// JSON that is no deeper than notes are; what is deeper is left out while it is read.
+nlohmann::json parsed(std::string_view text) {
+    constexpr int deepest = 3;
+    const auto shallow = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        return depth <= deepest;
+    };
+    nlohmann::json notes = nlohmann::json::parse(text, shallow, false);
+    return notes.is_object() ? notes : nlohmann::json::object();
 }
 
 }  // namespace
@@ -86,6 +101,7 @@ int noted(const nlohmann::ordered_json& notes, std::size_t region, const char* n
 bool is_body_file(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe's bytes come once
+    if (file.extension() == ".goffer") return true;                    // or is meant to be one
     std::array<char, 8> first{};
     std::ifstream stream(file, std::ios::binary);
     return stream.read(first.data(), first.size()) && bend::is_body_file(std::as_bytes(std::span(first)));
@@ -122,8 +138,9 @@ BoundModel baked_model(const std::filesystem::path& file, const BindRequest& req
     refuse_choices(file, request);
     bend::BodyFile loaded = read_body_file(file, request.words.load.limits);
     if (request.words.level >= loaded.levels.size())
-        throw InputError(file.string() + ": has " + counted(loaded.levels.size(), "level") + ", of which " +
-                         std::to_string(request.words.level) + " is not one; --level counts from 0");
+        throw InputError(file.string() + ": has " + counted(loaded.levels.size(), "level") +
+                         ", and none of number " + std::to_string(request.words.level) +
+                         "; --level counts from 0");
     bend::BodyFileLevel& level = loaded.levels[request.words.level];
     const std::size_t wanted = std::max<std::size_t>(request.options.regions.size(), 1);
     if (level.body.region_count() != wanted)
@@ -138,35 +155,43 @@ BoundModel baked_model(const std::filesystem::path& file, const BindRequest& req
     model.rest = mesh::vertex_arrays(model.mesh);
     model.cylinder = cylinder_of(level.body);
     model.baked = true;
-    const nlohmann::ordered_json notes = read_notes(loaded);
+    Notes notes = read_notes(loaded);
+    notes.regions.resize(wanted);
     for (std::size_t r = 0; r < wanted; ++r) {
-        model.binding.regions.push_back({level.body.region_inputs()[r].length, noted(notes, r, "folds"),
-                                         noted(notes, r, "folds_capacity")});
+        const auto [folds, capacity] = notes.regions[r];
+        model.binding.regions.push_back({level.body.region_inputs()[r].length, folds, capacity});
     }
     model.binding.cylinder = model.cylinder;
     model.binding.body = std::move(level.body);
     return model;
 }
 
-nlohmann::ordered_json notes_of(const BoundModel& model, const BindRequest& request) {
-    nlohmann::ordered_json regions;
-    for (const fit::RegionBinding& region : model.binding.regions) {
-        regions.push_back(
-            {{"length", region.length}, {"folds", region.folds}, {"folds_capacity", region.folds_capacity}});
-    }
-    return {{"model", model.file.filename().string()},
-            {"amplitude", request.words.amplitude},
-            {"profile", request.words.profile},
-            {"fit_residual", model.cylinder.residual},
-            {"regions", regions}};
+std::string text_of(const Notes& notes) {
+    nlohmann::ordered_json json;
+    json["model"] = notes.model;
+    json["amplitude"] = notes.amplitude;
+    json["profile"] = notes.profile;
+    for (const Notes::Region& region : notes.regions)
+        json["regions"].push_back({{"folds", region.folds}, {"folds_capacity", region.capacity}});
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-nlohmann::ordered_json read_notes(const bend::BodyFile& file) {
-    constexpr std::size_t most = 1'000'000;
-    const auto object = nlohmann::ordered_json::object();
-    if (file.notes.size() > most) return object;
-    nlohmann::ordered_json notes = nlohmann::ordered_json::parse(file.notes, nullptr, false);
-    return notes.is_object() ? notes : object;
+Notes read_notes(const bend::BodyFile& file) {
+    constexpr std::size_t most = 1 << 16;
+    Notes notes;
+    if (file.notes.size() > most) return notes;
+    const nlohmann::json json = parsed(file.notes);
+    notes.model = noted_text(json, "model");
+    notes.amplitude = noted_text(json, "amplitude");
+    notes.profile = noted_text(json, "profile");
+    const auto regions = json.find("regions");
+    for (std::size_t r = 0; regions != json.end() && regions->is_array() && r < regions->size(); ++r) {
+        const nlohmann::json& own = (*regions)[r];
+        Notes::Region region;
+        if (own.is_object()) region = {noted_number(own, "folds"), noted_number(own, "folds_capacity")};
+        notes.regions.push_back(region);
+    }
+    return notes;
 }
 
 }  // namespace goffer::cli

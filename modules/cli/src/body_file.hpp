@@ -12,7 +12,7 @@
 
 namespace goffer::cli {
 
-/// Whether `file` can be read and begins as a body file does.
+/// Whether `file` is to be read as a body file: it begins as one, or its name ends as one's.
 [[nodiscard]] bool is_body_file(const std::filesystem::path& file);
 
 /// Refuses (InputError) a body file where only a model will do.
@@ -29,11 +29,19 @@ void refuse_body_file(const std::filesystem::path& file);
 /// it was made, and an error that names the file if it cannot be loaded.
 [[nodiscard]] BoundModel baked_model(const std::filesystem::path& file, const BindRequest& request);
 
-/// What `goffer bake` says in a file about how it was made, as JSON.
-[[nodiscard]] nlohmann::ordered_json notes_of(const BoundModel& model, const BindRequest& request);
+/// What `goffer bake` notes in a file about how it was made. Nothing in it can be relied on.
+struct Notes {
+    struct Region {
+        int folds = 0;
+        int capacity = 0;  ///< 0: not known
+    };
+    std::string model;  ///< the name of its file
+    std::string amplitude, profile;
+    std::vector<Region> regions;
+};
 
-/// The same, read back: an object, which is empty if the file says something else. Nothing in it can be
-/// relied on.
-[[nodiscard]] nlohmann::ordered_json read_notes(const bend::BodyFile& file);
+/// These notes as the text that goes into a file, and read back: what a file does not say is left empty.
+[[nodiscard]] std::string text_of(const Notes& notes);
+[[nodiscard]] Notes read_notes(const bend::BodyFile& file);
 
 }  // namespace goffer::cli

@@ -71,7 +71,8 @@ void report_levels(Report& report, const bend::BodyFile& file) {
     }
 }
 
-void report_regions(Report& report, const bend::Body& body) {
+void report_regions(Report& report, const bend::Body& body, Notes notes) {
+    notes.regions.resize(body.region_count());
     const std::span<const bend::RegionInput> regions = body.region_inputs();
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const double limit = degrees(regions[r].max_angle), rest = degrees(regions[r].rest_angle);
@@ -79,9 +80,12 @@ void report_regions(Report& report, const bend::Body& body) {
         report.json["regions"].push_back({{"length", regions[r].length},
                                           {"max_angle", limit},
                                           {"rest_angle", rest},
-                                          {"rest_direction", direction}});
+                                          {"rest_direction", direction},
+                                          {"folds", notes.regions[r].folds}});
         std::string line = region_words(r, regions.size()) + "length " + number(regions[r].length) +
                            ", bends by " + number(limit) + " degrees at most";
+        if (notes.regions[r].capacity > 0)
+            line += ", " + counted(static_cast<std::size_t>(notes.regions[r].folds), "fold");
         if (rest != 0) line += ", bent at rest by " + number(rest) + " toward " + number(direction);
         report.line(r == 0 ? "body" : "", line);
     }
@@ -92,9 +96,10 @@ void inspect_body_file(const InspectOptions& options) {
         throw UsageError("--axis, --rest: " + options.model.string() +
                          " is a body file, which was fitted already; leave them out");
     }
+    check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
     const bend::BodyFile file = read_body_file(options.model, options.load.limits);
-    const nlohmann::ordered_json notes = read_notes(file);
+    const Notes notes = read_notes(file);
     std::vector<std::string> sockets, materials;
     for (const bend::NamedSocket& socket : file.sockets) sockets.emplace_back(socket.name);
     for (const bend::DrawMaterial& material : file.materials) materials.emplace_back(material.name);
@@ -104,15 +109,18 @@ void inspect_body_file(const InspectOptions& options) {
     report.line("body file",
                 options.model.string() + ", " + std::to_string(io::size_of_file(options.model)) + " bytes");
     report_levels(report, file);
-    report_regions(report, file.levels[0].body);
+    report_regions(report, file.levels[0].body, notes);
     report.line("radius", number(file.levels[0].body.radius()));
     report.line("sockets", list_of(sockets));
     report.line("materials", list_of(materials));
     report.json["sockets"] = sockets;
     report.json["materials"] = materials;
-    report.json["notes"] = notes;
-    if (const auto model = notes.find("model"); model != notes.end() && model->is_string())
-        report.line("made from", model->get<std::string>());
+    if (!notes.model.empty()) {
+        report.json["made_from"] = {
+            {"model", notes.model}, {"amplitude", notes.amplitude}, {"profile", notes.profile}};
+        report.line("made from",
+                    notes.model + ", profile " + notes.profile + ", amplitude " + notes.amplitude);
+    }
     io::AtomicFiles outputs;
     report.finish(outputs);
 }

@@ -25,13 +25,13 @@ const char* words_of(FileReason reason) noexcept {
         case FileReason::checksum:
             return "was changed since it was written; copy or bake it again";
         case FileReason::layout:
-            return "does not lie where it must";
+            return "does not lie where it must; bake the file again";
         case FileReason::count:
-            return "too few, too many, or not as many as its other parts say";
+            return "too few, too many, or not as many as other parts of it say; bake the file again";
         case FileReason::number:
-            return "not a number, or out of its range";
+            return "not a number, or out of its range; bake the file again";
         case FileReason::index:
-            return "refers to what is not there";
+            return "refers to what is not there; bake the file again";
         case FileReason::rig:
             return "does not have the regions, tables and frame of the first level; bind it with bind_level";
         case FileReason::empty:

@@ -67,13 +67,6 @@ public:
                 static_cast<std::size_t>(record.count)};
     }
 
-    /// The characters of a name, or nothing where they are not there.
-    [[nodiscard]] std::optional<std::string_view> name(const NameRecord& name) const {
-        const std::span<const char> all = get<char>(FileSection::names);
-        if (name.first > all.size() || name.count > all.size() - name.first) return std::nullopt;
-        return std::string_view(all.data() + name.first, name.count);
-    }
-
 private:
     [[nodiscard]] const SectionRecord* records() const {
         return reinterpret_cast<const SectionRecord*>(bytes_.data() + sizeof(FileHeader));
@@ -178,6 +171,16 @@ public:
 private:
     [[nodiscard]] BodyFileFault check_sections() { return sections_.check(); }
 
+    /// The characters of a name, or nothing where they are not there. Names share none, so that all of them
+    /// together are no longer than the file.
+    [[nodiscard]] std::optional<std::string_view> name(const NameRecord& name) {
+        const std::span<const char> all = sections_.get<char>(FileSection::names);
+        if (name.first > all.size() || name.count > all.size() - name.first) return std::nullopt;
+        named_ += name.count;
+        if (named_ > all.size()) return std::nullopt;
+        return std::string_view(all.data() + name.first, name.count);
+    }
+
     static BodyFileFault number(FileSection section, std::size_t index, const BodyFault& body = {}) {
         return {FileReason::number, section, BodyFileFault::nowhere, index, body};
     }
@@ -232,7 +235,7 @@ private:
         const auto records = sections_.get<MaterialRecord>(FileSection::materials);
         file_.materials.reserve(records.size());
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const auto name = sections_.name(records[i].name);
+            const auto name = this->name(records[i].name);
             if (!name) return no_such(FileSection::materials, i);
             const float* c = records[i].base_color;
             if (!all_finite({c, 4})) return number(FileSection::materials, i);
@@ -245,8 +248,9 @@ private:
         const auto records = sections_.get<SocketRecord>(FileSection::sockets);
         file_.sockets.reserve(records.size());
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const auto name = sections_.name(records[i].name);
-            if (!name || records[i].region >= rig_.regions.size()) return no_such(FileSection::sockets, i);
+            const auto name = this->name(records[i].name);
+            if (!name) return no_such(FileSection::sockets, i);
+            if (records[i].region >= rig_.regions.size()) return no_such(FileSection::sockets, i);
             const double* v = records[i].vertex;
             const double *n = records[i].normal, *t = records[i].tangent;
             const Socket socket{static_cast<std::size_t>(records[i].region),
@@ -408,9 +412,10 @@ private:
         std::uint64_t next = 0;
         const auto materials = static_cast<std::int64_t>(file_.materials.size());
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const auto name = sections_.name(records[i].name);
+            const auto name = this->name(records[i].name);
             const std::int32_t material = records[i].material;
-            if (!name || material < -1 || material >= materials) return no_such(FileSection::parts, i);
+            if (!name) return no_such(FileSection::parts, i);
+            if (material < -1 || material >= materials) return no_such(FileSection::parts, i);
             if (records[i].first_triangle != next) return {FileReason::layout, FileSection::parts};
             next += records[i].triangle_count;
             parts.push_back({*name, records[i].first_triangle, records[i].triangle_count, material});
@@ -426,6 +431,7 @@ private:
     std::shared_ptr<Holdings> holdings_;
     BodyFile file_;
     Rig rig_;
+    std::size_t named_ = 0;  // characters of all names so far
 };
 
 std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,

@@ -357,6 +357,7 @@ void SceneReader::add_faces(const Value& primitive, const Block& block) {
 /// One value per vertex where all blocks have the attribute, else an index for each face corner.
 template <class T>
 Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
+    if (gathered.values.empty()) return {};  // no part has it
     Attribute<T> attribute{std::move(gathered.values), {}};
     if (attribute.values.size() == mesh_.positions.size()) return attribute;
     budget_.take(mesh_.corners.size() * sizeof(std::uint32_t));

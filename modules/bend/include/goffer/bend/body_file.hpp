@@ -36,9 +36,10 @@ inline constexpr std::uint32_t body_file_version = 1;
 /// The most levels of detail that a file can have.
 inline constexpr std::size_t max_levels = 16;
 
-/// Triangles that are drawn together.
+/// Triangles that are drawn together. Names, and notes, are bytes as they were given: UTF-8 is meant, but not
+/// looked for.
 struct DrawPart {
-    std::string_view name;  ///< UTF-8; may be empty
+    std::string_view name;  ///< may be empty
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
     std::int32_t material = -1;  ///< index into the file's materials, or -1 for none
@@ -46,7 +47,7 @@ struct DrawPart {
 
 /// A material, by the name that an engine knows it by.
 struct DrawMaterial {
-    std::string_view name;    ///< UTF-8; may be empty
+    std::string_view name;    ///< may be empty
     glm::vec4 base_color{1};  ///< linear RGBA
 };
 
@@ -62,7 +63,7 @@ struct DrawMesh {
 
 /// A socket with a name. Sockets::make takes the sockets of any level.
 struct NamedSocket {
-    std::string_view name;  ///< UTF-8; may be empty
+    std::string_view name;  ///< may be empty
     Socket socket;
 };
 
@@ -141,7 +142,7 @@ enum class FileReason : std::uint8_t {
     layout,           ///< a section does not lie where it must, or has bytes that must be 0 and are not
     count,            ///< a section has too few entries, too many, or not as many as another one
     number,           ///< a number is not finite, or out of its range
-    index,            ///< an entry refers to one that is not there
+    index,            ///< an entry refers to what is not there
     rig,              ///< a level has not the regions, tables or frame of the first one
     empty,            ///< a level has no body
 };

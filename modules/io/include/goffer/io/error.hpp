@@ -20,8 +20,8 @@ public:
 /// `text` fit for one line: control characters become '_'.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// `text` fit for a terminal: control characters become \xNN, so that a file's name, or text out of a file,
-/// neither ends the line nor commands the terminal.
+/// `text` fit for a terminal: bytes that are no UTF-8, control characters, and characters that end a line or
+/// turn its direction become \xNN, so that a file's name, or text out of a file, does nothing but be read.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// "<file>: <what>", where the file's name is escaped.

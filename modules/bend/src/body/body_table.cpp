@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <goffer/bend/body_table.hpp>
+
+#include <cassert>
+#include <utility>
+
+namespace goffer::bend {
+
+const BodyTable::Place* BodyTable::place_of(BodyHandle handle) const noexcept {
+    if (handle.index >= places_.size()) return nullptr;
+    const Place& place = places_[handle.index];
+    return place.revision != 0 && place.generation == handle.generation ? &place : nullptr;
+}
+
+BodyTable::Place* BodyTable::place_of(BodyHandle handle) noexcept {
+    return const_cast<Place*>(std::as_const(*this).place_of(handle));
+}
+
+BodyHandle BodyTable::add(Body body) {
+    assert(!body.empty());
+    std::uint32_t index = first_free_;
+    if (index == none) {
+        index = static_cast<std::uint32_t>(places_.size());
+        places_.emplace_back();
+    } else {
+        first_free_ = places_[index].next_free;
+    }
+    Place& place = places_[index];
+    place.body = std::move(body);
+    place.revision = 1;
+    ++size_;
+    return {index, place.generation};
+}
+
+bool BodyTable::replace(BodyHandle handle, Body&& body) {
+    assert(!body.empty());
+    Place* const place = place_of(handle);
+    if (place == nullptr) return false;
+    place->body = std::move(body);
+    if (++place->revision == 0) place->revision = 1;
+    return true;
+}
+
+bool BodyTable::remove(BodyHandle handle) {
+    Place* const place = place_of(handle);
+    if (place == nullptr) return false;
+    place->body = Body();
+    place->revision = 0;
+    --size_;
+    // A place whose generations are used up stays empty: its handles must never come back.
+    if (++place->generation == 0) return true;
+    place->next_free = first_free_;
+    first_free_ = handle.index;
+    return true;
+}
+
+const Body* BodyTable::find(BodyHandle handle) const noexcept {
+    const Place* const place = place_of(handle);
+    return place != nullptr ? &place->body : nullptr;
+}
+
+std::uint32_t BodyTable::revision(BodyHandle handle) const noexcept {
+    const Place* const place = place_of(handle);
+    return place != nullptr ? place->revision : 0;
+}
+
+}  // namespace goffer::bend

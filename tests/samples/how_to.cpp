@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "support/files.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <regex>
+#include <set>
+#include <string>
+
+/// The programs of samples/how_to do what they say, on a body of one region and on one of eight.
+
+namespace goffer::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string output_of(const std::string& command) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+    REQUIRE(pipe != nullptr);
+    std::string text;
+    std::array<char, 4096> part{};
+    while (std::fgets(part.data(), part.size(), pipe.get()) != nullptr) text += part.data();
+    return text;
+}
+
+/// Bodies of a worm in a folder: worm.goffer, and chain.goffer of eight regions.
+class Bodies {
+public:
+    Bodies() {
+        goffer("base --length 10 --radius 1 --columns 24 --rows 81 --caps -o worm.ply");
+        goffer("bake worm.ply --refine off --socket tip=0,0,10 --socket side=1,0,5 -o worm.goffer");
+        goffer("bake worm.ply --refine off --amplitude none --regions " + eighths() + " -o chain.goffer");
+    }
+
+    /// What `how_to/<name> <file>` prints.
+    [[nodiscard]] std::string run(const std::string& name, const std::string& files) const {
+        return output_of(in_folder() + "'" GOFFER_HOW_TO "/" + name + "' " + files + " 2>&1");
+    }
+
+private:
+    static std::string eighths() { return ".125,.125,.125,.125,.125,.125,.125,.125"; }
+    [[nodiscard]] std::string in_folder() const { return "cd '" + (folder_ / ".").string() + "' && "; }
+    void goffer(const std::string& words) const {
+        REQUIRE(std::system((in_folder() + "'" GOFFER_COMMAND "' " + words + " >/dev/null 2>&1").c_str()) ==
+                0);
+    }
+
+    Folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("how to: each program does what it says") {
+    const Bodies bodies;
+    const auto prints = [&](const std::string& name, const std::string& files, const std::string& pattern) {
+        const std::string out = bodies.run(name, files);
+        CAPTURE(name);
+        CAPTURE(out);
+        CHECK(std::regex_match(out, std::regex(pattern)));
+    };
+    prints("bind_and_bend", "",
+           R"(the last vertex went from 1\.0 0\.0 10\.0 to -?\d\.\d -?\d\.\d -?\d\.\d\n)");
+    prints("body_file", "worm.goffer chain.goffer",
+           R"(\d+ triangles, 2 sockets\n(frame [01]: revision 1, \d+ vertices\n){2})"
+           R"((frame [23]: revision 2, \d+ vertices\n){2}removed: the handle names nothing\n)");
+    prints("own_scheduler", "worm.goffer", R"(200 instances in 16 pieces\n)");
+    prints("culling_and_detail", "worm.goffer", R"((frame [0-3]: 31 of 100\n){4})");
+    prints("sockets_and_capsules", "worm.goffer",
+           R"(tip: \S+ \S+ \S+\nside: \S+ \S+ \S+\n4 capsules, the first of radius 1\.\d+\n)");
+    prints("path", "chain.goffer", R"(8 regions, off the path by \d\.\d % of the length\n)");
+    prints("skinning", "worm.goffer", R"(\d+ vertices, bent and skinned; the box at rest was 2\.00 wide\n)");
+    prints("motion_vectors", "worm.goffer",
+           R"(frame 0: moved by 0\.000 at most\nframe 1: moved by [01]\.\d+ at most\n)"
+           R"(frame 2: moved by [01]\.\d+ at most\n)");
+    prints("packed", "worm.goffer", R"(\d+ bytes instead of \d+, off by \de-0[567] of the length\n)");
+}
+
+TEST_CASE("how to: programs say what is wrong with a file, and how they are called") {
+    const Bodies bodies;
+    for (const fs::directory_entry& entry : fs::directory_iterator(GOFFER_SOURCE_DIR "/samples/how_to")) {
+        const std::string name = entry.path().stem().string();
+        if (name == "bind_and_bend") continue;
+        CAPTURE(name);
+        CHECK(bodies.run(name, "").starts_with("usage: " + name + " FILE.goffer"));
+        const std::string files = name == "body_file" ? "worm.ply worm.ply" : "worm.ply";
+        CHECK(bodies.run(name, files) == "body file: not a body file; goffer bake makes one\n");
+    }
+}
+
+TEST_CASE("how to: the README lists every program") {
+    const std::string readme = bytes_of(GOFFER_SOURCE_DIR "/README.md");
+    std::size_t programs = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(GOFFER_SOURCE_DIR "/samples/how_to")) {
+        ++programs;
+        const std::string name = "(samples/how_to/" + entry.path().filename().string() + ")";
+        CAPTURE(name);
+        CHECK(readme.find(name) != std::string::npos);
+    }
+    CHECK(programs == 9);
+}
+
+}  // namespace goffer::test
