@@ -26,6 +26,10 @@ struct Batch;
 /// times where folds are deeper than the radius. It is that of eleven bands along z, each of which sweeps its
 /// widest cross-section along its piece of the arc, plus a margin for rounding: 1e-5 of a region's length,
 /// under the transform, and 1e-6 of the distance from the origin.
+///
+/// The depth of wrinkles is looked up at some columns, and taken to grow between them toward the inner line,
+/// as it does in all tables that fit makes. With a table of the caller's own in which it rises and falls
+/// again, vertices may lie outside the box, by as much as was missed.
 [[nodiscard]] Bounds bounds(const Body& body, const Pose& pose,
                             const glm::mat4x3& transform = glm::mat4x3(1)) noexcept;
 
