@@ -12,11 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { instances = 100, max_regions = 32 };
+enum { instances = 100 };
 
 /* What an engine keeps for an instance. */
 typedef struct Worm {
-    goffer_pose poses[max_regions];
+    goffer_pose poses[GOFFER_MAX_REGIONS];
     float model[12]; /* four columns of 3 */
 } Worm;
 

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     try {
         const bend::BodyFile file = load(argv[1]);
         const bend::Body& body = file.levels[0].body;
+        if (body.region_count() != 1) throw std::runtime_error("this program is for bodies of one region");
         const auto length = static_cast<float>(body.length());
         std::vector<Worm> worms(100);
         for (std::size_t i = 0; i < worms.size(); ++i)
@@ -52,6 +53,9 @@ int main(int argc, char** argv) {
         batch.wrinkle_weights = strided(all, &Worm::weight);
         batch.positions = interleaved<3>(&vertices[0].x, vertices.size());
         batch.vertex_step = body.vertex_count();
+
+        if (const bend::Fault fault = bend::validate(bend::CrowdJob{.batches = {&batch, 1}}); !fault.none())
+            throw std::runtime_error(bend::describe(fault).c_str());
 
         // Bounds come from the poses alone: cull before a vertex is touched. Here, all beyond a plane.
         std::vector<bend::Bounds> boxes(worms.size());

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     try {
         const bend::BodyFile file = load(argv[1]);
         const bend::Body& body = file.levels[0].body;
+        if (body.region_count() != 1) throw std::runtime_error("this program is for bodies of one region");
         std::vector<Worm> worms(200);
         for (std::size_t i = 0; i < worms.size(); ++i) worms[i].pose.angle = std::sin(static_cast<float>(i));
         std::vector<glm::vec3> vertices(worms.size() * body.vertex_count());

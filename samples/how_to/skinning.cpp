@@ -29,8 +29,9 @@ int main(int argc, char** argv) {
         const bend::BodyFile file = load(argv[1]);
         const auto& [body, mesh, rest] = file.levels[0];
 
-        // Skin weights are the model's, one per vertex of its file; `source` says which vertex that is. Here
-        // each vertex hangs on two bones, by where it lies in the box.
+        // Skin weights are the model's, one per vertex of its file; `source` says which vertex that is. Those
+        // here are made up.
+        if (mesh.source.empty()) throw std::runtime_error("this file does not say which vertices it has");
         const std::size_t count = body.vertex_count();
         std::vector<float> weights(count);
         for (std::size_t i = 0; i < count; ++i) weights[i] = static_cast<float>(mesh.source[i] % 101) / 100;

@@ -59,6 +59,16 @@ TEST_CASE("body table: a handle names its body until that is removed") {
     CHECK(table.find(worm) == nullptr);
     CHECK(table.find(next)->vertex_count() == 6);
     CHECK(table.find(fish)->vertex_count() == 4);
+
+    CHECK(table.remove(next));
+    bend::BodyTable moved = std::move(table);
+    CHECK(moved.find(fish)->vertex_count() == 4);
+    CHECK(table.size() == 0);
+    CHECK(table.find(fish) == nullptr);
+    const bend::BodyHandle again = table.add(body_of(random, 7));
+    CHECK(table.find(again)->vertex_count() == 7);
+    table = std::move(moved);
+    CHECK(table.find(fish)->vertex_count() == 4);
 }
 
 TEST_CASE("body table: like a map of numbers that are never used twice, whatever comes and goes") {

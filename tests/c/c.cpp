@@ -331,8 +331,7 @@ TEST_CASE("C: what is wrong is said, and null does no harm") {
     mesh.vertex_count = 3;
     CHECK(!text_of_bind(&mesh, nullptr).empty());
     mesh = mesh_of(twice.mesh);
-    goffer_bind_options options = {};
-    CHECK(text_of_bind(&mesh, &options).starts_with("options: of another size"));
+    goffer_bind_options options;
     for (const auto& [member, name] : {std::pair(&goffer_bind_options::profile, "profile: "),
                                        std::pair(&goffer_bind_options::amplitude, "amplitude: ")}) {
         options = goffer_bind_defaults();

@@ -144,7 +144,8 @@ TEST_CASE("bake: errors name the level and what is wrong with it") {
     CHECK(error_of({fine.level(), other.level()}) ==
           "levels[1].level: does not have the regions, tables and frame of the first level; bind it with "
           "bind_level");
-    CHECK(error_of({}) == "level: too few, too many, or not as many as its other parts say");
+    CHECK(error_of({}) ==
+          "level: too few, too many, or not as many as other parts of it say; bake the file again");
     fit::BakeLevel level = fine.level();
     level.mesh.uvs = level.mesh.uvs.first(3);
     CHECK(error_of({level}) == "levels[0].uvs: give none, or one for each vertex");

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-/// The programs of samples/how_to do what they say, on a body of one region and on one of eight.
+/// The programs of samples/how_to do what they say.
 
 namespace goffer::test {
 namespace {
@@ -70,6 +70,8 @@ TEST_CASE("how to: each program does what it says") {
            R"((frame [23]: revision 2, \d+ vertices\n){2}removed: the handle names nothing\n)");
     prints("own_scheduler", "worm.goffer", R"(200 instances in 16 pieces\n)");
     prints("culling_and_detail", "worm.goffer", R"((frame [0-3]: 31 of 100\n){4})");
+    for (const std::string name : {"own_scheduler", "culling_and_detail", "motion_vectors"})
+        prints(name, "chain.goffer", "this program is for bodies of one region\n");
     prints("sockets_and_capsules", "worm.goffer",
            R"(tip: \S+ \S+ \S+\nside: \S+ \S+ \S+\n4 capsules, the first of radius 1\.\d+\n)");
     prints("path", "chain.goffer", R"(8 regions, off the path by \d\.\d % of the length\n)");

@@ -13,8 +13,9 @@
  *
  * A function that can fail returns null or 0, and says why in one line in *error, unless that is null. No
  * exception leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to
- * const may be called from several threads at the same time. Objects that goffer_.._free takes belong to the
- * caller; null may be freed. Angles are radians, lengths are in the mesh's units. */
+ * const may be called from several threads at the same time, if they write to different memory. Objects that
+ * goffer_.._free takes belong to the caller; null may be freed. Angles are radians, lengths are in the mesh's
+ * units. */
 
 #ifdef _WIN32
 #ifdef GOFFER_BUILDING
@@ -42,6 +43,9 @@ typedef struct goffer_string {
     const char* data;
     size_t size;
 } goffer_string;
+
+/* The most regions that a body can have. */
+#define GOFFER_MAX_REGIONS 32
 
 typedef struct goffer_pose {
     float angle;     /* of the region's arc, at most its largest */
@@ -71,7 +75,6 @@ enum { GOFFER_AMPLITUDE_NONE, GOFFER_AMPLITUDE_PAPER, GOFFER_AMPLITUDE_AREA, GOF
 
 /* How to bind. goffer_bind_defaults() has what suits a mesh that nobody has looked at. [fit::BindOptions] */
 typedef struct goffer_bind_options {
-    size_t size; /* sizeof(goffer_bind_options) */
     int profile, amplitude;
     double roundness;                   /* of GOFFER_PROFILE_EVEN, 0 to 0.5 */
     int folds;                          /* of each region; negative: what suits it */
@@ -122,8 +125,9 @@ GOFFER_API void goffer_file_free(goffer_file* file);
 typedef struct goffer_file_draw {
     const uint32_t* triangles; /* 3 vertices of the body each */
     size_t triangle_count;
-    const float* uvs;       /* 2 floats per vertex, v up */
-    const uint32_t* source; /* which vertex of the model each vertex is */
+    const float* uvs; /* 2 floats per vertex, v up */
+    const uint32_t*
+        source; /* which vertex of the model each vertex is; nothing looks whether it has that many */
     size_t part_count;
     goffer_bounds rest_bounds;
 } goffer_file_draw;

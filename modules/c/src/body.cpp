@@ -8,6 +8,7 @@
 using namespace goffer;
 using namespace goffer::c;
 
+static_assert(GOFFER_MAX_REGIONS == bend::max_regions);
 // The arrays of C are read as those of GLM.
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::vec4) == 4 * sizeof(float));
 
@@ -75,7 +76,6 @@ const char* goffer_version(void) {
 
 goffer_bind_options goffer_bind_defaults(void) {
     goffer_bind_options options = {};
-    options.size = sizeof options;
     options.profile = GOFFER_PROFILE_EVEN;
     options.amplitude = GOFFER_AMPLITUDE_PAPER;
     options.roundness = 0.25;
@@ -89,8 +89,6 @@ goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options
                               goffer_error* error) {
     return guarded(error, [&]() -> goffer_body* {
         if (mesh == nullptr) throw fit::Error("mesh: null");
-        if (options != nullptr && options->size != sizeof *options)
-            throw fit::Error("options: of another size; begin with goffer_bind_defaults()");
         auto body = std::make_unique<goffer_body>();
         body->binding = bind(*mesh, options != nullptr ? *options : goffer_bind_defaults());
         body->body = &body->binding->body;

@@ -119,7 +119,11 @@ goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd) {
 }
 
 goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd) {
-    return guarded(nullptr, [&] { return result_of(bend::run_parallel(crowd->job())); });
+    try {
+        return result_of(bend::run_parallel(crowd->job()));
+    } catch (...) {  // the scheduler has no memory
+        return goffer_crowd_run(crowd);
+    }
 }
 
 goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces) {

@@ -87,7 +87,11 @@ goffer_job_result goffer_job_run(const goffer_job* job) {
 }
 
 goffer_job_result goffer_job_run_parallel(const goffer_job* job) {
-    return guarded(nullptr, [&] { return result_of(bend::run_parallel(job_of(*job))); });
+    try {
+        return result_of(bend::run_parallel(job_of(*job)));
+    } catch (...) {  // the scheduler has no memory
+        return goffer_job_run(job);
+    }
 }
 
 goffer_bounds goffer_job_bounds(const goffer_job* job) {

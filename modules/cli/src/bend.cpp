@@ -42,7 +42,7 @@ struct BendOptions {
     std::filesystem::path json;
 };
 
-/// Everything that can be refused by looking at the words alone.
+/// Everything that can be refused before a model is read. (Of body files the regions are.)
 struct Request {
     PoseRequest pose;
     BindRequest bind;

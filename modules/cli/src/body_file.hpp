@@ -18,7 +18,8 @@ namespace goffer::cli {
 /// Refuses (InputError) a body file where only a model will do.
 void refuse_body_file(const std::filesystem::path& file);
 
-/// Reads a body file of at most `limits.memory`. Throws an error that names it.
+/// Reads a body file, which takes about four times its size. Throws where that is more than limits.memory,
+/// and an error that names it.
 [[nodiscard]] bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits);
 
 /// The regions of the body in a body file, where it has several; none of any other file.

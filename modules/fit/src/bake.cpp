@@ -46,7 +46,7 @@ bend::DrawMesh in_body_order(const bend::DrawMesh& mesh, const std::vector<std::
     memory.triangles.reserve(mesh.triangles.size());
     for (const std::uint32_t vertex : mesh.triangles) memory.triangles.push_back(place[vertex]);
     memory.uvs = sorted(mesh.uvs, order);
-    memory.source = sorted(mesh.source, order);
+    memory.source = mesh.source.empty() ? order : sorted(mesh.source, order);
     return {memory.triangles, memory.uvs, memory.source, mesh.parts};
 }
 

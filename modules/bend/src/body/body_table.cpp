@@ -6,6 +6,22 @@
 
 namespace goffer::bend {
 
+BodyTable::BodyTable(BodyTable&& other) noexcept {
+    *this = std::move(other);
+}
+
+BodyTable& BodyTable::operator=(BodyTable&& other) noexcept {
+    places_.swap(other.places_);
+    std::swap(size_, other.size_);
+    std::swap(first_free_, other.first_free_);
+    if (this != &other) {
+        other.places_.clear();
+        other.size_ = 0;
+        other.first_free_ = none;
+    }
+    return *this;
+}
+
 const BodyTable::Place* BodyTable::place_of(BodyHandle handle) const noexcept {
     if (handle.index >= places_.size()) return nullptr;
     const Place& place = places_[handle.index];

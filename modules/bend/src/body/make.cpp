@@ -91,7 +91,9 @@ void write_region(Columns& storage, const ColumnLayout& layout, const Making& ma
 }
 
 ColumnLayout layout_of(const BodyInput& input) {
-    const auto shaped = [](const RestVertex& v) { return v.scale != 1 || v.drift != 0; };
+    const auto shaped = [](const RestVertex& v) {
+        return v.scale != 1 || v.drift != 0 || v.scale_slope != 0;
+    };
     return {!input.tangents.empty(), std::ranges::any_of(input.vertices, shaped),
             std::ranges::any_of(input.regions, compares_with_rest)};
 }

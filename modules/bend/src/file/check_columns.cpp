@@ -82,9 +82,8 @@ double most_of(const ColumnLayout& layout, std::size_t column) noexcept {
     if (column >= shape)
         return column == shape + scale ? scales : static_cast<double>(std::numeric_limits<float>::max());
     const bool direction = column >= normals || column <= sin_half_beta;
-    return direction && (!layout.tangents || column != tangent_sign)
-               ? unit
-               : static_cast<double>(std::numeric_limits<float>::max());
+    return direction && column != tangent_sign ? unit
+                                               : static_cast<double>(std::numeric_limits<float>::max());
 }
 
 /// The columns of some vertices of a region.
@@ -215,22 +214,6 @@ private:
 };
 
 }  // namespace
-
-BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept {
-    BandsRecord record = {};
-    record.vertex_count = vertex_count;
-    record.lowest = bands.lowest;
-    record.highest = bands.highest;
-    record.drift_error = bands.drift_error;
-    record.max_drift_step = bands.max_drift_step;
-    record.max_scale = bands.max_scale;
-    record.shaped = bands.shaped ? 1 : 0;
-    std::ranges::copy(bands.rho, record.rho);
-    std::ranges::copy(bands.outward, record.outward);
-    std::ranges::copy(bands.inward, record.inward);
-    std::ranges::copy(bands.drift, record.drift);
-    return record;
-}
 
 BodyFault check_columns(const BodyData& data) noexcept {
     for (std::size_t r = 0; r < data.regions.size(); ++r) {

@@ -8,7 +8,7 @@
 namespace goffer::bend {
 namespace {
 
-constexpr std::uint64_t prime1 = 0x9e3779b185ebca87, prime2 = 0xc2b2ae3d27d4eb4f, prime3 = 0x165667b19e3779f9,
+constexpr std::uint64_t prime1 = Checksum::prime1, prime2 = Checksum::prime2, prime3 = 0x165667b19e3779f9,
                         prime4 = 0x85ebca77c2b2ae63, prime5 = 0x27d4eb2f165667c5;
 
 std::uint64_t round(std::uint64_t lane, std::uint64_t word) noexcept {

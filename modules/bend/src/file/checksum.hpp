@@ -17,9 +17,10 @@ public:
 
     [[nodiscard]] std::uint64_t value() const noexcept;
 
-private:
+    /// Of the specification's five primes.
     static constexpr std::uint64_t prime1 = 0x9e3779b185ebca87, prime2 = 0xc2b2ae3d27d4eb4f;
 
+private:
     std::array<std::uint64_t, 4> lanes_{prime1 + prime2, prime2, 0, 0 - prime1};
     std::array<std::byte, 32> rest_{};
     std::size_t rest_count_ = 0;

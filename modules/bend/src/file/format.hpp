@@ -85,6 +85,8 @@ struct PartRecord {
 
 inline constexpr std::array<char, 8> file_magic{'G', 'O', 'F', 'F', 'E', 'R', '\r', '\n'};
 inline constexpr std::uint32_t file_byte_order = 0x01020304;
+/// The most rows of a region's table: each level has a copy.
+inline constexpr std::size_t most_rows = 4096;
 inline constexpr std::size_t shared_sections = 8;  ///< from `rig` to `notes`
 inline constexpr std::size_t level_sections = 7;   ///< from `level` to `parts`
 
@@ -114,8 +116,9 @@ static_assert(column_alignment == 64 && widest_batch == 32);
 /// A region's bands and number of vertices as a record.
 [[nodiscard]] BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept;
 
-/// The first fault in the columns of `data`, all of whose regions are there: what Body::check would refuse,
-/// or no body has. In the time of reading them, unless there is a fault.
+/// The first fault in the columns of `data`, all of whose regions are there: a number with which a run might
+/// leave float's range or the bounds. Numbers of several vertices are looked at together, and one by one only
+/// where the most extreme of them would make no good vertex.
 [[nodiscard]] BodyFault check_columns(const BodyData& data) noexcept;
 
 /// The checksum of a file, of which at least the header is there.

@@ -125,6 +125,19 @@ bool all_finite(std::span<const float> numbers) {
     return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });
 }
 
+/// Whether two records differ by no more than rounding, and numbers that a processor may take for 0.
+bool agree(const BandsRecord& a, const BandsRecord& b) {
+    const auto near = [](float x, float y) {
+        return std::fabs(x - y) <= 1e-5f * std::max(std::fabs(x), std::fabs(y)) + 1e-30f;
+    };
+    const auto all_near = [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, near); };
+    return a.vertex_count == b.vertex_count && a.shaped == b.shaped && near(a.lowest, b.lowest) &&
+           near(a.highest, b.highest) && near(a.drift_error, b.drift_error) &&
+           near(a.max_drift_step, b.max_drift_step) && near(a.max_scale, b.max_scale) &&
+           all_near(a.rho, b.rho) && all_near(a.outward, b.outward) && all_near(a.inward, b.inward) &&
+           all_near(a.drift, b.drift);
+}
+
 /// What the views of a BodyFile refer to, beside bytes that are the caller's.
 struct Holdings {
     Columns copy;  ///< of the file, or none
@@ -171,13 +184,12 @@ public:
 private:
     [[nodiscard]] BodyFileFault check_sections() { return sections_.check(); }
 
-    /// The characters of a name, or nothing where they are not there. Names share none, so that all of them
-    /// together are no longer than the file.
+    /// The characters of a name, or nothing where they are not there. Names follow each other in the order in
+    /// which they are asked for, so that all of them together are no longer than the file.
     [[nodiscard]] std::optional<std::string_view> name(const NameRecord& name) {
         const std::span<const char> all = sections_.get<char>(FileSection::names);
-        if (name.first > all.size() || name.count > all.size() - name.first) return std::nullopt;
+        if (name.first != named_ || name.count > all.size() - named_) return std::nullopt;
         named_ += name.count;
-        if (named_ > all.size()) return std::nullopt;
         return std::string_view(all.data() + name.first, name.count);
     }
 
@@ -202,8 +214,10 @@ private:
         }
         rig_.radius = rigs[0].radius;
         for (const RegionRecord& record : regions) {
-            if (record.wrinkle_rows > rows.size()) return count(FileSection::wrinkle_rows);
-            if (record.factor_rows > factors.size()) return count(FileSection::factor_rows);
+            if (record.wrinkle_rows > std::min(rows.size(), most_rows))
+                return count(FileSection::wrinkle_rows);
+            if (record.factor_rows > std::min(factors.size(), most_rows))
+                return count(FileSection::factor_rows);
             RegionInput region;
             region.length = record.length;
             region.max_angle = record.max_angle;
@@ -285,10 +299,9 @@ private:
             if (const BodyFileFault fault = check_numbers(*data, index); !fault.none()) return fault;
         }
         const float *low = record.low, *high = record.high;
-        for (int c = 0; c < 3; ++c) {
-            if (!(all_finite({low, 3}) && all_finite({high, 3}) && low[c] <= high[c]))
-                return number(FileSection::level, 0);
-        }
+        const bool box = all_finite({low, 3}) && all_finite({high, 3}) && low[0] <= high[0] &&
+                         low[1] <= high[1] && low[2] <= high[2];
+        if (!box) return number(FileSection::level, 0);
         file_.levels.push_back({});
         BodyFileLevel& level = file_.levels.back();
         level.rest_bounds = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
@@ -376,7 +389,7 @@ private:
             const Region& region = data.regions[r];
             const BandsRecord made =
                 record_of(bands_of(data.columns, region.first, region.last), data.inputs[r].vertex_count);
-            if (std::memcmp(&made, &records[r], sizeof made) != 0) return number(FileSection::bands, r);
+            if (!agree(made, records[r])) return number(FileSection::bands, r);
         }
         return {};
     }
@@ -431,7 +444,7 @@ private:
     std::shared_ptr<Holdings> holdings_;
     BodyFile file_;
     Rig rig_;
-    std::size_t named_ = 0;  // characters of all names so far
+    std::size_t named_ = 0;  // characters of the names so far
 };
 
 std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "file/checksum.hpp"
 #include "file/format.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -14,18 +13,10 @@
 namespace goffer::bend {
 namespace {
 
-bool same(const WrinkleTable& a, const WrinkleTable& b) {
-    return a.max_angle == b.max_angle && a.rows == b.rows;
-}
-bool same(const FactorTable& a, const FactorTable& b) {
-    return a.max_angle == b.max_angle && a.rows == b.rows;
-}
-
-/// Whether two regions differ in nothing but their vertices.
-bool same(const RegionInput& a, const RegionInput& b) {
-    return a.length == b.length && a.max_angle == b.max_angle && a.rest_angle == b.rest_angle &&
-           a.rest_direction == b.rest_direction && a.onset == b.onset && same(a.table, b.table) &&
-           same(a.factors, b.factors) && a.radius == b.radius && a.max_scale == b.max_scale;
+/// Whether two regions differ in nothing but how many vertices they have.
+bool same(RegionInput a, const RegionInput& b) {
+    a.vertex_count = b.vertex_count;
+    return a == b;
 }
 
 bool same_rig(const Body& a, const Body& b) {
@@ -189,16 +180,6 @@ void add_level(Writer& out, const LevelInput& input, const std::vector<PartRecor
 }
 
 }  // namespace
-
-std::uint64_t checksum_of(std::span<const std::byte> bytes) noexcept {
-    FileHeader header;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    header.checksum = 0;
-    Checksum checksum;
-    checksum.add(std::as_bytes(std::span(&header, 1)));
-    checksum.add(bytes.subspan(sizeof header));
-    return checksum.value();
-}
 
 std::vector<std::byte> save(const BodyFileInput& input, BodyFileFault* fault) {
     BodyFileFault found = check_levels(input.levels);

@@ -55,7 +55,7 @@ std::vector<fit::RegionOptions> regions_in(const CrowdOptions& options) {
     return {};
 }
 
-/// Everything that can be refused by looking at the words alone.
+/// Everything that can be refused before a model is read. (Of body files the regions are.)
 struct CrowdRequest {
     PoseRequest pose;
     std::vector<Target> targets;

@@ -26,7 +26,8 @@
 ///     job.body = &file->levels[0].body;
 ///
 /// A body that was saved and loaded deforms to the same bits. The format is in modules/bend/README.md. All
-/// functions are thread-safe; they allocate, and may throw std::bad_alloc.
+/// functions are thread-safe; they allocate, and may throw std::bad_alloc, which leaks what they have
+/// allocated.
 
 namespace goffer::bend {
 
@@ -56,7 +57,7 @@ struct DrawMesh {
     std::span<const std::uint32_t> triangles;  ///< 3 vertices of the body each; counterclockwise from outside
     std::span<const glm::vec2> uvs;            ///< none, or one per vertex; v points up
     /// None, or for each vertex of the body which vertex it is in the model that it was made from: to find
-    /// what else the model says of it (colors, weights).
+    /// what else the model says of it (colors, weights). Nothing looks whether the model has that many.
     std::span<const std::uint32_t> source;
     std::span<const DrawPart> parts;  ///< none, or covering all triangles, in order
 };
@@ -87,7 +88,7 @@ struct BodyFileInput {
 struct BodyFileLevel {
     Body body;
     DrawMesh mesh;
-    Bounds rest_bounds;  ///< the tight box of all vertices at rest, model space
+    Bounds rest_bounds;  ///< the tight box of all vertices at rest, model space; as the file has it
 };
 
 /// What a file holds; move-only. Spans and names refer to its bytes, and are good for as long as this object.
@@ -167,12 +168,14 @@ struct BodyFileFault {
 /// How much of a file is looked at before it is used.
 enum class Verify : std::uint8_t {
     /// All of it: the checksum, and each number, so that a file from anywhere does no harm. The runs of its
-    /// bodies are as safe as those of Body::make's, and all indices refer to what is there.
+    /// bodies are as safe as those of Body::make's, and triangles, parts and sockets refer to what is there.
+    /// In the default floating-point environment, or with subnormal numbers taken as 0.
     everything,
     /// That no byte has changed since it was written, and what takes no time: for files that come from where
     /// nobody means harm.
     checksum,
-    /// What takes no time: loading does not touch columns, triangles or texture coordinates, which a mapped
+    /// What takes no time in proportion to the vertices: loading does not touch columns, triangles or texture
+    /// coordinates, which a mapped
     /// file then reads when they are first used. For files that were verified once, by whoever installed
     /// them. In one that was changed since then, these are any bits: a run stays within its memory and writes
     /// numbers that mean nothing, but an index of a triangle may be that of no vertex.

@@ -26,13 +26,13 @@ struct BodyHandle {
     [[nodiscard]] bool operator==(const BodyHandle&) const noexcept = default;
 };
 
-/// Owns bodies. Move-only. Functions that are const are thread-safe, the others are for one thread at a time,
-/// while no other reads. Handles of one table mean nothing in another.
+/// Owns bodies. Move-only; one that was moved from is empty. Functions that are const are thread-safe, the
+/// others are for one thread at a time, while no other reads. Handles of one table mean nothing in another.
 class BodyTable {
 public:
     BodyTable() = default;
-    BodyTable(BodyTable&&) = default;
-    BodyTable& operator=(BodyTable&&) = default;
+    BodyTable(BodyTable&& other) noexcept;
+    BodyTable& operator=(BodyTable&& other) noexcept;
 
     /// Takes a body, which must not be empty, and returns its handle. Bodies that are there keep their
     /// addresses. Allocates; may throw std::bad_alloc.

@@ -28,6 +28,8 @@ struct RegionInput {
     std::size_t vertex_count = 0;  ///< number of the body's vertices that belong to it
     double radius = 0;             ///< r of its base, the mean of its radii, model units; 0: the body's
     double max_scale = 1;          ///< >= 1, largest RestVertex::scale of its vertices
+
+    [[nodiscard]] bool operator==(const RegionInput&) const = default;
 };
 
 /// A region of a body. A plain value.

@@ -39,6 +39,7 @@ struct WrinkleTable {
     std::vector<WrinkleRow> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
+    [[nodiscard]] bool operator==(const WrinkleTable&) const = default;
 
     /// The row at `angle` in radians, interpolated linearly over the angle's root between the two nearest
     /// rows. Angles outside 0..max_angle count as the nearer end, and those that are not finite as 0. Zeros
@@ -59,6 +60,7 @@ struct FactorTable {
     std::vector<std::array<float, directions>> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
+    [[nodiscard]] bool operator==(const FactorTable&) const = default;
 
     /// The factor at `angle`, and at `direction` from the rest arc's, both in radians. Its square is
     /// interpolated linearly over the direction and over the angle's root. Angles outside 0..max_angle count

@@ -17,7 +17,8 @@ namespace goffer::fit {
 struct BakeLevel {
     const Binding* binding = nullptr;
     /// What is drawn of it, in the order of the geometry that was bound: triangles refer to its vertices,
-    /// texture coordinates and `source` have one entry for each. bake() puts them into the body's order.
+    /// texture coordinates and `source` have one entry for each. bake() puts them into the body's order,
+    /// which is what `source` says if it is not given and the orders differ.
     bend::DrawMesh mesh = {};
 };
 
