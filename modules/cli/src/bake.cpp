@@ -145,9 +145,10 @@ std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::ve
     const mesh::VertexArrays& rest = model.rest;
     const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     std::vector<bend::NamedSocket> sockets;
-    for (const auto& [name, point] : words) {
-        sockets.push_back(
-            {name, in_file(model.file, [&] { return fit::socket_near(model.binding, geometry, point); })});
+    for (const SocketWords& socket : words) {
+        const bend::Socket place =
+            in_file(model.file, [&] { return fit::socket_near(model.binding, geometry, socket.point); });
+        sockets.push_back({socket.name, place});
     }
     return sockets;
 }

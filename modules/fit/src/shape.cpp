@@ -75,7 +75,8 @@ void add_triangle(Profiler& profiler, const Straightening& straightening, const 
     for (int i = 0; i < pieces; ++i) {
         for (int j = 0; j < 2 * (pieces - i) - 1; ++j) {  // of the row, pointing one way and the other
             const double a = (i + (j % 2 == 0 ? 1.0 : 2.0) / 3) / pieces;
-            const double b = (j / 2 + (j % 2 == 0 ? 1.0 : 2.0) / 3) / pieces;
+            const int before = j / 2;  // that point the same way
+            const double b = (before + (j % 2 == 0 ? 1.0 : 2.0) / 3) / pieces;
             const glm::dvec3 point = corner[0] + a * (corner[1] - corner[0]) + b * (corner[2] - corner[0]);
             const paper::Cylindrical at = straightening.vertex(point);
             profiler.add(at.z, at.rho, area * upright);
