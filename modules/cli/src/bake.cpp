@@ -145,6 +145,7 @@ std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::ve
     const mesh::VertexArrays& rest = model.rest;
     const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
     std::vector<bend::NamedSocket> sockets;
+    sockets.reserve(words.size());
     for (const SocketWords& socket : words) {
         const bend::Socket place =
             in_file(model.file, [&] { return fit::socket_near(model.binding, geometry, socket.point); });
@@ -164,6 +165,7 @@ Notes notes_of(const BoundModel& model, const BindRequest& request) {
 void report_sockets(Report& report, const BoundModel& model, const std::vector<SocketWords>& words,
                     const std::vector<bend::NamedSocket>& named) {
     std::vector<bend::Socket> places;
+    places.reserve(named.size());
     for (const bend::NamedSocket& socket : named) places.push_back(socket.socket);
     const auto sockets = bend::Sockets::make(model.binding.body, places);
     if (!sockets) return;  // there is none
