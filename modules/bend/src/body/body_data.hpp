@@ -6,6 +6,7 @@
 #include "kernel/rest_columns.hpp"
 
 #include <goffer/bend/body.hpp>
+#include <goffer/bend/file_memory.hpp>
 #include <goffer/bend/table.hpp>
 #include <goffer/engine/columns.hpp>
 
@@ -81,8 +82,8 @@ struct RegionData {
 };
 
 struct BodyData {
-    Columns storage;                     ///< the memory that `columns` points into; empty if it is a file's
-    std::shared_ptr<const void> memory;  ///< the file's, where the body owns a share of it
+    Columns storage;      ///< the memory that `columns` points into; empty if it is a file's
+    FileMemory memory;    ///< the file's, where the body owns a share of it
     RestColumns columns;  ///< padded as Columns says; null for columns that the body does not have
     ColumnLayout layout;
     std::size_t stride = 0;  ///< floats from one column to the next

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "body/check.hpp"
 #include "file/format.hpp"
+#include "file/holdings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -138,12 +139,6 @@ bool agree(const BandsRecord& a, const BandsRecord& b) {
            all_near(a.drift, b.drift);
 }
 
-/// What the views of a BodyFile refer to, beside bytes that are the caller's.
-struct Holdings {
-    Columns copy;  ///< of the file, or none
-    std::vector<std::vector<DrawPart>> parts;
-};
-
 /// What all levels share.
 struct Rig {
     glm::dvec3 origin{0};
@@ -154,8 +149,7 @@ struct Rig {
 
 class Loader {
 public:
-    Loader(std::span<const std::byte> bytes, std::size_t levels, Verify verify,
-           std::shared_ptr<Holdings> holdings)
+    Loader(std::span<const std::byte> bytes, std::size_t levels, Verify verify, FileMemory holdings)
         : sections_(bytes, levels),
           levels_(levels),
           everything_(verify == Verify::everything),
@@ -441,14 +435,14 @@ private:
     Sections sections_;
     std::size_t levels_;
     bool everything_;
-    std::shared_ptr<Holdings> holdings_;
+    FileMemory holdings_;
     BodyFile file_;
     Rig rig_;
     std::size_t named_ = 0;  // characters of the names so far
 };
 
 std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,
-                                  std::shared_ptr<Holdings> holdings) {
+                                  FileMemory holdings) {
     std::optional<BodyFile> file;
     BodyFileFault found = check_header(bytes);
     if (found.none()) {
@@ -467,7 +461,7 @@ std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFaul
 
 }  // namespace
 
-BodyFile::BodyFile(std::shared_ptr<const void> memory) noexcept : memory_(std::move(memory)) {}
+BodyFile::BodyFile(FileMemory memory) noexcept : memory_(std::move(memory)) {}
 BodyFile::BodyFile(BodyFile&& other) noexcept = default;
 BodyFile& BodyFile::operator=(BodyFile&& other) noexcept = default;
 BodyFile::~BodyFile() = default;
@@ -478,11 +472,11 @@ bool is_body_file(std::span<const std::byte> bytes) noexcept {
 }
 
 std::optional<BodyFile> load(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
-    return load_held(bytes, fault, verify, std::make_shared<Holdings>());
+    return load_held(bytes, fault, verify, FileMemory(new FileHoldings));
 }
 
 std::optional<BodyFile> load_copy(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
-    auto holdings = std::make_shared<Holdings>();
+    auto holdings = FileMemory(new FileHoldings);
     holdings->copy = Columns(1, (bytes.size() + sizeof(float) - 1) / sizeof(float));
     std::byte* copy = std::as_writable_bytes(holdings->copy[0]).data();
     if (!bytes.empty()) std::memcpy(copy, bytes.data(), bytes.size());

@@ -3,6 +3,7 @@
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/fault.hpp>
+#include <goffer/bend/file_memory.hpp>
 #include <goffer/bend/job.hpp>
 #include <goffer/bend/sockets.hpp>
 
@@ -11,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -100,13 +100,13 @@ struct BodyFile {
     std::string_view notes;
 
     /// For goffer's own sources: load() makes files.
-    explicit BodyFile(std::shared_ptr<const void> memory) noexcept;
+    explicit BodyFile(FileMemory memory) noexcept;
     BodyFile(BodyFile&& other) noexcept;
     BodyFile& operator=(BodyFile&& other) noexcept;
     ~BodyFile();
 
 private:
-    std::shared_ptr<const void> memory_;
+    FileMemory memory_;
 };
 
 /// A part of a file. From `level` on there is one for each level.
