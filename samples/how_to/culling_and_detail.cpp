@@ -8,23 +8,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <span>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 using namespace goffer;
-
-bend::BodyFile load(const char* name) {
-    std::ifstream in(name, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-    bend::BodyFileFault fault;
-    std::optional<bend::BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
-    if (!file) throw std::runtime_error(bend::describe(fault).c_str());
-    return std::move(*file);
-}
 
 struct Worm {
     bend::Pose pose{.angle = 1};
@@ -35,42 +23,39 @@ struct Worm {
 
 int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: culling_and_detail FILE.goffer"), 2;
-    try {
-        const bend::BodyFile file = load(argv[1]);
-        const bend::Body& body = file.levels[0].body;
-        if (body.region_count() != 1) throw std::runtime_error("this program is for bodies of one region");
-        const auto length = static_cast<float>(body.length());
-        std::vector<Worm> worms(100);
-        for (std::size_t i = 0; i < worms.size(); ++i)
-            worms[i].model[3].x = 2 * length * static_cast<float>(i);
-        std::vector<glm::vec3> vertices(worms.size() * body.vertex_count());
-        const std::span all(worms);
-        bend::Batch batch{.body = &body, .count = worms.size()};
-        batch.poses = strided(all, &Worm::pose);
-        batch.transforms = strided(all, &Worm::model);
-        batch.visible = strided(all, &Worm::visible);
-        batch.update_intervals = strided(all, &Worm::interval);
-        batch.wrinkle_weights = strided(all, &Worm::weight);
-        batch.positions = interleaved<3>(&vertices[0].x, vertices.size());
-        batch.vertex_step = body.vertex_count();
+    bend::BodyFileFault fault;
+    const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
+    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    const bend::Body& body = file->levels[0].body;
+    if (body.region_count() != 1) return std::puts("this program is for bodies of one region"), 1;
+    const auto length = static_cast<float>(body.length());
+    std::vector<Worm> worms(100);
+    for (std::size_t i = 0; i < worms.size(); ++i) worms[i].model[3].x = 2 * length * static_cast<float>(i);
+    std::vector<glm::vec3> vertices(worms.size() * body.vertex_count());
+    const std::span all(worms);
+    bend::Batch batch{.body = &body, .count = worms.size()};
+    batch.poses = strided(all, &Worm::pose);
+    batch.transforms = strided(all, &Worm::model);
+    batch.visible = strided(all, &Worm::visible);
+    batch.update_intervals = strided(all, &Worm::interval);
+    batch.wrinkle_weights = strided(all, &Worm::weight);
+    batch.positions = interleaved<3>(&vertices[0].x, vertices.size());
+    batch.vertex_step = body.vertex_count();
 
-        if (const bend::Fault fault = bend::validate(bend::CrowdJob{.batches = {&batch, 1}}); !fault.none())
-            throw std::runtime_error(bend::describe(fault).c_str());
+    if (const bend::Fault bad = bend::validate(bend::CrowdJob{.batches = {&batch, 1}}); !bad.none())
+        return std::printf("%s\n", bend::describe(bad).c_str()), 1;
 
-        // Bounds come from the poses alone: cull before a vertex is touched. Here, all beyond a plane.
-        std::vector<bend::Bounds> boxes(worms.size());
-        bend::bounds(batch, boxes);
-        for (std::size_t i = 0; i < worms.size(); ++i) {
-            const float distance = boxes[i].low.x / length;
-            worms[i].visible = distance < 120 ? 1 : 0;
-            worms[i].interval = distance < 40 ? 1 : 4;                       // a turn in every fourth frame
-            worms[i].weight = std::clamp((60 - distance) / 20, 0.0f, 1.0f);  // wrinkles fade out
-        }
-        for (std::uint32_t frame = 0; frame < 4; ++frame) {
-            const bend::CrowdResult result = bend::run_parallel({.batches = {&batch, 1}, .frame = frame});
-            std::printf("frame %u: %zu of %zu\n", frame, result.deformed, worms.size());
-        }
-    } catch (const std::exception& error) {
-        return std::printf("%s\n", error.what()), 1;
+    // Bounds come from the poses alone: cull before a vertex is touched. Here, all beyond a plane.
+    std::vector<bend::Bounds> boxes(worms.size());
+    bend::bounds(batch, boxes);
+    for (std::size_t i = 0; i < worms.size(); ++i) {
+        const float distance = boxes[i].low.x / length;
+        worms[i].visible = distance < 120 ? 1 : 0;
+        worms[i].interval = distance < 40 ? 1 : 4;                       // a turn in every fourth frame
+        worms[i].weight = std::clamp((60 - distance) / 20, 0.0f, 1.0f);  // wrinkles fade out
+    }
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        const bend::CrowdResult result = bend::run_parallel({.batches = {&batch, 1}, .frame = frame});
+        std::printf("frame %u: %zu of %zu\n", frame, result.deformed, worms.size());
     }
 }

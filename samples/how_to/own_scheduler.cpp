@@ -7,23 +7,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <optional>
+#include <span>
 #include <thread>
-#include <utility>
 #include <vector>
 
 using namespace goffer;
-
-bend::BodyFile load(const char* name) {
-    std::ifstream in(name, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-    bend::BodyFileFault fault;
-    std::optional<bend::BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
-    if (!file) throw std::runtime_error(bend::describe(fault).c_str());
-    return std::move(*file);
-}
 
 struct Worm {
     bend::Pose pose;
@@ -32,38 +21,34 @@ struct Worm {
 
 int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: own_scheduler FILE.goffer"), 2;
-    try {
-        const bend::BodyFile file = load(argv[1]);
-        const bend::Body& body = file.levels[0].body;
-        if (body.region_count() != 1) throw std::runtime_error("this program is for bodies of one region");
-        std::vector<Worm> worms(200);
-        for (std::size_t i = 0; i < worms.size(); ++i) worms[i].pose.angle = std::sin(static_cast<float>(i));
-        std::vector<glm::vec3> vertices(worms.size() * body.vertex_count());
-        bend::Batch batch{.body = &body, .count = worms.size()};
-        batch.poses = strided(std::span(worms), &Worm::pose);
-        batch.transforms = strided(std::span(worms), &Worm::model);
-        batch.positions = interleaved<3>(&vertices[0].x, vertices.size());
-        batch.vertex_step = body.vertex_count();
-        const bend::CrowdJob crowd{.batches = {&batch, 1}};
-        if (const bend::Fault fault = bend::validate(crowd); !fault.none())
-            throw std::runtime_error(bend::describe(fault).c_str());
+    bend::BodyFileFault fault;
+    const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
+    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    const bend::Body& body = file->levels[0].body;
+    if (body.region_count() != 1) return std::puts("this program is for bodies of one region"), 1;
+    std::vector<Worm> worms(200);
+    for (std::size_t i = 0; i < worms.size(); ++i) worms[i].pose.angle = std::sin(static_cast<float>(i));
+    std::vector<glm::vec3> vertices(worms.size() * body.vertex_count());
+    bend::Batch batch{.body = &body, .count = worms.size()};
+    batch.poses = strided(std::span(worms), &Worm::pose);
+    batch.transforms = strided(std::span(worms), &Worm::model);
+    batch.positions = interleaved<3>(&vertices[0].x, vertices.size());
+    batch.vertex_step = body.vertex_count();
+    const bend::CrowdJob crowd{.batches = {&batch, 1}};
+    if (const bend::Fault bad = bend::validate(crowd); !bad.none())
+        return std::printf("%s\n", bend::describe(bad).c_str()), 1;
 
-        // Each piece is a job for your job system: any thread, any order. Some for each thread even things
-        // out.
-        constexpr std::size_t threads = 4, pieces = 4 * threads;
-        std::vector<bend::CrowdResult> results(pieces);
-        std::vector<std::thread> pool;
-        for (std::size_t t = 0; t < threads; ++t) {
-            pool.emplace_back([&, t] {
-                for (std::size_t p = t; p < pieces; p += threads)
-                    results[p] = bend::run_piece(crowd, p, pieces);
-            });
-        }
-        for (std::thread& thread : pool) thread.join();
-        bend::CrowdResult sum;
-        for (const bend::CrowdResult& result : results) sum += result;
-        std::printf("%zu instances in %zu pieces\n", sum.deformed, pieces);
-    } catch (const std::exception& error) {
-        return std::printf("%s\n", error.what()), 1;
+    // Each piece is a job for your job system: any thread, any order. Several per thread balance the load.
+    constexpr std::size_t threads = 4, pieces = 4 * threads;
+    std::vector<bend::CrowdResult> results(pieces);
+    std::vector<std::thread> pool;
+    for (std::size_t t = 0; t < threads; ++t) {
+        pool.emplace_back([&, t] {
+            for (std::size_t p = t; p < pieces; p += threads) results[p] = bend::run_piece(crowd, p, pieces);
+        });
     }
+    for (std::thread& thread : pool) thread.join();
+    bend::CrowdResult sum;
+    for (const bend::CrowdResult& result : results) sum += result;
+    std::printf("%zu instances in %zu pieces\n", sum.deformed, pieces);
 }

@@ -15,22 +15,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-#include <utility>
+#include <optional>
 #include <vector>
 
 using namespace goffer;
-
-bend::BodyFile load(const char* name) {
-    std::ifstream in(name, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-    bend::BodyFileFault fault;
-    std::optional<bend::BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
-    if (!file) throw std::runtime_error(bend::describe(fault).c_str());
-    return std::move(*file);
-}
 
 // A vertex shader includes the same file, and gets words as R32G32B32_UINT, low and high once per instance.
 namespace shader {
@@ -40,30 +28,28 @@ using namespace glm;
 
 int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: packed FILE.goffer"), 2;
-    try {
-        const bend::BodyFile file = load(argv[1]);
-        const bend::Body& body = file.levels[0].body;
-        const std::size_t count = body.vertex_count();
-        const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.8f});
-        std::vector<bend::PackedVertex> packed(count);
-        std::vector<glm::vec3> exact(count);
-        bend::Bounds box;
-        bend::DeformJob job{.body = &body, .poses = poses};
-        job.packed = {packed.data(), sizeof packed[0], count};
-        job.bounds = &box;  // what positions are relative to
-        job.positions = interleaved<3>(&exact[0].x, count);
-        bend::run(job);
+    bend::BodyFileFault fault;
+    const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
+    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    const bend::Body& body = file->levels[0].body;
+    const std::size_t count = body.vertex_count();
+    const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.8f});
+    std::vector<bend::PackedVertex> packed(count);
+    std::vector<glm::vec3> exact(count);
+    bend::Bounds box;
+    bend::DeformJob job{.body = &body, .poses = poses};
+    job.packed = {packed.data(), sizeof packed[0], count};
+    job.bounds = &box;  // what positions are relative to
+    job.positions = interleaved<3>(&exact[0].x, count);
+    bend::run(job);
 
-        double farthest = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            glm::uvec3 words;
-            std::memcpy(&words, &packed[i], sizeof words);
-            const glm::vec3 decoded = shader::goffer_position(words, box.low, box.high);
-            farthest = std::max(farthest, static_cast<double>(glm::distance(decoded, exact[i])));
-        }
-        std::printf("%zu bytes instead of %zu, off by %.0e of the length\n", count * sizeof packed[0],
-                    count * 2 * sizeof(glm::vec3), farthest / body.length());
-    } catch (const std::exception& error) {
-        return std::printf("%s\n", error.what()), 1;
+    double farthest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::uvec3 words;
+        std::memcpy(&words, &packed[i], sizeof words);
+        const glm::vec3 decoded = shader::goffer_position(words, box.low, box.high);
+        farthest = std::max(farthest, static_cast<double>(glm::distance(decoded, exact[i])));
     }
+    std::printf("%zu bytes instead of %zu, off by %.0e of the length\n", count * sizeof packed[0],
+                count * 2 * sizeof(glm::vec3), farthest / body.length());
 }

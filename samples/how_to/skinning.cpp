@@ -6,52 +6,38 @@
 #include <goffer/bend/job.hpp>
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-#include <utility>
+#include <optional>
 #include <vector>
 
 using namespace goffer;
 
-bend::BodyFile load(const char* name) {
-    std::ifstream in(name, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-    bend::BodyFileFault fault;
-    std::optional<bend::BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
-    if (!file) throw std::runtime_error(bend::describe(fault).c_str());
-    return std::move(*file);
-}
-
 int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: skinning FILE.goffer"), 2;
-    try {
-        const bend::BodyFile file = load(argv[1]);
-        const auto& [body, mesh, rest] = file.levels[0];
+    bend::BodyFileFault fault;
+    const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
+    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    const auto& [body, mesh, rest] = file->levels[0];
 
-        // Skin weights are the model's, one per vertex of its file; `source` says which vertex that is. Those
-        // here are made up.
-        if (mesh.source.empty()) throw std::runtime_error("this file does not say which vertices it has");
-        const std::size_t count = body.vertex_count();
-        std::vector<float> weights(count);
-        for (std::size_t i = 0; i < count; ++i) weights[i] = static_cast<float>(mesh.source[i] % 101) / 100;
+    // Skin weights are the model's, one per vertex of its file; `source` says which vertex that is. Those
+    // here are made up.
+    if (mesh.source.empty()) return std::puts("this file does not say which vertices it has"), 1;
+    const std::size_t count = body.vertex_count();
+    std::vector<float> weights(count);
+    for (std::size_t i = 0; i < count; ++i) weights[i] = static_cast<float>(mesh.source[i] % 101) / 100;
 
-        // First bend, in model space, ..
-        const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.4f});
-        std::vector<glm::vec3> positions(count);
-        bend::DeformJob job{.body = &body, .poses = poses};
-        job.positions = interleaved<3>(&positions[0].x, count);
-        bend::run(job);
+    // First bend, in model space, ..
+    const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.4f});
+    std::vector<glm::vec3> positions(count);
+    bend::DeformJob job{.body = &body, .poses = poses};
+    job.positions = interleaved<3>(&positions[0].x, count);
+    bend::run(job);
 
-        // .. then skin what was bent as if it were the rest shape: on the GPU, or here.
-        const glm::mat4x3 bones[2] = {glm::mat4x3(1), {1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0}};
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::mat4x3 bone = (1 - weights[i]) * bones[0] + weights[i] * bones[1];
-            positions[i] = bone * glm::vec4(positions[i], 1);
-        }
-        std::printf("%zu vertices, bent and skinned; the box at rest was %.2f wide\n", count,
-                    static_cast<double>(rest.high.x - rest.low.x));
-    } catch (const std::exception& error) {
-        return std::printf("%s\n", error.what()), 1;
+    // .. then skin what was bent as if it were the rest shape: on the GPU, or here.
+    const glm::mat4x3 bones[2] = {glm::mat4x3(1), {1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0}};
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::mat4x3 bone = (1 - weights[i]) * bones[0] + weights[i] * bones[1];
+        positions[i] = bone * glm::vec4(positions[i], 1);
     }
+    std::printf("%zu vertices, bent and skinned; the box at rest was %.2f wide\n", count,
+                static_cast<double>(rest.high.x - rest.low.x));
 }

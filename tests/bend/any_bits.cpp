@@ -55,12 +55,6 @@ bool finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-std::vector<bend::Pose> rest_poses(const bend::Body& body) {
-    std::vector<bend::Pose> poses;
-    for (std::size_t r = 0; r < body.region_count(); ++r) poses.push_back(body.rest_pose(r));
-    return poses;
-}
-
 /// A body of 1 to 32 regions, some of them without vertices, with at least one vertex in all.
 bend::Body any_body(Random& random) {
     std::vector<std::size_t> counts(1 + random() % bend::max_regions);
@@ -153,7 +147,7 @@ TEST_CASE("P11: poses of any bits, through every function that takes them") {
             const Isa isa = isas_here()[random() % isas_here().size()];
             const std::vector<bend::Pose> poses = any_poses(random, body.region_count());
             const std::vector<bend::Pose> previous = any_poses(random, body.region_count());
-            const std::vector<bend::Pose> rest = rest_poses(body);
+            const std::vector<bend::Pose> rest = body.rest_poses();
             bend::DeformJob job{.body = &body, .poses = poses, .isa = isa};
             job.previous_poses = previous;
             job.transform = random_transform(random, 2);
@@ -237,7 +231,7 @@ TEST_CASE("poses that are missing are those of rest, to bounds") {
     const std::size_t counts[] = {10, 20, 30, 5};
     const bend::Body body = loose_chain(random, counts);
     const glm::mat4x3 transform = random_transform(random, 2);
-    const std::vector<bend::Pose> rest = rest_poses(body);
+    const std::vector<bend::Pose> rest = body.rest_poses();
     const auto same = [](const bend::Bounds& a, const bend::Bounds& b) {
         return std::memcmp(&a, &b, sizeof a) == 0;
     };

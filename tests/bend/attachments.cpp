@@ -112,8 +112,7 @@ TEST_CASE("the socket nearest to a point lies on the surface there, its axis alo
             const bend::Socket socket = fit::socket_near(chain.binding, s.geometry(), middle + 1e-5 * normal);
             const std::optional<bend::Sockets> made = bend::Sockets::make(chain.binding.body, {&socket, 1});
             REQUIRE(made);
-            std::vector<bend::Pose> rest;
-            for (const bend::Region& region : chain.binding.body.regions()) rest.push_back(region.rest);
+            const std::vector<bend::Pose> rest = chain.binding.body.rest_poses();
             bend::SocketFrame frame;
             made->frames(rest, {&frame, 1});
             REQUIRE(glm::length(glm::dvec3(frame.position) - middle) < 5e-7);

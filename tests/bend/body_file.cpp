@@ -11,8 +11,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -186,9 +184,7 @@ TEST_CASE("body file: what is drawn, sockets and notes come back") {
     CHECK(
         bend::Sockets::make(loaded, std::array{file.sockets[0].socket, file.sockets[1].socket}).has_value());
     CHECK(file.notes == "made of nothing");
-    std::vector<bend::Pose> rest;
-    for (const bend::Region& region : body.regions()) rest.push_back(region.rest);
-    const bend::Bounds around = bend::bounds(body, rest);
+    const bend::Bounds around = bend::bounds(body, body.rest_poses());
     for (int c = 0; c < 3; ++c) {
         CHECK(box.low[c] >= around.low[c]);
         CHECK(box.high[c] <= around.high[c]);
@@ -427,11 +423,21 @@ TEST_CASE("body file: without verification a changed file still runs within its 
     CHECK(loaded > 100);
 }
 
+TEST_CASE("body file: what cannot be read as a file is said to be") {
+    const auto refused = [](const char* name) {
+        BodyFileFault fault;
+        CHECK(!bend::load_file(name, &fault));
+        CHECK(!bend::load_file(name));
+        return std::string(bend::describe(fault).c_str());
+    };
+    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data/none.goffer") == "body file: cannot be opened or read");
+    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data") == "body file: cannot be opened or read");
+    CHECK(refused(GOFFER_SOURCE_DIR "/README.md") == "body file: not a body file; goffer bake makes one");
+}
+
 TEST_CASE("body file: one of version 1 is read, and bends as it did when it was written") {
-    std::ifstream in(GOFFER_SOURCE_DIR "/tests/data/cylinder_v1.goffer", std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
     BodyFileFault fault;
-    const std::optional<BodyFile> file = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
+    const auto file = bend::load_file(GOFFER_SOURCE_DIR "/tests/data/cylinder_v1.goffer", &fault);
     INFO(bend::describe(fault).c_str());
     REQUIRE(file.has_value());
     REQUIRE(file->levels.size() == 2);

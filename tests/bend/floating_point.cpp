@@ -120,8 +120,8 @@ std::vector<bend::Body> bodies() {
 /// At rest, straight, all but straight, and as far as each region goes.
 std::vector<std::vector<bend::Pose>> poses_of(const bend::Body& body) {
     std::vector<std::vector<bend::Pose>> poses(6);
+    poses[0] = body.rest_poses();
     for (std::size_t r = 0; r < body.region_count(); ++r) {
-        poses[0].push_back(body.rest_pose(r));
         poses[1].push_back({0, 0});
         poses[2].push_back({1e-30f, 2});
         poses[3].push_back({1e-42f, -1});

@@ -45,12 +45,6 @@ bend::DeformJob make_job(const bend::Body& body, std::span<const bend::Pose> pos
     return job;
 }
 
-std::vector<bend::Pose> rest_poses(const bend::Body& body) {
-    std::vector<bend::Pose> poses;
-    for (const bend::Region& region : body.regions()) poses.push_back(region.rest);
-    return poses;
-}
-
 /// A body with several regions or one, bent at rest or not.
 struct Case {
     TestMesh test_mesh;
@@ -97,7 +91,7 @@ Worst worst_of(Random& random, const Case& one, double position, double directio
 void check_rest(const Case& one) {
     const std::size_t count = one.test_mesh.positions.size();
     Output out(count);
-    const std::vector<bend::Pose> poses = rest_poses(one.binding.body);
+    const std::vector<bend::Pose> poses = one.binding.body.rest_poses();
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
         bend::run(make_job(one.binding.body, poses, isa, out));

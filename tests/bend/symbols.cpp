@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "support/commands.hpp"
+
 #include <goffer/engine/isa.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -16,14 +15,6 @@
 
 namespace goffer::test {
 namespace {
-
-std::string output_of(const std::string& command) {
-    std::string text;
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    std::array<char, 4096> part{};
-    while (pipe && fgets(part.data(), part.size(), pipe.get()) != nullptr) text += part.data();
-    return text;
-}
 
 /// The object files in a list by CMake.
 std::vector<std::string> objects(const char* list) {

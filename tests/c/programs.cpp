@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
+#include "support/commands.hpp"
 #include "support/files.hpp"
 
 #include <goffer/bend/crowd.hpp>
@@ -7,12 +8,9 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <regex>
 #include <set>
 #include <string>
@@ -22,15 +20,6 @@
 
 namespace goffer::test {
 namespace {
-
-std::string output_of(const std::string& command) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    REQUIRE(pipe != nullptr);
-    std::string text;
-    std::array<char, 4096> part{};
-    while (std::fgets(part.data(), part.size(), pipe.get()) != nullptr) text += part.data();
-    return text;
-}
 
 /// The first python3 of the path may not be the system's, whose packages are installed. Empty: there is none.
 std::string python_with_numpy() {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "support/files.hpp"
+#include "command_folder.hpp"
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <regex>
-#include <set>
 #include <string>
 
 /// The programs of samples/how_to do what they say.
@@ -19,38 +14,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string output_of(const std::string& command) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    REQUIRE(pipe != nullptr);
-    std::string text;
-    std::array<char, 4096> part{};
-    while (std::fgets(part.data(), part.size(), pipe.get()) != nullptr) text += part.data();
-    return text;
-}
-
 /// Bodies of a worm in a folder: worm.goffer, and chain.goffer of eight regions.
 class Bodies {
 public:
     Bodies() {
-        goffer("base --length 10 --radius 1 --columns 24 --rows 81 --caps -o worm.ply");
-        goffer("bake worm.ply --refine off --socket tip=0,0,10 --socket side=1,0,5 -o worm.goffer");
-        goffer("bake worm.ply --refine off --amplitude none --regions " + eighths() + " -o chain.goffer");
+        const std::string eighths = ".125,.125,.125,.125,.125,.125,.125,.125";
+        folder_.goffer("base --length 10 --radius 1 --columns 24 --rows 81 --caps -o worm.ply");
+        folder_.goffer("bake worm.ply --refine off --socket tip=0,0,10 --socket side=1,0,5 -o worm.goffer");
+        folder_.goffer("bake worm.ply --refine off --amplitude none --regions " + eighths +
+                       " -o chain.goffer");
     }
 
     /// What `how_to/<name> <file>` prints.
     [[nodiscard]] std::string run(const std::string& name, const std::string& files) const {
-        return output_of(in_folder() + "'" GOFFER_HOW_TO "/" + name + "' " + files + " 2>&1");
+        return folder_.output(GOFFER_HOW_TO "/" + name, files);
     }
 
 private:
-    static std::string eighths() { return ".125,.125,.125,.125,.125,.125,.125,.125"; }
-    [[nodiscard]] std::string in_folder() const { return "cd '" + (folder_ / ".").string() + "' && "; }
-    void goffer(const std::string& words) const {
-        REQUIRE(std::system((in_folder() + "'" GOFFER_COMMAND "' " + words + " >/dev/null 2>&1").c_str()) ==
-                0);
-    }
-
-    Folder folder_;
+    CommandFolder folder_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/crowd.hpp>
+#include <goffer/bend/sockets.hpp>
 #include <goffer/fit/bind.hpp>
 
 #include <goffer.h>
@@ -11,6 +12,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 
 /// C's structs as C++ has them, and what stands behind its handles.
@@ -53,5 +55,7 @@ auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
 [[nodiscard]] bend::PackedStream packed_of(const goffer_packed_stream& stream) noexcept;
 [[nodiscard]] goffer_bounds bounds_of(const bend::Bounds& bounds) noexcept;
 [[nodiscard]] fit::Geometry geometry_of(const goffer_mesh& mesh);
+/// Throws where `body` cannot have them.
+[[nodiscard]] goffer_sockets* make_sockets(const bend::Body& body, std::span<const bend::Socket> sockets);
 
 }  // namespace goffer::c

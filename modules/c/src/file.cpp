@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "convert.hpp"
-#include "sockets.hpp"
 
 #include <memory>
 #include <stdexcept>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "sockets.hpp"
-
 #include "convert.hpp"
 
 #include <goffer/fit/sockets.hpp>

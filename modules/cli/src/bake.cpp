@@ -92,15 +92,9 @@ struct Level {
 BoundModel bind_next(const std::filesystem::path& file, const BindRequest& request, const fit::Binding& rig) {
     const Progress progress("reading " + file.string());
     refuse_body_file(file);
-    BoundModel model;
-    model.file = file;
-    model.mesh = mesh::load(file, request.words.load);
-    check_memory(file.string(), model.mesh, request.words.load.limits);
-    model.rest = mesh::vertex_arrays_with_uvs(model.mesh);
-    const fit::Geometry geometry{model.rest.positions, model.rest.triangles, model.rest.normals,
-                                 model.rest.tangents};
+    BoundModel model = read_model(file, request);
     try {
-        model.binding = fit::bind_level(geometry, rig);
+        model.binding = fit::bind_level(geometry_of(model.rest), rig);
     } catch (const fit::Error& error) {
         throw InputError(file.string() +
                          ": is no level of detail of MODEL, but another body: " + error.what());
@@ -111,15 +105,13 @@ BoundModel bind_next(const std::filesystem::path& file, const BindRequest& reque
 
 /// Parts as stretches of triangles. `place` of a material: which of the file's it is.
 std::vector<bend::DrawPart> parts_of(const mesh::Mesh& mesh, const std::vector<std::int32_t>& place) {
+    const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
     std::vector<bend::DrawPart> parts;
-    std::uint32_t first = 0;
-    for (const mesh::Part& part : mesh.parts) {
-        std::uint32_t count = 0;
-        for (std::uint32_t face = 0; face < part.face_count; ++face)
-            count += mesh.faces[part.first_face + face] - 2;
-        const std::int32_t material = part.material < 0 ? -1 : place[static_cast<std::size_t>(part.material)];
-        parts.push_back({part.name, first, count, material});
-        first += count;
+    parts.reserve(triangles.size());
+    for (std::size_t p = 0; p < triangles.size(); ++p) {
+        const std::int32_t material = mesh.parts[p].material;
+        parts.push_back({mesh.parts[p].name, triangles[p].first, triangles[p].count,
+                         material < 0 ? -1 : place[static_cast<std::size_t>(material)]});
     }
     return parts;
 }
@@ -142,8 +134,7 @@ std::vector<bend::DrawMaterial> materials_of(std::vector<Level>& levels) {
 }
 
 std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::vector<SocketWords>& words) {
-    const mesh::VertexArrays& rest = model.rest;
-    const fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
+    const fit::Geometry geometry = geometry_of(model.rest);
     std::vector<bend::NamedSocket> sockets;
     sockets.reserve(words.size());
     for (const SocketWords& socket : words) {
@@ -169,12 +160,14 @@ void report_sockets(Report& report, const BoundModel& model, const std::vector<S
     for (const bend::NamedSocket& socket : named) places.push_back(socket.socket);
     const auto sockets = bend::Sockets::make(model.binding.body, places);
     if (!sockets) return;  // there is none
-    std::vector<bend::Pose> rest;
-    for (const bend::Region& region : model.binding.body.regions()) rest.push_back(region.rest);
     std::vector<bend::SocketFrame> frames(sockets->count());
-    sockets->frames(rest, frames);
+    sockets->frames(model.binding.body.rest_poses(), frames);
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const glm::dvec3 at = frames[i].position;
+        glm::dvec3 at = frames[i].position;
+        const double noise = 1e-7 * model.binding.body.length();  // of rounding to float
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(at[axis]) < noise) at[axis] = 0;
+        }
         const double away = glm::distance(at, words[i].point);
         report.json["sockets"].push_back({{"name", words[i].name}, {"place", {at.x, at.y, at.z}}});
         report.line(i == 0 ? "sockets" : "",

@@ -42,15 +42,15 @@ struct BendOptions {
     std::filesystem::path json;
 };
 
-/// Everything that can be refused before a model is read. (Of body files the regions are.)
+/// Everything that can be refused by looking at the words alone, and at the regions of a body file.
 struct Request {
     PoseRequest pose;
     BindRequest bind;
     Isa isa;
     int threads;
 
-    explicit Request(const BendOptions& options)
-        : pose(options.pose, baked_regions(options.model, options.bind.load.limits)),
+    Request(const BendOptions& options, std::vector<fit::RegionOptions> baked)
+        : pose(options.pose, std::move(baked)),
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
@@ -167,9 +167,10 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
 }
 
 void run_bend(const BendOptions& options) {
-    const Request request(options);
+    ModelFile file(options.model, options.bind.load.limits);
+    const Request request(options, baked_regions(file));
     Report report(options.json);
-    const BoundModel model = bind_model(options.model, request.bind, options.fit);
+    const BoundModel model = bind_model(std::move(file), request.bind, options.fit);
     const bend::Body& body = model.binding.body;
     const std::vector<Target> targets = targets_on(body, request.pose);
     const std::vector<bend::Pose> poses = poses_of(targets);

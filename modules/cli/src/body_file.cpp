@@ -3,6 +3,7 @@
 
 #include "memory.hpp"
 #include "poses.hpp"
+#include "progress.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/io/read_file.hpp>
@@ -46,8 +47,7 @@ mesh::Mesh rest_mesh(const bend::BodyFile& file, const bend::BodyFileLevel& leve
     mesh::Mesh mesh;
     mesh.positions.resize(count);
     mesh.normals.values.resize(count);
-    std::vector<bend::Pose> poses;
-    for (const bend::Region& region : body.regions()) poses.push_back(region.rest);
+    const std::vector<bend::Pose> poses = body.rest_poses();
     bend::DeformJob job{.body = &body, .poses = poses};
     job.positions = interleaved<3>(&mesh.positions[0].x, count);
     job.normals = interleaved<3>(&mesh.normals.values[0].x, count);
@@ -96,47 +96,8 @@ nlohmann::json parsed(std::string_view text) {
     return notes.is_object() ? notes : nlohmann::json::object();
 }
 
-}  // namespace
-
-bool is_body_file(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe's bytes come once
-    if (file.extension() == ".goffer") return true;                    // or is meant to be one
-    std::array<char, 8> first{};
-    std::ifstream stream(file, std::ios::binary);
-    return stream.read(first.data(), first.size()) && bend::is_body_file(std::as_bytes(std::span(first)));
-}
-
-void refuse_body_file(const std::filesystem::path& file) {
-    if (is_body_file(file)) throw InputError(file.string() + ": is a body file already; give a model");
-}
-
-bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits) {
-    if (io::size_of_file(file) > limits.memory / 4) {  // the bytes, a copy of them, and what is drawn
-        throw InputError(file.string() + ": takes more than the " + io::size_text(limits.memory) +
-                         " of memory that are allowed; allow more with --max-memory");
-    }
-    const std::string bytes = io::read_file(file);
-    bend::BodyFileFault fault;
-    std::optional<bend::BodyFile> loaded = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
-    if (!loaded) throw InputError(file.string() + ": " + bend::describe(fault).c_str());
-    return std::move(*loaded);
-}
-
-std::vector<fit::RegionOptions> baked_regions(const std::filesystem::path& file, const mesh::Limits& limits) {
-    std::vector<fit::RegionOptions> regions;
-    if (!is_body_file(file)) return regions;
-    const bend::BodyFile loaded = read_body_file(file, limits);
-    const bend::Body& body = loaded.levels[0].body;
-    if (body.region_count() == 1) return regions;
-    for (const bend::RegionInput& region : body.region_inputs())
-        regions.push_back({region.length / body.length(), std::nullopt});
-    return regions;
-}
-
-BoundModel baked_model(const std::filesystem::path& file, const BindRequest& request) {
+BoundModel baked_model(const std::filesystem::path& file, bend::BodyFile loaded, const BindRequest& request) {
     refuse_choices(file, request);
-    bend::BodyFile loaded = read_body_file(file, request.words.load.limits);
     if (request.words.level >= loaded.levels.size())
         throw InputError(file.string() + ": has " + counted(loaded.levels.size(), "level") +
                          ", and none of number " + std::to_string(request.words.level) +
@@ -164,6 +125,53 @@ BoundModel baked_model(const std::filesystem::path& file, const BindRequest& req
     model.binding.cylinder = model.cylinder;
     model.binding.body = std::move(level.body);
     return model;
+}
+
+}  // namespace
+
+bool is_body_file(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe's bytes come once
+    if (file.extension() == ".goffer") return true;                    // or is meant to be one
+    std::array<char, 8> first{};
+    std::ifstream stream(file, std::ios::binary);
+    return stream.read(first.data(), first.size()) && bend::is_body_file(std::as_bytes(std::span(first)));
+}
+
+void refuse_body_file(const std::filesystem::path& file) {
+    if (is_body_file(file)) throw InputError(file.string() + ": is a body file already; give a model");
+}
+
+bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits) {
+    const Progress progress("reading " + file.string());
+    if (io::size_of_file(file) > limits.memory / 4) {  // the bytes, a copy of them, and what is drawn
+        throw InputError(file.string() + ": takes more than the " + io::size_text(limits.memory) +
+                         " of memory that are allowed; allow more with --max-memory");
+    }
+    const std::string bytes = io::read_file(file);
+    bend::BodyFileFault fault;
+    std::optional<bend::BodyFile> loaded = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
+    if (!loaded) throw InputError(file.string() + ": " + bend::describe(fault).c_str());
+    return std::move(*loaded);
+}
+
+ModelFile::ModelFile(std::filesystem::path name, const mesh::Limits& limits) : file(std::move(name)) {
+    if (is_body_file(file)) baked = read_body_file(file, limits);
+}
+
+std::vector<fit::RegionOptions> baked_regions(const ModelFile& model) {
+    std::vector<fit::RegionOptions> regions;
+    if (!model.baked) return regions;
+    const bend::Body& body = model.baked->levels[0].body;
+    if (body.region_count() == 1) return regions;
+    for (const bend::RegionInput& region : body.region_inputs())
+        regions.push_back({region.length / body.length(), std::nullopt});
+    return regions;
+}
+
+BoundModel bind_model(ModelFile model, const BindRequest& request, const std::filesystem::path& fit) {
+    return model.baked ? baked_model(model.file, std::move(*model.baked), request)
+                       : bind_model(model.file, request, fit);
 }
 
 std::string text_of(const Notes& notes) {

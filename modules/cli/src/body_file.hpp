@@ -6,6 +6,8 @@
 #include <goffer/bend/body_file.hpp>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 /// Body files in the place of models, and what `goffer bake` notes in them.
@@ -22,13 +24,23 @@ void refuse_body_file(const std::filesystem::path& file);
 /// and an error that names it.
 [[nodiscard]] bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits);
 
-/// The regions of the body in a body file, where it has several; none of any other file.
-[[nodiscard]] std::vector<fit::RegionOptions> baked_regions(const std::filesystem::path& file,
-                                                            const mesh::Limits& limits);
+/// A file that a command takes for a model: a body file, which is read, or a model, which has yet to be.
+struct ModelFile {
+    std::filesystem::path file;
+    std::optional<bend::BodyFile> baked;
 
-/// What bind_model() returns for a body file. Throws UsageError if the words ask for what was decided when
-/// it was made, and an error that names the file if it cannot be loaded.
-[[nodiscard]] BoundModel baked_model(const std::filesystem::path& file, const BindRequest& request);
+    /// Throws as read_body_file().
+    ModelFile(std::filesystem::path name, const mesh::Limits& limits);
+};
+
+/// The regions of a body that was baked with several; none of any other file.
+[[nodiscard]] std::vector<fit::RegionOptions> baked_regions(const ModelFile& model);
+
+/// bind_model() of a model, and the same of a body file, which is bound: throws UsageError if the words ask
+/// for what was decided when it was made, and an error that names the file if it has no such level, or
+/// nothing to draw.
+[[nodiscard]] BoundModel bind_model(ModelFile model, const BindRequest& request,
+                                    const std::filesystem::path& fit = {});
 
 /// What `goffer bake` notes in a file about how it was made. Nothing in it can be relied on.
 struct Notes {

@@ -104,10 +104,10 @@ void inspect_body_file(const InspectOptions& options) {
     for (const bend::NamedSocket& socket : file.sockets) sockets.emplace_back(socket.name);
     for (const bend::DrawMaterial& material : file.materials) materials.emplace_back(material.name);
     report.json["file"] = options.model.string();
-    report.json["bytes"] = io::size_of_file(options.model);
+    const std::uint64_t bytes = io::size_of_file(options.model);
+    report.json["bytes"] = bytes;
     report.json["radius"] = file.levels[0].body.radius();
-    report.line("body file",
-                options.model.string() + ", " + std::to_string(io::size_of_file(options.model)) + " bytes");
+    report.line("body file", options.model.string() + ", " + std::to_string(bytes) + " bytes");
     report_levels(report, file);
     report_regions(report, file.levels[0].body, notes);
     report.line("radius", number(file.levels[0].body.radius()));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "model.hpp"
 
-#include "body_file.hpp"
 #include "memory.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
 
+#include <goffer/bend/body_file.hpp>
 #include <goffer/fit/base.hpp>
 #include <goffer/fit/refine.hpp>
 
@@ -94,6 +94,10 @@ CLI::Validator refine_word() {
     return {check, ""};
 }
 
+mesh::VertexArrays arrays_of(const mesh::Mesh& mesh, const BindRequest& request) {
+    return request.with_uvs ? mesh::vertex_arrays_with_uvs(mesh) : mesh::vertex_arrays(mesh);
+}
+
 }  // namespace
 
 void add_level_word(CLI::App& command, std::size_t& level) {
@@ -164,12 +168,9 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
-    for (const CLI::Option* option : command.get_options()) {
-        for (const char* name : {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness",
-                                 "--shape", "--paper", "--wrinkle-range", "--onset", "--axis", "--rest"}) {
-            if (option->check_lname(name + 2)) words.choices.push_back(option);
-        }
-    }
+    for (const char* option : {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness",
+                               "--shape", "--paper", "--wrinkle-range", "--onset", "--axis", "--rest"})
+        words.choices.push_back(command.get_option(option));
     add_load_words(command, words.load);
 }
 
@@ -204,45 +205,65 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
             "--refine: without folds there is nothing to refine for; leave out one of --folds 0, --refine");
 }
 
+fit::Geometry geometry_of(const mesh::VertexArrays& arrays) {
+    return {arrays.positions, arrays.triangles, arrays.normals, arrays.tangents};
+}
+
+std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh) {
+    std::vector<TriangleRange> ranges;
+    ranges.reserve(mesh.parts.size());
+    std::uint32_t next = 0;
+    for (const mesh::Part& part : mesh.parts) {
+        TriangleRange range{next, 0};
+        for (std::uint32_t face = 0; face < part.face_count; ++face)
+            range.count += mesh.faces[part.first_face + face] - 2;
+        next += range.count;
+        ranges.push_back(range);
+    }
+    return ranges;
+}
+
+BoundModel read_model(const std::filesystem::path& file, const BindRequest& request) {
+    BoundModel model;
+    model.file = file;
+    model.mesh = mesh::load(file, request.words.load);
+    check_memory(file.string(), model.mesh, request.words.load.limits);
+    model.rest = arrays_of(model.mesh, request);
+    return model;
+}
+
 BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                       const std::filesystem::path& fit) {
     const Progress progress("reading " + file.string());
-    if (is_body_file(file)) return baked_model(file, request);
     if (request.words.level > 0)
         throw UsageError("--level: " + file.string() + " is a model, and has no levels; leave it out");
-    mesh::Mesh mesh = mesh::load(file, request.words.load);
-    const mesh::Limits& limits = request.words.load.limits;
-    check_memory(file.string(), mesh, limits);
-    const auto arrays = [&] {
-        return request.with_uvs ? mesh::vertex_arrays_with_uvs(mesh) : mesh::vertex_arrays(mesh);
-    };
-    mesh::VertexArrays rest = arrays();
-    fit::Geometry geometry{rest.positions, rest.triangles, rest.normals, rest.tangents};
+    BoundModel model = read_model(file, request);
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
+        const fit::Geometry geometry = geometry_of(model.rest);
         fit::check(geometry);
         const fit::Cylinder found =
             given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis, request.rest);
         const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
-    std::optional<Growth> growth;
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";
-        growth = in_file(file, [&] { return refine(mesh, cylinder, request.options, limits, automatic); });
-        if (growth->triangles_after != growth->triangles_before) {
-            rest = arrays();
-            geometry = {rest.positions, rest.triangles, rest.normals, rest.tangents};
+        model.growth = in_file(file, [&] {
+            return refine(model.mesh, cylinder, request.options, request.words.load.limits, automatic);
+        });
+        if (model.growth->triangles_after != model.growth->triangles_before) {
+            model.rest = arrays_of(model.mesh, request);
         } else if (automatic) {
-            growth.reset();
+            model.growth.reset();
         }
     }
     fit::BindOptions options = request.options;
     if (cylinder.radii.empty()) options.shape = fit::ShapeMode::cylinder;  // that was looked for already
-    fit::Binding binding =
-        in_file(given ? fit : file, [&] { return fit::bind(geometry, cylinder, options); });
-    const fit::Cylinder base = binding.cylinder;
-    return {file, std::move(mesh), std::move(rest), base, std::move(binding), growth};
+    model.binding =
+        in_file(given ? fit : file, [&] { return fit::bind(geometry_of(model.rest), cylinder, options); });
+    model.cylinder = model.binding.cylinder;
+    return model;
 }
 
 void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,

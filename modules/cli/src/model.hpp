@@ -82,11 +82,25 @@ struct BoundModel {
     bool baked = false;
 };
 
-/// Reads, fits, refines and binds `file`, or loads it if it is a body file; says so on a terminal where that
-/// takes long. `fit`: a report that the cylinder is taken from, or empty. Throws an error that names the file
-/// at fault.
+/// The arrays as fit reads them. They must outlive the geometry.
+[[nodiscard]] fit::Geometry geometry_of(const mesh::VertexArrays& arrays);
+
+/// Reads `file`, with neither cylinder nor binding. Throws an error that names it.
+[[nodiscard]] BoundModel read_model(const std::filesystem::path& file, const BindRequest& request);
+
+/// Reads, fits, refines and binds `file`; says so on a terminal where that takes long. `fit`: a report that
+/// the cylinder is taken from, or empty. Throws an error that names the file at fault.
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
+
+/// Triangles [first, first + count) of all, as mesh::triangles() cuts the faces.
+struct TriangleRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Which triangles each part of `mesh` has.
+[[nodiscard]] std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh);
 
 /// Values in the body's order, put into the model's.
 template <class T>

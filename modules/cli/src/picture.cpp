@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "picture.hpp"
 
+#include "model.hpp"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -36,19 +38,18 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
 
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
                                      const glm::vec4& plain) {
+    const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
     std::vector<view::Model> models;
-    std::size_t first = 0;
-    for (const mesh::Part& part : mesh.parts) {
-        std::size_t count = 0;
-        for (std::uint32_t face = 0; face < part.face_count; ++face)
-            count += mesh.faces[part.first_face + face] - 2;
+    for (std::size_t p = 0; p < triangles.size(); ++p) {
+        const auto [first, count] = triangles[p];
+        if (count == 0) continue;
         view::Model model = vertices;
-        model.triangles = vertices.triangles.subspan(3 * first, 3 * count);
-        model.color = plain;
-        if (part.material >= 0)
-            model.color = readable(mesh.materials[static_cast<std::size_t>(part.material)].base_color, plain);
-        first += count;
-        if (count > 0) models.push_back(model);
+        model.triangles = vertices.triangles.subspan(3 * std::size_t{first}, 3 * std::size_t{count});
+        const std::int32_t material = mesh.parts[p].material;
+        model.color = material < 0
+                          ? plain
+                          : readable(mesh.materials[static_cast<std::size_t>(material)].base_color, plain);
+        models.push_back(model);
     }
     return models;
 }

@@ -115,9 +115,7 @@ std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<co
 /// Bends a body, one region at a time.
 class Poser {
 public:
-    explicit Poser(const bend::Body& body) : body_(body) {
-        for (std::size_t r = 0; r < body.region_count(); ++r) poses_.push_back(body.rest_pose(r));
-    }
+    explicit Poser(const bend::Body& body) : body_(body), poses_(body.rest_poses()) {}
 
     /// The surface with all regions at rest but one.
     void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {

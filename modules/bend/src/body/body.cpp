@@ -46,6 +46,12 @@ Pose Body::rest_pose(std::size_t region) const noexcept {
     return data_->regions[region].rest;
 }
 
+std::vector<Pose> Body::rest_poses() const {
+    std::vector<Pose> poses;
+    for (const Region& region : regions()) poses.push_back(region.rest);
+    return poses;
+}
+
 glm::dvec3 Body::origin() const noexcept {
     return data_ ? data_->origin : glm::dvec3(0);
 }

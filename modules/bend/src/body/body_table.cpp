@@ -11,14 +11,9 @@ BodyTable::BodyTable(BodyTable&& other) noexcept {
 }
 
 BodyTable& BodyTable::operator=(BodyTable&& other) noexcept {
-    places_.swap(other.places_);
-    std::swap(size_, other.size_);
-    std::swap(first_free_, other.first_free_);
-    if (this != &other) {
-        other.places_.clear();
-        other.size_ = 0;
-        other.first_free_ = none;
-    }
+    places_ = std::exchange(other.places_, {});
+    size_ = std::exchange(other.size_, 0);
+    first_free_ = std::exchange(other.first_free_, none);
     return *this;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <goffer/bend/body_file.hpp>
+#include <goffer/bend/body_file_fault.hpp>
 
 #include <cstdio>
 
@@ -36,6 +36,8 @@ const char* words_of(FileReason reason) noexcept {
             return "does not have the regions, tables and frame of the first level; bind it with bind_level";
         case FileReason::empty:
             return "has no body";
+        case FileReason::unreadable:
+            return "cannot be opened or read";
     }
     return "unknown";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "body/check.hpp"
 #include "file/format.hpp"
-#include "file/holdings.hpp"
+#include "file/load_held.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -139,14 +139,6 @@ bool agree(const BandsRecord& a, const BandsRecord& b) {
            all_near(a.drift, b.drift);
 }
 
-/// What all levels share.
-struct Rig {
-    glm::dvec3 origin{0};
-    glm::dmat3 axes{1};
-    double radius = 0;
-    std::vector<RegionInput> regions;  ///< without vertices
-};
-
 class Loader {
 public:
     Loader(std::span<const std::byte> bytes, std::size_t levels, Verify verify, FileMemory holdings)
@@ -158,10 +150,10 @@ public:
 
     /// Loads all, or returns the first fault.
     [[nodiscard]] BodyFileFault load() {
-        for (const auto step :
-             {&Loader::check_sections, &Loader::load_rig, &Loader::load_materials, &Loader::load_sockets}) {
-            if (const BodyFileFault fault = (this->*step)(); !fault.none()) return fault;
-        }
+        if (const BodyFileFault fault = sections_.check(); !fault.none()) return fault;
+        if (const BodyFileFault fault = load_rig(); !fault.none()) return fault;
+        if (const BodyFileFault fault = load_materials(); !fault.none()) return fault;
+        if (const BodyFileFault fault = load_sockets(); !fault.none()) return fault;
         const std::span<const char> notes = sections_.get<char>(FileSection::notes);
         file_.notes = {notes.data(), notes.size()};
         for (std::size_t level = 0; level < levels_; ++level) {
@@ -176,8 +168,6 @@ public:
     [[nodiscard]] BodyFile file() { return std::move(file_); }
 
 private:
-    [[nodiscard]] BodyFileFault check_sections() { return sections_.check(); }
-
     /// The characters of a name, or nothing where they are not there. Names follow each other in the order in
     /// which they are asked for, so that all of them together are no longer than the file.
     [[nodiscard]] std::optional<std::string_view> name(const NameRecord& name) {
@@ -226,16 +216,12 @@ private:
             region.factors.rows.assign(factors.begin(), factors.begin() + record.factor_rows);
             rows = rows.subspan(record.wrinkle_rows);
             factors = factors.subspan(record.factor_rows);
-            rig_.regions.push_back(std::move(region));
+            regions_.push_back(std::move(region));
         }
         if (!rows.empty()) return count(FileSection::wrinkle_rows);
         if (!factors.empty()) return count(FileSection::factor_rows);
-        BodyInput input;
-        input.origin = rig_.origin;
-        input.axes = rig_.axes;
-        input.radius = rig_.radius;
-        input.regions = rig_.regions;
-        const BodyFault fault = check_rig(input);
+        rig_.regions = regions_;
+        const BodyFault fault = check_rig(rig_);
         return fault.none() ? BodyFileFault{} : number(FileSection::rig, BodyFileFault::nowhere, fault);
     }
 
@@ -255,17 +241,22 @@ private:
     [[nodiscard]] BodyFileFault load_sockets() {
         const auto records = sections_.get<SocketRecord>(FileSection::sockets);
         file_.sockets.reserve(records.size());
+        std::vector<double> depths;  // of the regions' wrinkles
+        for (const RegionInput& region : regions_) {
+            if (records.empty()) break;
+            depths.push_back(deepest_wrinkle(region, radius_of(region, rig_.radius)));
+        }
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto name = this->name(records[i].name);
             if (!name) return no_such(FileSection::sockets, i);
-            if (records[i].region >= rig_.regions.size()) return no_such(FileSection::sockets, i);
+            if (records[i].region >= regions_.size()) return no_such(FileSection::sockets, i);
             const double* v = records[i].vertex;
             const double *n = records[i].normal, *t = records[i].tangent;
             const Socket socket{static_cast<std::size_t>(records[i].region),
                                 {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]},
                                 {n[0], n[1], n[2]},
                                 {t[0], t[1], t[2]}};
-            if (const BodyFault fault = check_socket(socket, i); !fault.none())
+            if (const BodyFault fault = check_socket(socket, i, depths[socket.region]); !fault.none())
                 return number(FileSection::sockets, i, fault);
             file_.sockets.push_back({*name, socket});
         }
@@ -273,10 +264,9 @@ private:
     }
 
     /// As Body::check would find it in what Sockets::make makes.
-    [[nodiscard]] BodyFault check_socket(const Socket& socket, std::size_t index) const {
-        const RegionInput& region = rig_.regions[socket.region];
-        const double radius = radius_of(region, rig_.radius);
-        BodyFault fault = check_vertex(socket.vertex, index, region, radius, deepest_wrinkle(region, radius));
+    [[nodiscard]] BodyFault check_socket(const Socket& socket, std::size_t index, double depth) const {
+        const RegionInput& region = regions_[socket.region];
+        BodyFault fault = check_vertex(socket.vertex, index, region, radius_of(region, rig_.radius), depth);
         if (fault.none()) fault = check_unit(BodyField::normals, socket.normal, index);
         if (fault.none()) fault = check_unit(BodyField::tangents, socket.tangent, index);
         return fault;
@@ -326,9 +316,9 @@ private:
 
     [[nodiscard]] BodyFileFault load_regions(BodyData& data, std::size_t level) {
         const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
-        if (records.size() != rig_.regions.size()) return count(FileSection::bands);
-        data.inputs = rig_.regions;
-        const bool compares = std::ranges::any_of(rig_.regions, compares_with_rest);
+        if (records.size() != regions_.size()) return count(FileSection::bands);
+        data.inputs = regions_;
+        const bool compares = std::ranges::any_of(regions_, compares_with_rest);
         if (compares && !data.layout.rest) return {FileReason::layout, FileSection::level};
         std::size_t left = data.vertex_count;
         for (std::size_t r = 0; r < records.size(); ++r) {
@@ -397,7 +387,7 @@ private:
         if (!mesh.uvs.empty() && mesh.uvs.size() != vertices) return count(FileSection::uvs);
         if (!mesh.source.empty() && mesh.source.size() != vertices) return count(FileSection::source);
         if (everything_) {
-            std::uint32_t largest = 0;  // one loop without a branch takes a fifth of the time
+            std::uint32_t largest = 0;  // without a branch, so that compilers vectorize it
             for (const std::uint32_t vertex : mesh.triangles) largest = std::max(largest, vertex);
             if (!mesh.triangles.empty() && largest >= vertices) {
                 const auto bad = std::ranges::find_if(mesh.triangles, [&](auto i) { return i >= vertices; });
@@ -437,9 +427,12 @@ private:
     bool everything_;
     FileMemory holdings_;
     BodyFile file_;
-    Rig rig_;
-    std::size_t named_ = 0;  // characters of the names so far
+    BodyInput rig_;                     // what all levels share
+    std::vector<RegionInput> regions_;  // its regions, without vertices
+    std::size_t named_ = 0;             // characters of the names so far
 };
+
+}  // namespace
 
 std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,
                                   FileMemory holdings) {
@@ -457,30 +450,6 @@ std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFaul
     }
     if (fault != nullptr) *fault = found;
     return file;
-}
-
-}  // namespace
-
-BodyFile::BodyFile(FileMemory memory) noexcept : memory_(std::move(memory)) {}
-BodyFile::BodyFile(BodyFile&& other) noexcept = default;
-BodyFile& BodyFile::operator=(BodyFile&& other) noexcept = default;
-BodyFile::~BodyFile() = default;
-
-bool is_body_file(std::span<const std::byte> bytes) noexcept {
-    return bytes.size() >= file_magic.size() &&
-           std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) == 0;
-}
-
-std::optional<BodyFile> load(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
-    return load_held(bytes, fault, verify, FileMemory(new FileHoldings));
-}
-
-std::optional<BodyFile> load_copy(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify) {
-    auto holdings = FileMemory(new FileHoldings);
-    holdings->copy = Columns(1, (bytes.size() + sizeof(float) - 1) / sizeof(float));
-    std::byte* copy = std::as_writable_bytes(holdings->copy[0]).data();
-    if (!bytes.empty()) std::memcpy(copy, bytes.data(), bytes.size());
-    return load_held({copy, bytes.size()}, fault, verify, std::move(holdings));
 }
 
 }  // namespace goffer::bend

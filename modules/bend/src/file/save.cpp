@@ -37,8 +37,7 @@ BodyFileFault check_levels(std::span<const LevelInput> levels) {
 
 /// The tight box of a body at rest.
 Bounds rest_box(const Body& body) {
-    std::vector<Pose> poses;
-    for (const Region& region : body.regions()) poses.push_back(region.rest);
+    const std::vector<Pose> poses = body.rest_poses();
     std::vector<glm::vec3> positions(body.vertex_count());
     DeformJob job{.body = &body, .poses = poses};
     job.isa = Isa::scalar;  // the same bytes on every machine

@@ -47,15 +47,15 @@ bend::Stores parse_stores(const std::string& text) {
 }
 
 /// The regions of the first body file that has several: the other models are to have as many.
-std::vector<fit::RegionOptions> regions_in(const CrowdOptions& options) {
-    for (const std::filesystem::path& model : options.models) {
-        std::vector<fit::RegionOptions> regions = baked_regions(model, options.bind.load.limits);
+std::vector<fit::RegionOptions> regions_in(std::span<const ModelFile> models) {
+    for (const ModelFile& model : models) {
+        std::vector<fit::RegionOptions> regions = baked_regions(model);
         if (!regions.empty()) return regions;
     }
     return {};
 }
 
-/// Everything that can be refused before a model is read. (Of body files the regions are.)
+/// Everything that can be refused by looking at the words alone, and at the regions of body files.
 struct CrowdRequest {
     PoseRequest pose;
     std::vector<Target> targets;
@@ -63,8 +63,8 @@ struct CrowdRequest {
     CrowdPlan plan;
     int threads;
 
-    explicit CrowdRequest(const CrowdOptions& options)
-        : pose(options.pose, regions_in(options)),
+    CrowdRequest(const CrowdOptions& options, std::vector<fit::RegionOptions> baked)
+        : pose(options.pose, std::move(baked)),
           targets(targets_from_straight(pose)),
           bind(options.bind, pose.regions),
           plan{.instances = options.instances,
@@ -84,9 +84,9 @@ struct CrowdRequest {
     }
 };
 
-std::vector<BoundModel> bind_models(const CrowdOptions& options, const BindRequest& request) {
+std::vector<BoundModel> bind_models(std::vector<ModelFile> files, const BindRequest& request) {
     std::vector<BoundModel> models;
-    for (const std::filesystem::path& file : options.models) models.push_back(bind_model(file, request));
+    for (ModelFile& file : files) models.push_back(bind_model(std::move(file), request));
     return models;
 }
 
@@ -188,9 +188,12 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
 }
 
 void run_crowd(const CrowdOptions& options) {
-    const CrowdRequest request(options);
+    std::vector<ModelFile> files;
+    for (const std::filesystem::path& model : options.models)
+        files.emplace_back(model, options.bind.load.limits);
+    const CrowdRequest request(options, regions_in(files));
     Report report(options.json);
-    const std::vector<BoundModel> models = bind_models(options, request.bind);
+    const std::vector<BoundModel> models = bind_models(std::move(files), request.bind);
     auto progress = std::make_unique<Progress>("deforming " + counted(options.frames, "frame"));
     Crowd crowd(models, request.plan);
     const Timing timing = measure(crowd, options.frames, request.threads);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 /// A body: a mesh bound to its base cylinder, which is a chain of one or more regions. goffer::fit::bind
 /// makes one offline; all instances share it.
@@ -172,6 +173,8 @@ public:
     [[nodiscard]] float max_angle(std::size_t region = 0) const noexcept;
     /// Region::rest of region `region` < region_count().
     [[nodiscard]] Pose rest_pose(std::size_t region = 0) const noexcept;
+    /// rest_pose() of each region: the poses that give the rest shape back. Allocates.
+    [[nodiscard]] std::vector<Pose> rest_poses() const;
     /// Center of the base end, model space. An empty body has origin and axes of a default-made BodyInput.
     [[nodiscard]] glm::dvec3 origin() const noexcept;
     /// Columns e1, e2, e3 of the body frame, in model space.

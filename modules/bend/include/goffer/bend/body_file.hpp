@@ -2,7 +2,7 @@
 #pragma once
 
 #include <goffer/bend/body.hpp>
-#include <goffer/bend/fault.hpp>
+#include <goffer/bend/body_file_fault.hpp>
 #include <goffer/bend/file_memory.hpp>
 #include <goffer/bend/job.hpp>
 #include <goffer/bend/sockets.hpp>
@@ -18,10 +18,10 @@
 #include <vector>
 
 /// The body file: bodies, and what is drawn of them, as one block of bytes that is used where it lies. A
-/// pipeline makes it (goffer bake, or fit::bake), a game maps it:
+/// pipeline makes it (goffer bake, or fit::bake), a game reads it, or maps it and calls load():
 ///
 ///     bend::BodyFileFault fault;
-///     const std::optional<bend::BodyFile> file = bend::load(bytes, &fault);
+///     const std::optional<bend::BodyFile> file = bend::load_file("worm.goffer", &fault);
 ///     if (!file) return report(bend::describe(fault).c_str());
 ///     job.body = &file->levels[0].body;
 ///
@@ -109,62 +109,6 @@ private:
     FileMemory memory_;
 };
 
-/// A part of a file. From `level` on there is one for each level.
-enum class FileSection : std::uint8_t {
-    header,
-    directory,
-    rig,
-    regions,
-    wrinkle_rows,
-    factor_rows,
-    materials,
-    sockets,
-    names,
-    notes,
-    level,
-    bands,
-    columns,
-    triangles,
-    uvs,
-    source,
-    parts,
-};
-
-/// What is wrong with a file, or with what one is to be made from.
-enum class FileReason : std::uint8_t {
-    none,
-    not_a_body_file,  ///< too short, or begins with other bytes
-    byte_order,       ///< made on a machine whose numbers have their bytes in the other order
-    version,          ///< newer than this library, or 0
-    truncated,        ///< has fewer bytes than it says
-    too_long,         ///< has more bytes than it says
-    alignment,        ///< lies at no multiple of 64 bytes in memory: load_copy() takes it
-    checksum,         ///< some byte is not what was written
-    layout,           ///< a section does not lie where it must, or has bytes that must be 0 and are not
-    count,            ///< a section has too few entries, too many, or not as many as another one
-    number,           ///< a number is not finite, or out of its range
-    index,            ///< an entry refers to what is not there
-    rig,              ///< a level has not the regions, tables or frame of the first one
-    empty,            ///< a level has no body
-};
-
-/// The first fault of a file. A plain value; a default-made one is none.
-struct BodyFileFault {
-    static constexpr std::size_t nowhere = Fault::nowhere;
-
-    FileReason reason = FileReason::none;
-    FileSection section = FileSection::header;
-    std::size_t level = nowhere;  ///< `nowhere`: a section that all levels share
-    std::size_t index = nowhere;  ///< entry of the section; `nowhere`: all of it
-    BodyFault body = {};          ///< more of it, where the fault is a body's or a socket's number
-
-    [[nodiscard]] bool none() const noexcept { return reason == FileReason::none; }
-};
-
-/// Says in one line what is wrong and where, as in "levels[1].triangles[7]: refers to what is not there".
-/// Says "no fault" of none. Does not allocate.
-[[nodiscard]] FaultText describe(const BodyFileFault& fault) noexcept;
-
 /// How much of a file is looked at before it is used.
 enum class Verify : std::uint8_t {
     /// All of it: the checksum, and each number, so that a file from anywhere does no harm. The runs of its
@@ -175,10 +119,10 @@ enum class Verify : std::uint8_t {
     /// nobody means harm.
     checksum,
     /// What takes no time in proportion to the vertices: loading does not touch columns, triangles or texture
-    /// coordinates, which a mapped
-    /// file then reads when they are first used. For files that were verified once, by whoever installed
-    /// them. In one that was changed since then, these are any bits: a run stays within its memory and writes
-    /// numbers that mean nothing, but an index of a triangle may be that of no vertex.
+    /// coordinates, which a mapped file then reads when they are first used. For files that were verified
+    /// once, by whoever installed them. In one that was changed since then, these are any bits: a run stays
+    /// within its memory and writes numbers that mean nothing, but an index of a triangle may be that of no
+    /// vertex.
     layout,
 };
 
@@ -194,6 +138,10 @@ enum class Verify : std::uint8_t {
 /// The same with a copy of `bytes`, which may lie anywhere and are not needed afterward.
 [[nodiscard]] std::optional<BodyFile> load_copy(std::span<const std::byte> bytes,
                                                 BodyFileFault* fault = nullptr,
+                                                Verify verify = Verify::everything);
+
+/// The same of the file called `name` (as std::fopen takes it), which is read into memory.
+[[nodiscard]] std::optional<BodyFile> load_file(const char* name, BodyFileFault* fault = nullptr,
                                                 Verify verify = Verify::everything);
 
 /// Returns the bytes of a file, or none where load() would find a fault in them; *fault as above. The same
