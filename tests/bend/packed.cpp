@@ -27,6 +27,22 @@ using namespace glm;
 #include <goffer/bend/packed.glsl>
 }  // namespace shader
 
+namespace hlsl {
+using namespace glm;
+using float2 = vec2;
+using float3 = vec3;
+using uint3 = uvec3;
+#include <goffer/bend/packed.hlsl>
+}  // namespace hlsl
+
+/// What a GPU makes of R16G16B16A16_UNORM and R16G16_SNORM.
+glm::vec3 unorm(const std::uint16_t (&steps)[3]) {
+    return glm::vec3(steps[0], steps[1], steps[2]) / 65535.0f;
+}
+glm::vec2 snorm(const std::int16_t (&steps)[2]) {
+    return glm::max(glm::vec2(steps[0], steps[1]) / 32767.0f, -1.0f);
+}
+
 glm::uvec3 words(const bend::PackedVertex& vertex) {
     glm::uvec3 result;
     std::memcpy(&result, &vertex, sizeof result);
@@ -49,16 +65,24 @@ struct Worst {
 Worst compare(std::span<const bend::PackedVertex> packed, const bend::Bounds& box, const Output& planes,
               double size) {
     Worst worst;
+    std::size_t different = 0;  // by the way on which a shader gets them
     for (std::size_t i = 0; i < packed.size(); ++i) {
-        const glm::dvec3 decoded(shader::goffer_position(words(packed[i]), box.low, box.high));
+        const glm::vec3 position = shader::goffer_position(words(packed[i]), box.low, box.high);
+        const glm::vec3 normal = shader::goffer_normal(words(packed[i]));
+        if (shader::goffer_position(unorm(packed[i].position), box.low, box.high) != position ||
+            hlsl::goffer_position(words(packed[i]), box.low, box.high) != position ||
+            shader::goffer_normal(snorm(packed[i].normal)) != normal ||
+            hlsl::goffer_normal(snorm(packed[i].normal)) != normal)
+            ++different;
+        const glm::dvec3 decoded(position);
         for (int axis = 0; axis < 3; ++axis) {
             const double half_step = static_cast<double>(box.high[axis] - box.low[axis]) / 131070;
             worst.add(worst.position,
                       (std::fabs(decoded[axis] - planes.position(i)[axis]) - half_step) / size);
         }
-        worst.add(worst.normal,
-                  angle_between(glm::dvec3(shader::goffer_normal(words(packed[i]))), planes.normal(i)));
+        worst.add(worst.normal, angle_between(glm::dvec3(normal), planes.normal(i)));
     }
+    CHECK(different == 0);
     return worst;
 }
 
