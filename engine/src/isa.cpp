@@ -4,7 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#ifdef GOFFER_HAS_SSE42
+#if defined(GOFFER_HAS_SSE42) || defined(GOFFER_HAS_AVX2) || defined(GOFFER_HAS_AVX512)
+#define GOFFER_HAS_X86
 #include "saved_registers.hpp"
 
 #include <xsimd/xsimd.hpp>
@@ -31,7 +32,7 @@ constexpr Isa built[] = {
 
 constexpr std::array<std::string_view, 6> names = {"auto", "scalar", "sse4.2", "avx2", "avx512", "neon"};
 
-#ifdef GOFFER_HAS_SSE42
+#ifdef GOFFER_HAS_X86
 
 /// Which of the sets for x86-64 this machine can run.
 struct Machine {

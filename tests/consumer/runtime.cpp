@@ -12,6 +12,9 @@
 #include <string_view>
 
 int main() {
+#ifdef CONSUMER_AVX2_ALONE
+    if (goffer::runs_here(goffer::Isa::avx2) != (__builtin_cpu_supports("avx2") != 0)) return 1;
+#endif
     constexpr double length = 10;
     constexpr double radius = 1;
     constexpr double quarter = std::numbers::pi / 2;

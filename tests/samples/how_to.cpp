@@ -50,8 +50,9 @@ TEST_CASE("how to: each program does what it says") {
            R"(\d+ triangles, 2 sockets\n(frame [01]: revision 1, \d+ vertices\n){2})"
            R"((frame [23]: revision 2, \d+ vertices\n){2}removed: the handle names nothing\n)");
     prints("own_scheduler", "worm.goffer", R"(200 instances in 16 pieces\n)");
+    prints("tbb_arena", "worm.goffer", R"(200 instances on 2 threads, and 1\.414\n)");
     prints("culling_and_detail", "worm.goffer", R"((frame [0-3]: 31 of 100\n){4})");
-    for (const std::string name : {"own_scheduler", "culling_and_detail", "motion_vectors"})
+    for (const std::string name : {"own_scheduler", "tbb_arena", "culling_and_detail", "motion_vectors"})
         prints(name, "chain.goffer", "this program is for bodies of one region\n");
     prints("sockets_and_capsules", "worm.goffer",
            R"(tip: \S+ \S+ \S+\nside: \S+ \S+ \S+\n4 capsules, the first of radius 1\.\d+\n)");
@@ -84,7 +85,7 @@ TEST_CASE("how to: the README lists every program") {
         CAPTURE(name);
         CHECK(readme.find(name) != std::string::npos);
     }
-    CHECK(programs == 9);
+    CHECK(programs == 10);
 }
 
 }  // namespace goffer::test

@@ -9,14 +9,14 @@ namespace goffer::bend {
 namespace {
 
 /// A place between two rows.
-struct Place {
+struct TablePlace {
     std::size_t low, high;
     float weight;
 };
 
 /// The place of `angle` in a table of `rows` >= 1. Both may hold anything: an angle that is not finite, or a
 /// table without a largest angle, gives the first row.
-Place place_of(float angle, float max_angle, std::size_t rows) noexcept {
+TablePlace place_of(float angle, float max_angle, std::size_t rows) noexcept {
     const float fraction = std::isfinite(angle) ? angle / max_angle : 0.0f;
     const float within = fraction > 0 ? std::min(fraction, 1.0f) : 0.0f;
     const float place = std::sqrt(within) * static_cast<float>(rows - 1);

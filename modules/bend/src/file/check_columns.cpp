@@ -19,7 +19,7 @@ constexpr double rounding = 1e-6;
 
 /// The lowest and the highest of some floats, as integers in the same order: one loop finds both, and what is
 /// not finite lies outside all finite ones. The mapping is its own inverse.
-struct Extent {
+struct ColumnExtent {
     std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
     std::int32_t highest = std::numeric_limits<std::int32_t>::min();
 
@@ -36,10 +36,10 @@ struct Extent {
     }
 };
 
-Extent extent_of(const float* column, std::size_t first, std::size_t last) noexcept {
-    Extent extent;
+ColumnExtent extent_of(const float* column, std::size_t first, std::size_t last) noexcept {
+    ColumnExtent extent;
     for (std::size_t i = first; i < last; ++i) {
-        const std::int32_t value = Extent::ordered(std::bit_cast<std::int32_t>(column[i]));
+        const std::int32_t value = ColumnExtent::ordered(std::bit_cast<std::int32_t>(column[i]));
         extent.lowest = std::min(extent.lowest, value);
         extent.highest = std::max(extent.highest, value);
     }
@@ -107,7 +107,7 @@ public:
 
 private:
     [[nodiscard]] BodyFault check_together(std::size_t first, std::size_t last) const noexcept {
-        std::array<Extent, std::size_t{all_columns} + all_shape_columns + all_rest_columns> extents;
+        std::array<ColumnExtent, std::size_t{all_columns} + all_shape_columns + all_rest_columns> extents;
         const float* column = data_.columns.cos_half_beta;
         for (std::size_t c = 0; c < data_.layout.columns(); ++c, column += data_.stride) {
             extents[c] = extent_of(column, first, last);
@@ -116,8 +116,8 @@ private:
             if (extents[c].largest() > most_of(data_.layout, c)) return {field, Reason::out_of_range, first};
         }
         if (const BodyFault fault = check_relations(first, last); !fault.none()) return fault;
-        const Extent* shape = extents.data() + data_.layout.first_shape_column();
-        const Extent* rest = extents.data() + data_.layout.first_rest_column();
+        const ColumnExtent* shape = extents.data() + data_.layout.first_shape_column();
+        const ColumnExtent* rest = extents.data() + data_.layout.first_rest_column();
         return check_vertices(extents.data(), data_.layout.shape ? shape : nullptr,
                               data_.layout.rest ? rest : nullptr, first);
     }
@@ -143,8 +143,8 @@ private:
 
     /// Two vertices of the most extreme numbers, which are what Body::make was given, and what it makes of
     /// these.
-    [[nodiscard]] BodyFault check_vertices(const Extent* plain, const Extent* shape, const Extent* rest,
-                                           std::size_t index) const noexcept {
+    [[nodiscard]] BodyFault check_vertices(const ColumnExtent* plain, const ColumnExtent* shape,
+                                           const ColumnExtent* rest, std::size_t index) const noexcept {
         constexpr double inward = 1 - rounding, outward = 1 + rounding;
         RestVertex low, high;
         low.z = (static_cast<double>(plain[height].low()) * inward + 0.5) * region_.length;

@@ -36,11 +36,11 @@ BodyFileFault check_rest_of_header(const FileHeader& header) {
     return zeros ? BodyFileFault{} : BodyFileFault{FileReason::layout, FileSection::header};
 }
 
-/// The sections of a file, whose memory is aligned and begins with a whole header. Sections may only lie one
-/// behind the other, each at the next cache line.
-class Sections {
+/// The sections of a file, whose memory is aligned and begins with a whole header. FileSections may only lie
+/// one behind the other, each at the next cache line.
+class FileSections {
 public:
-    Sections(std::span<const std::byte> bytes, std::size_t levels) : bytes_(bytes), levels_(levels) {}
+    FileSections(std::span<const std::byte> bytes, std::size_t levels) : bytes_(bytes), levels_(levels) {}
 
     [[nodiscard]] BodyFileFault check() const {
         const std::uint64_t size = bytes_.size();
@@ -422,7 +422,7 @@ private:
         return {};
     }
 
-    Sections sections_;
+    FileSections sections_;
     std::size_t levels_;
     bool everything_;
     FileMemory holdings_;

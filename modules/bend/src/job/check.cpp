@@ -147,7 +147,7 @@ bool misaligned(const StridedView<T>& view) noexcept {
 }
 
 /// Checks that columns hold as many elements as are read, and that each has room for what is read of it.
-struct Extent {
+struct ColumnCheck {
     std::size_t elements = 0;
     Fault fault;
 
@@ -169,30 +169,30 @@ Fault check_columns(const Batch& batch) noexcept {
     if (batch.poses.empty()) return fault_of(Field::poses, Reason::null);
     if (!batch.indices.empty() && batch.indices.size() != batch.count)
         return fault_of(Field::indices, Reason::count);
-    Extent extent;
-    extent.elements = batch.count;
+    ColumnCheck columns;
+    columns.elements = batch.count;
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {
         const std::size_t index = batch.indices[i];
         if (index >= batch.poses.count)
             return {.field = Field::indices, .reason = Reason::out_of_range, .instance = i};
-        extent.elements = i == 0 ? index + 1 : index >= extent.elements ? index + 1 : extent.elements;
+        columns.elements = i == 0 ? index + 1 : index >= columns.elements ? index + 1 : columns.elements;
     }
     const bool previous = !batch.previous_positions.empty();
     if (previous && batch.previous_poses.empty()) return fault_of(Field::previous_poses, Reason::null);
     const std::size_t poses = batch.body->region_count() * sizeof(Pose);
     constexpr std::size_t matrix = 12 * sizeof(float);
-    extent.take(Field::poses, batch.poses, poses);
-    extent.take(Field::transform, batch.transforms.first, matrix);
-    extent.take(Field::wrinkle_weight, batch.wrinkle_weights);
-    if (previous) extent.take(Field::previous_poses, batch.previous_poses, poses);
-    if (previous) extent.take(Field::previous_transform, batch.previous_transforms.first, matrix);
-    extent.take(Field::visible, batch.visible);
-    extent.take(Field::changed, batch.changed);
-    extent.take(Field::update_intervals, batch.update_intervals);
-    extent.take(Field::vertex_offsets, batch.vertex_offsets);
-    if (extent.fault.none() && !batch.bounds.empty() && batch.bounds.size() < batch.count)
+    columns.take(Field::poses, batch.poses, poses);
+    columns.take(Field::transform, batch.transforms.first, matrix);
+    columns.take(Field::wrinkle_weight, batch.wrinkle_weights);
+    if (previous) columns.take(Field::previous_poses, batch.previous_poses, poses);
+    if (previous) columns.take(Field::previous_transform, batch.previous_transforms.first, matrix);
+    columns.take(Field::visible, batch.visible);
+    columns.take(Field::changed, batch.changed);
+    columns.take(Field::update_intervals, batch.update_intervals);
+    columns.take(Field::vertex_offsets, batch.vertex_offsets);
+    if (columns.fault.none() && !batch.bounds.empty() && batch.bounds.size() < batch.count)
         return fault_of(Field::bounds, Reason::count);
-    return extent.fault;
+    return columns.fault;
 }
 
 /// Within 1e18, squares of a matrix' numbers and sums of squares stay in float's range.

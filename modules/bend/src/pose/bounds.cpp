@@ -99,9 +99,9 @@ inline Support support_of(const Sections& sections, Float4 a, Float4 b, Float4 w
 /// A band sweeps its widest cross-section along its piece of the arc. Each point of the section moves on a
 /// circle. It is farthest at the beginning, at the end, or where it moves at a right angle to the axis, so
 /// that only the sections at these places count.
-class Extent {
+class AxisExtent {
 public:
-    Extent(const Coefficients& k, int row) noexcept
+    AxisExtent(const Coefficients& k, int row) noexcept
         : scale_(std::clamp(largest(k.matrix, row), 1e-36f, 1e36f)),
           m0_(k.matrix[row] / scale_),
           m2_(k.matrix[8 + row] / scale_),
@@ -195,11 +195,11 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
     const float turn = k.curvature * k.arc_z[0] * longest;
     constexpr float least_turn = 1e-6f;  // below it a band's sagitta is lost in the margin
     const float radius = length / std::max(turn, least_turn);
-    Extent extents[3] = {Extent(k, 0), Extent(k, 1), Extent(k, 2)};
+    AxisExtent extents[3] = {AxisExtent(k, 0), AxisExtent(k, 1), AxisExtent(k, 2)};
     for (std::size_t j = 0; j < edges; j += 4) {
         if (turn > 3) {  // nearly half a turn: all of the circle
             const Sections sections = sections_of(of_bands(bands, j), amplitude);
-            for (Extent& extent : extents) extent.take_circles(sections, radius);
+            for (AxisExtent& extent : extents) extent.take_circles(sections, radius);
             continue;
         }
         const Float4 place = splat(static_cast<float>(j)) + Float4{0, 1, 2, 3};
@@ -207,12 +207,12 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noe
         if (bands.shaped) at = at - splat(k.curvature) * load4(&bands.drift[j]);
         const CenterLine line = center_line(k, at);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
-        for (Extent& extent : extents) extent.take_edges(line, j, sections);
+        for (AxisExtent& extent : extents) extent.take_edges(line, j, sections);
     }
     const float shift = shift_of(bands, k, amplitude[sectors - 1]);
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {
-        Extent& extent = extents[row];
+        AxisExtent& extent = extents[row];
         if (!(turn > 3)) extent.take_bands(bands, amplitude, radius, length * turn / 8);
         const float margin = (1e-5f * k.arc_z[0] + shift) * extent.whole() + 1e-6f * std::fabs(k.offset[row]);
         bounds.low[row] = k.offset[row] + extent.low() - margin;
