@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace goffer {
 namespace {
@@ -21,12 +22,26 @@ Columns::Columns(std::size_t columns, std::size_t count)
     : columns_(columns), count_(count), stride_(column_stride(count)) {
     const std::size_t floats = std::max<std::size_t>(columns_ * stride_, 1);
     void* block = ::operator new (floats * sizeof(float), std::align_val_t{column_alignment});
-    memory_.reset(static_cast<float*>(block));
-    std::fill_n(memory_.get(), floats, 0.0f);
+    memory_ = static_cast<float*>(block);
+    std::fill_n(memory_, floats, 0.0f);
 }
 
-void Columns::Free::operator()(float* memory) const noexcept {
-    ::operator delete (memory, std::align_val_t{column_alignment});
+Columns::Columns(Columns&& other) noexcept
+    : memory_(std::exchange(other.memory_, nullptr)),
+      columns_(other.columns_),
+      count_(other.count_),
+      stride_(other.stride_) {}
+
+Columns& Columns::operator=(Columns&& other) noexcept {
+    std::swap(memory_, other.memory_);
+    columns_ = other.columns_;
+    count_ = other.count_;
+    stride_ = other.stride_;
+    return *this;
+}
+
+Columns::~Columns() {
+    ::operator delete (memory_, std::align_val_t{column_alignment});
 }
 
 }  // namespace goffer

@@ -21,7 +21,7 @@ struct Creature {
 
 struct Bend {
     goffer::bend::Pose now;
-    goffer::bend::Pose drawn;  ///< when its vertices were last written: for motion vectors
+    goffer::bend::Pose drawn;  ///< when its vertices were last written: what motion vectors begin at
 };
 
 struct Place {
@@ -34,6 +34,7 @@ struct Detail {
     float wrinkle_weight = 1;
     std::uint8_t level = no_level;  ///< of the mesh that its vertices are of
     bool visible = false;
+    bool moved = false;    ///< its vertices, and where they were before, were written in this frame
     bool touched = false;  ///< by the ball
 
     static constexpr std::uint8_t no_level = 255;

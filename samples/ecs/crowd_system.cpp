@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -19,7 +21,9 @@ namespace {
 
 // Distances are in sizes of a creature's box: about how large it is on the screen.
 constexpr float hats_until = 8;
-constexpr float finest_until = 12;
+constexpr float finest_until = 12;  // each coarser level until twice the distance
+constexpr float level_margin =
+    1.1f;  // what a creature at a limit has to pass it by, so that it does not flicker
 constexpr float every_frame_until = 16;
 constexpr float wrinkles_until = 24;
 constexpr std::uint32_t far_interval = 4;  // frames from one turn of a far creature to its next one
@@ -41,11 +45,11 @@ bool Camera::sees(const bend::Bounds& box) const {
 }
 
 CrowdSystem::CrowdSystem(std::size_t creatures, std::size_t vertices, CrowdThreads* threads)
-    : room_(vertices),
-      threads_(threads),
-      vertices_(creatures * vertices),
-      previous_(creatures * vertices),
-      free_(creatures) {
+    : creatures_(creatures), room_(vertices), threads_(threads), free_(creatures) {
+    if (vertices == 0 || creatures == 0 || vertices > std::numeric_limits<std::uint32_t>::max() / creatures)
+        throw std::length_error("too many vertices, or none");
+    vertices_.resize(creatures * vertices);
+    previous_.resize(creatures * vertices);
     for (std::size_t i = 0; i < creatures; ++i)
         free_[i] = static_cast<std::uint32_t>((creatures - 1 - i) * vertices);
     near_.reserve(creatures);
@@ -62,11 +66,10 @@ std::unique_ptr<CrowdSystem::Kind> CrowdSystem::make_kind(bend::BodyFile file) c
     for (const bend::NamedSocket& socket : file.sockets) sockets.push_back(socket.socket);
     auto kind = std::make_unique<Kind>(Kind{std::move(file), std::nullopt, {}, {}, {}});
     if (!sockets.empty()) kind->sockets = bend::Sockets::make(kind->file.levels[0].body, {sockets.data(), 1});
-    const std::size_t creatures = vertices_.size() / room_;
-    kind->all.reserve(creatures);
-    kind->boxes.resize(creatures);
+    kind->all.reserve(creatures_);
+    kind->boxes.resize(creatures_);
     kind->due.resize(levels);
-    for (std::vector<std::uint32_t>& due : kind->due) due.reserve(creatures);
+    for (std::vector<std::uint32_t>& due : kind->due) due.reserve(creatures_);
     return kind;
 }
 
@@ -77,10 +80,11 @@ std::uint32_t CrowdSystem::add_kind(bend::BodyFile file) {
 }
 
 void CrowdSystem::replace_kind(std::uint32_t kind, bend::BodyFile file, const Pools& pools) {
-    std::unique_ptr<Kind> newer = make_kind(std::move(file));
-    for (const std::uint32_t index : kinds_[kind]->all) pools.details[index].level = Detail::no_level;
-    newer->all = std::move(kinds_[kind]->all);
-    kinds_[kind] = std::move(newer);
+    kinds_[kind] = make_kind(std::move(file));
+    for (std::size_t i = 0; i < pools.count; ++i) {
+        if (pools.creatures[i].kind == kind) pools.details[i].level = Detail::no_level;
+    }
+    list_kinds(pools);
 }
 
 void CrowdSystem::remove_kind(std::uint32_t kind) {
@@ -121,6 +125,7 @@ void CrowdSystem::cull(const Pools& pools, const Camera& camera, std::uint32_t f
         for (std::size_t i = 0; i < kind->all.size(); ++i) {
             const std::uint32_t index = kind->all[i];
             const bend::Bounds& box = kind->boxes[i];
+            pools.details[index].moved = pools.details[index].touched = false;
             if (!camera.sees(box)) {
                 pools.details[index].visible = false;
                 continue;
@@ -135,22 +140,38 @@ void CrowdSystem::cull(const Pools& pools, const Camera& camera, std::uint32_t f
 void CrowdSystem::choose_detail(Kind& kind, std::uint32_t index, float distance, std::uint32_t frame,
                                 const Pools& pools) {
     Detail& detail = pools.details[index];
-    const std::size_t level = distance < finest_until ? 0 : kind.due.size() - 1;
+    const std::uint8_t level = level_of(kind, distance, detail.level);
     const std::uint32_t interval = distance < every_frame_until ? 1 : far_interval;
     const bool stale = !detail.visible || detail.level != level;
+    if (!detail.visible) {
+        // Nobody has seen where it was.
+        pools.bends[index].drawn = pools.bends[index].now;
+        pools.places[index].drawn = pools.places[index].now;
+    }
     detail.wrinkle_weight = std::clamp(2 - 2 * distance / wrinkles_until, 0.0f, 1.0f);
     detail.visible = true;
     if (detail.level != level) {
-        detail.level = static_cast<std::uint8_t>(level);
+        detail.level = level;
         write_uvs(kind, pools.creatures[index], level);
     }
     if (stale || (frame + pools.creatures[index].id) % interval == 0) kind.due[level].push_back(index);
     if (distance < hats_until) near_.push_back(index);
 }
 
+std::uint8_t CrowdSystem::level_of(const Kind& kind, float distance, std::uint8_t now) const {
+    const auto level_at = [&](float away) {
+        std::size_t level = 0;
+        for (float until = finest_until; away >= until && level + 1 < kind.due.size(); until *= 2) ++level;
+        return static_cast<std::uint8_t>(level);
+    };
+    if (level_at(distance / level_margin) <= now && now <= level_at(distance * level_margin)) return now;
+    return level_at(distance);
+}
+
 void CrowdSystem::write_uvs(const Kind& kind, const Creature& creature, std::size_t level) {
     const std::span<const glm::vec2> uvs = kind.file.levels[level].mesh.uvs;
-    for (std::size_t i = 0; i < uvs.size(); ++i) vertices_[creature.first_vertex + i].uv = uvs[i];
+    for (std::size_t i = 0; i < room_; ++i)
+        vertices_[creature.first_vertex + i].uv = i < uvs.size() ? uvs[i] : glm::vec2(0);
 }
 
 bend::CrowdResult CrowdSystem::deform(const Pools& pools) {
@@ -176,12 +197,14 @@ bend::CrowdResult CrowdSystem::deform(const Pools& pools) {
         }
     }
     const bend::CrowdJob crowd{.batches = batches_};
+    assert(bend::validate(crowd).none());
     const bend::CrowdResult result = threads_ != nullptr ? threads_->run(crowd) : bend::run_parallel(crowd);
     for (const std::unique_ptr<Kind>& kind : kinds_) {
         for (std::size_t level = 0; kind && level < kind->due.size(); ++level) {
             for (const std::uint32_t index : kind->due[level]) {
                 pools.bends[index].drawn = pools.bends[index].now;
                 pools.places[index].drawn = pools.places[index].now;
+                pools.details[index].moved = true;
             }
         }
     }

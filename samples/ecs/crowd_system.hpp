@@ -51,14 +51,14 @@ struct Ball {
 
 class CrowdSystem {
 public:
-    /// Room for `creatures` of up to `vertices` each. Deforms with `threads`, or with oneTBB where it is
-    /// null.
+    /// Room for `creatures` of up to `vertices` each, both at least 1. Deforms with `threads`, or with oneTBB
+    /// where it is null. Throws std::length_error if there are too many vertices in all for 32 bits.
     CrowdSystem(std::size_t creatures, std::size_t vertices, CrowdThreads* threads);
 
     /// Takes a kind of creature. Throws std::runtime_error if its bodies have several regions, or more
     /// vertices than there is room for.
     [[nodiscard]] std::uint32_t add_kind(goffer::bend::BodyFile file);
-    /// Puts a newer file in the place of a kind's, between two frames.
+    /// Puts a newer file in the place of a kind's, between two frames. Throws as add_kind().
     void replace_kind(std::uint32_t kind, goffer::bend::BodyFile file, const Pools& pools);
     /// No creature of this kind may be left.
     void remove_kind(std::uint32_t kind);
@@ -76,8 +76,8 @@ public:
     void touch(const Pools& pools, const Ball& ball);
 
     [[nodiscard]] std::span<const Vertex> vertices() const { return vertices_; }
-    /// Where each vertex was when it was last written. Of a creature that was not deformed in this frame,
-    /// the shader that makes motion vectors has to take that there is none.
+    /// Where each vertex was when it was written before. A shader that makes motion vectors must assume that
+    /// a creature did not move in this frame unless its Detail::moved is set: it was not deformed.
     [[nodiscard]] std::span<const glm::vec3> previous_positions() const { return previous_; }
     [[nodiscard]] std::span<const goffer::bend::SocketFrame> hats() const { return hats_; }
     [[nodiscard]] std::size_t seen() const { return seen_; }
@@ -94,9 +94,11 @@ private:
     [[nodiscard]] std::unique_ptr<Kind> make_kind(goffer::bend::BodyFile file) const;
     void choose_detail(Kind& kind, std::uint32_t index, float distance, std::uint32_t frame,
                        const Pools& pools);
+    [[nodiscard]] std::uint8_t level_of(const Kind& kind, float distance, std::uint8_t now) const;
     void write_uvs(const Kind& kind, const Creature& creature, std::size_t level);
     [[nodiscard]] goffer::bend::DeformJob job_of(const Pools& pools, std::uint32_t index) const;
 
+    std::size_t creatures_;
     std::size_t room_;  // vertices of a creature
     CrowdThreads* threads_;
     std::vector<std::unique_ptr<Kind>> kinds_;  // null: removed

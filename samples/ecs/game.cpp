@@ -79,7 +79,7 @@ bend::BodyFile load(const char* name) {
     return std::move(*file);
 }
 
-/// Grows with each word, the same on every machine.
+/// Takes in one word after the other.
 class Hash {
 public:
     template <class T>
@@ -201,12 +201,10 @@ private:
         }
     }
 
-    /// In every frame one creature in a hundred goes, those that have been there longest first, and others
-    /// come.
+    /// In every frame one creature in a hundred goes, the oldest first, and others come.
     void replace_some() {
-        const std::uint32_t some = options_.creatures / 100;
-        const std::uint32_t first = next_ - options_.creatures + some;
-        remove_if([&](const Creature& creature) { return creature.id < first; });
+        first_ += std::max(1u, options_.creatures / 100);
+        remove_if([&](const Creature& creature) { return creature.id < first_; });
         while (world_.pools().count < options_.creatures) spawn();
         crowd_.list_kinds(world_.pools());
     }
@@ -246,12 +244,13 @@ private:
         for (std::size_t i = 0; i < pools.count; ++i) touched_ += pools.details[i].touched ? 1 : 0;
     }
 
-    /// Creatures sway, each in a way of its own, and shrink back from the ball.
+    /// Creatures sway, each in a way of its own, walk to and fro, and shrink back from the ball.
     void animate(const Pools& pools, std::uint32_t frame) {
         for (std::size_t i = 0; i < pools.count; ++i) {
             const std::uint32_t id = pools.creatures[i].id;
             const float phase = 2.4f * static_cast<float>(id % 1000) + 0.1f * static_cast<float>(frame);
             pools.bends[i].now.angle = 0.8f * std::sin(phase) + (pools.details[i].touched ? 0.6f : 0.0f);
+            pools.places[i].now[3].y += 0.02f * spacing_ * std::sin(0.05f * phase);
             pools.bends[i].now.direction = 0.5f * std::numbers::pi_v<float> * static_cast<float>(id % 4);
         }
     }
@@ -262,8 +261,8 @@ private:
     CrowdSystem crowd_;
     std::optional<bend::BodyFile> last_;  // until it joins
     Times times_;
-    std::vector<std::uint32_t> kinds_;  // that creatures come of
-    std::uint32_t next_ = 0;            // id
+    std::vector<std::uint32_t> kinds_;    // that creatures come of
+    std::uint32_t first_ = 0, next_ = 0;  // ids: of those that stay, and of the next one
     std::uint64_t allocated_ = 0;
     std::size_t seen_ = 0, deformed_ = 0, hat_count_ = 0, touched_ = 0;
     Hash hats_;

@@ -18,25 +18,27 @@ int main(int argc, char** argv) {
     bend::BodyFileFault fault;
     std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);  // bend::load uses a mapped one
     if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
-    std::printf("%zu triangles, %zu sockets\n", file->levels[0].mesh.triangles.size() / 3,
-                file->sockets.size());
 
     // Instances keep a handle, never an address.
     bend::BodyTable bodies;
     const bend::BodyHandle worm = bodies.add(std::move(file->levels[0].body));
     std::vector<float> vertices;
-    std::uint32_t built = 0;  // the revision that the vertex buffer was made for
+    std::uint32_t built = 0;  // the revision that buffers were made for
     for (int frame = 0; frame < 4; ++frame) {
         if (frame == 2) {
-            // The artist has baked it anew: between two frames it takes the old one's place.
+            // The artist has baked it anew: between two frames it takes the old one's place. The file stays,
+            // with what is drawn of the body.
             std::optional<bend::BodyFile> newer = bend::load_file(argv[2], &fault);
             if (!newer) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
             bodies.replace(worm, std::move(newer->levels[0].body));
+            file = std::move(newer);
         }
         const bend::Body& body = *bodies.find(worm);
         if (bodies.revision(worm) != built) {
             built = bodies.revision(worm);
             vertices.assign(3 * body.vertex_count(), 0);
+            std::printf("to draw: %zu triangles, %zu sockets\n", file->levels[0].mesh.triangles.size() / 3,
+                        file->sockets.size());
         }
         const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.1f * static_cast<float>(frame)});
         bend::DeformJob job{.body = &body, .poses = poses};

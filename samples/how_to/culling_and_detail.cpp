@@ -17,7 +17,7 @@ using namespace goffer;
 struct Worm {
     bend::Pose pose{.angle = 1};
     glm::mat4x3 model{1};
-    std::uint8_t visible = 1, interval = 1;
+    std::uint8_t visible = 0, interval = 1;
     float weight = 1;
 };
 
@@ -47,14 +47,15 @@ int main(int argc, char** argv) {
 
     // Bounds come from the poses alone: cull before a vertex is touched. Here, all beyond a plane.
     std::vector<bend::Bounds> boxes(worms.size());
-    bend::bounds(batch, boxes);
-    for (std::size_t i = 0; i < worms.size(); ++i) {
-        const float distance = boxes[i].low.x / length;
-        worms[i].visible = distance < 120 ? 1 : 0;
-        worms[i].interval = distance < 40 ? 1 : 4;                       // a turn in every fourth frame
-        worms[i].weight = std::clamp((60 - distance) / 20, 0.0f, 1.0f);  // wrinkles fade out
-    }
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        bend::bounds(batch, boxes);
+        for (std::size_t i = 0; i < worms.size(); ++i) {
+            const float distance = boxes[i].low.x / length;
+            const bool appears = worms[i].visible == 0;  // its vertices are out of date
+            worms[i].visible = distance < 120 ? 1 : 0;
+            worms[i].interval = distance < 40 || appears ? 1 : 4;            // a turn in every fourth frame
+            worms[i].weight = std::clamp((60 - distance) / 20, 0.0f, 1.0f);  // wrinkles fade out
+        }
         const bend::CrowdResult result = bend::run_parallel({.batches = {&batch, 1}, .frame = frame});
         std::printf("frame %u: %zu of %zu\n", frame, result.deformed, worms.size());
     }

@@ -5,6 +5,7 @@
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/job.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -34,10 +35,12 @@ int main(int argc, char** argv) {
 
     // .. then skin what was bent as if it were the rest shape: on the GPU, or here.
     const glm::mat4x3 bones[2] = {glm::mat4x3(1), {1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0}};
+    float widest = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::mat4x3 bone = (1 - weights[i]) * bones[0] + weights[i] * bones[1];
         positions[i] = bone * glm::vec4(positions[i], 1);
+        widest = std::max(widest, positions[i].x);
     }
-    std::printf("%zu vertices, bent and skinned; the box at rest was %.2f wide\n", count,
-                static_cast<double>(rest.high.x - rest.low.x));
+    std::printf("%zu vertices, bent and skinned: x to %.1f, %.1f at rest\n", count,
+                static_cast<double>(widest), static_cast<double>(rest.high.x));
 }

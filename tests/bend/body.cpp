@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/bounds.hpp>
+#include <goffer/bend/sockets.hpp>
 
 #include <doctest/doctest.h>
 

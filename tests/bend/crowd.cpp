@@ -254,6 +254,17 @@ TEST_CASE("a batch of one reads from its job, which may change from frame to fra
     check(crowd, expected, [&] { return bend::run(bend::CrowdJob{.batches = crowd.batches}); });
 }
 
+TEST_CASE("a batch of no instances is no fault and no work, and needs no buffer") {
+    Random random(3);
+    const bend::Body body = loose_body(random, 50);
+    const bend::Batch none{.body = &body, .count = 0};
+    const bend::CrowdJob job{.batches = {&none, 1}};
+    CHECK(bend::validate(job).none());
+    CHECK(bend::run(job) == bend::CrowdResult{});
+    CHECK(bend::run_parallel(job) == bend::CrowdResult{});
+    CHECK(bend::run_piece(job, 1, 3) == bend::CrowdResult{});
+}
+
 TEST_CASE("an empty crowd is no fault and no work") {
     const bend::CrowdJob nobody;
     CHECK(bend::validate(nobody).none());

@@ -3,6 +3,8 @@
 
 #include "support/bodies.hpp"
 
+#include <goffer/bend/rest_vertex.hpp>
+
 #include <doctest/doctest.h>
 
 #include <cmath>

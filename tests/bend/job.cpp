@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 
+#include <goffer/bend/rest_vertex.hpp>
 #include <goffer/engine/parallel.hpp>
 
 #include <doctest/doctest.h>

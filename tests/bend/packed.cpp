@@ -5,6 +5,7 @@
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
 #include <goffer/bend/packed.hpp>
+#include <goffer/bend/rest_vertex.hpp>
 
 #include <doctest/doctest.h>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/job.hpp>
 
 #include <doctest/doctest.h>

@@ -2,6 +2,7 @@
 #include "support/accuracy.hpp"
 #include "support/chains.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
 

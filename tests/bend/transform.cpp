@@ -3,6 +3,7 @@
 #include "support/output_buffer.hpp"
 
 #include <goffer/bend/bounds.hpp>
+#include <goffer/bend/rest_vertex.hpp>
 
 #include <doctest/doctest.h>
 

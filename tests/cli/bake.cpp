@@ -3,6 +3,7 @@
 #include "support/rounds.hpp"
 
 #include <goffer/bend/body_file.hpp>
+#include <goffer/bend/body_input.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>

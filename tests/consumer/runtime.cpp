@@ -3,6 +3,7 @@
 // What a game does: bends a body with goffer::bend alone. Its one vertex is the tip of the outer line, which
 // lies at (L / alpha - r, 0, L / alpha) after a quarter turn.
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/crowd.hpp>
 
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/capsules.hpp>
+#include <goffer/bend/sockets.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "guarded_buffer.hpp"
 #include "support/bodies.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/crowd.hpp>
 #include <goffer/paper/shape.hpp>
 

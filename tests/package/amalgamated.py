@@ -8,7 +8,10 @@ import pathlib
 import subprocess
 import sys
 
-FLAGS = {"scalar": [], "sse4.2": ["-msse4.2"], "avx2": ["-mavx2", "-mfma"], "neon": []}
+FLAGS = {"scalar": [], "sse4.2": ["-msse4.2"], "avx2": ["-mavx2", "-mfma"], "neon": [],
+         # g++ 12 sees uninitialized values inside its own AVX-512 header.
+         "avx512": ["-mavx512f", "-mavx512cd", "-mavx512dq", "-mavx512bw", "-mavx2", "-mfma", "-Wno-uninitialized",
+                    "-Wno-maybe-uninitialized"]}
 
 
 def output_of(command):
@@ -20,7 +23,7 @@ def output_of(command):
 def main():
     top, folder, compiler, library = map(pathlib.Path, sys.argv[1:5])
     data = top / "tests/data/cylinder_v1.goffer"
-    sums = {isa: output_of([library, data, isa]) for isa in ["scalar", *sys.argv[5:]] if isa in FLAGS}
+    sums = {isa: output_of([library, data, isa]) for isa in ["scalar", *sys.argv[5:]]}
     isa = [isa for isa, bits in sums.items() if bits][-1]
     subprocess.run([top / "engine/packaging/amalgamate", folder], check=True)
     program = folder / "bits"

@@ -109,5 +109,6 @@ for features in (["tbb"], ["tbb", "offline", "tools"], []):
     configure(f"vcpkg {'+'.join(features)}", options)
 for chosen in ({}, {"offline": True}, {"tbb": False}):
     options, needed = conan(chosen)
+    assert all("include_prerelease" in name for name in needed if "-" in name.partition("/")[2]), needed
     assert any("onetbb" in name for name in needed) == chosen.get("tbb", True), needed
     configure(f"conan {chosen}".replace("'", ""), options)

@@ -22,6 +22,7 @@ ASSUMED = {
     "README.md": """
         #include <goffer/bend/body_file.hpp>
         #include <goffer/bend/crowd.hpp>
+        #include <glm/mat4x4.hpp>
         #include <vector>
         struct Vertex { glm::vec3 position; };
         extern std::vector<Vertex> vertices;
@@ -53,6 +54,7 @@ ASSUMED = {
         extern Batch batch;
     """,
     "modules/bend/include/goffer/bend/crowd.hpp": """
+        #include <glm/mat4x4.hpp>
         #include <vector>
         struct Vertex { float x, y, z; };
         extern std::vector<Vertex> vertices;

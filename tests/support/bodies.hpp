@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/job.hpp>
 #include <goffer/engine/columns.hpp>
 #include <goffer/fit/bind.hpp>

@@ -37,7 +37,7 @@ class Goffer(ConanFile):
         if self.options.offline:
             self.requires("eigen/[>=3.4]")
             self.requires("nlohmann_json/[>=3.11]")
-            self.requires("tinyobjloader/[>=2.0.0-rc10]")
+            self.requires("tinyobjloader/[>=2.0.0-rc10, include_prerelease]")
 
     def validate(self):
         check_min_cppstd(self, 20)

@@ -8,6 +8,8 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/io/read_file.hpp>
 
+#include <glm/mat3x3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <fstream>

@@ -4,6 +4,7 @@
 #include "model.hpp"
 
 #include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,8 @@
 #include "arguments.hpp"
 #include "model.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <algorithm>
 #include <cmath>
 

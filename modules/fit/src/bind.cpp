@@ -4,6 +4,7 @@
 #include "rest.hpp"
 #include "text.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/paper/wave.hpp>
 

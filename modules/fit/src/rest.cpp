@@ -3,6 +3,7 @@
 
 #include "text.hpp"
 
+#include <goffer/bend/rest_vertex.hpp>
 #include <goffer/fit/normals.hpp>
 
 #include <glm/geometric.hpp>

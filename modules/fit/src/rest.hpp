@@ -2,6 +2,7 @@
 #pragma once
 
 #include <goffer/bend/body.hpp>
+#include <goffer/bend/rest_vertex.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
 
+#include <goffer/bend/rest_vertex.hpp>
 #include <goffer/fit/cylinder.hpp>
 
 #include <glm/geometric.hpp>

@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cstddef>
-#include <memory>
 #include <span>
 
 /// Structure-of-arrays storage: equally long columns of floats in one aligned block.
@@ -24,6 +23,9 @@ inline constexpr std::size_t widest_batch = 32;
 class Columns {
 public:
     Columns() = default;
+    Columns(Columns&& other) noexcept;
+    Columns& operator=(Columns&& other) noexcept;
+    ~Columns();
 
     /// Allocates zero-filled columns: less than columns * (count + 96) * 4 bytes. May throw std::bad_alloc.
     Columns(std::size_t columns, std::size_t count);
@@ -38,18 +40,15 @@ public:
     /// The count() values of column `index` < columns(), without the padding.
     [[nodiscard]] std::span<float> operator[](std::size_t index) noexcept {
         assert(index < columns_);
-        return {memory_.get() + index * stride_, count_};
+        return {memory_ + index * stride_, count_};
     }
     [[nodiscard]] std::span<const float> operator[](std::size_t index) const noexcept {
         assert(index < columns_);
-        return {memory_.get() + index * stride_, count_};
+        return {memory_ + index * stride_, count_};
     }
 
 private:
-    struct Free {
-        void operator()(float* memory) const noexcept;
-    };
-    std::unique_ptr<float[], Free> memory_;
+    float* memory_ = nullptr;  // its own
     std::size_t columns_ = 0;
     std::size_t count_ = 0;
     std::size_t stride_ = 0;  // floats from one column to the next

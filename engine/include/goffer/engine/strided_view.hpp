@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <span>
 #include <type_traits>
 
@@ -16,7 +15,7 @@
 ///
 ///     auto array = strided(std::span(poses));
 ///     auto member = strided(std::span(worms), &Worm::pose);                      // of each struct
-///     auto pages = paged(registry.storage<Worm>().raw(), 1024, n, &Worm::pose);  // the same, in pages
+///     auto pages = paged(pool.raw(), page_size, n, &Worm::pose);  // the same, in the pages of an ECS
 
 namespace goffer {
 
@@ -76,13 +75,16 @@ struct Element<const std::array<M, N>> {
 template <class Class, class Object>
 inline constexpr bool has_members_of = std::is_base_of_v<Class, std::remove_const_t<Object>>;
 
+/// The address of `object`, whatever its own operator& says.
+template <class T>
+[[nodiscard]] const std::byte* address_of(const T& object) noexcept {
+    return &reinterpret_cast<const std::byte&>(object);
+}
+
 /// Bytes from the beginning of `object`, whose value is not read, to its member.
 template <class Object, class Class, class M>
 [[nodiscard]] std::uint32_t offset_of(const Object& object, M Class::*member) noexcept {
-    const void* const begin = std::addressof(object);
-    const void* const at = std::addressof(object.*member);
-    return static_cast<std::uint32_t>(static_cast<const std::byte*>(at) -
-                                      static_cast<const std::byte*>(begin));
+    return static_cast<std::uint32_t>(address_of(object.*member) - address_of(object));
 }
 
 /// log2 of `page_size`, a power of two.

@@ -1,4 +1,5 @@
-# A port of the tree that it lies in: vcpkg install goffer --overlay-ports=engine/packaging/vcpkg
+# A port of the tree that it lies in: vcpkg install goffer --overlay-ports=engine/packaging/vcpkg --no-binarycaching
+# (vcpkg's cache goes by the port alone, and would not see that the sources have changed.)
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../../.." ABSOLUTE)
 
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES

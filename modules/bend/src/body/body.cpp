@@ -7,10 +7,15 @@
 namespace goffer::bend {
 
 Body::Body() noexcept = default;
-Body::Body(std::unique_ptr<const BodyData> data) noexcept : data_(std::move(data)) {}
-Body::Body(Body&& other) noexcept = default;
-Body& Body::operator=(Body&& other) noexcept = default;
-Body::~Body() = default;
+Body::Body(const BodyData* data) noexcept : data_(data) {}
+Body::Body(Body&& other) noexcept : data_(std::exchange(other.data_, nullptr)) {}
+Body& Body::operator=(Body&& other) noexcept {
+    delete std::exchange(data_, std::exchange(other.data_, nullptr));
+    return *this;
+}
+Body::~Body() {
+    delete data_;
+}
 
 std::size_t Body::vertex_count() const noexcept {
     return data_ ? data_->vertex_count : 0;

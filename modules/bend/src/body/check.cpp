@@ -3,6 +3,8 @@
 
 #include "body/body_data.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <goffer/bend/body.hpp>
+#include <goffer/bend/body_input.hpp>
 
 #include <cstddef>
 

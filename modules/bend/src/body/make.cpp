@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "body/body_data.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -123,7 +126,7 @@ std::optional<Body> Body::make(const BodyInput& input) {
         write_vectors(data->storage, tangents, input.tangents);
         std::ranges::copy(input.tangent_signs, data->storage[tangent_sign].begin());
     }
-    return Body(std::move(data));
+    return Body(data.release());
 }
 
 }  // namespace goffer::bend

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "file/format.hpp"
 #include "file/load_held.hpp"
 
 #include <goffer/bend/body_file.hpp>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -16,6 +16,17 @@ namespace {
 std::span<std::byte> copy_of_size(const FileMemory& holdings, std::size_t bytes) {
     holdings->copy = Columns(1, (bytes + sizeof(float) - 1) / sizeof(float));
     return std::as_writable_bytes(holdings->copy[0]).first(bytes);
+}
+
+/// Bytes of a file, which is rewound; negative where it has no size.
+std::int64_t size_of(std::FILE* file) {
+#ifdef _WIN32
+    const std::int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : -1;
+#else
+    const std::int64_t size = std::fseek(file, 0, SEEK_END) == 0 ? std::ftell(file) : -1;
+#endif
+    std::rewind(file);
+    return size;
 }
 
 }  // namespace
@@ -47,13 +58,15 @@ std::optional<BodyFile> load_file(const char* name, BodyFileFault* fault, Verify
         if (fault != nullptr) *fault = {reason};
         return std::nullopt;
     };
-    // Its size is asked for once it has shown to be a file: folders have one too.
-    FileHeader header = {};
     if (!file) return refused(FileReason::unreadable);
-    if (std::fread(&header, sizeof header, 1, file.get()) != 1)
-        return refused(std::ferror(file.get()) != 0 ? FileReason::unreadable : FileReason::not_a_body_file);
-    const long size = std::fseek(file.get(), 0, SEEK_END) == 0 ? std::ftell(file.get()) : -1;
-    if (size < 0 || std::fseek(file.get(), 0, SEEK_SET) != 0) return refused(FileReason::unreadable);
+    // A folder opens and has a size, but cannot be read: reading comes first.
+    FileHeader header = {};
+    const bool whole = std::fread(&header, sizeof header, 1, file.get()) == 1;
+    if (std::ferror(file.get()) != 0) return refused(FileReason::unreadable);
+    const std::int64_t size = whole ? size_of(file.get()) : 0;
+    if (size < 0) return refused(FileReason::unreadable);
+    if (const BodyFileFault found = check_start(header, static_cast<std::uint64_t>(size)); !found.none())
+        return refused(found.reason);
     auto holdings = FileMemory(new FileHoldings);
     const std::span<std::byte> copy = copy_of_size(holdings, static_cast<std::size_t>(size));
     if (std::fread(copy.data(), 1, copy.size(), file.get()) != copy.size())

@@ -2,6 +2,8 @@
 #include "body/check.hpp"
 #include "file/format.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -3,9 +3,12 @@
 #include "file/format.hpp"
 #include "file/load_held.hpp"
 
+#include <goffer/bend/body_input.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 namespace goffer::bend {
@@ -14,18 +17,9 @@ namespace {
 BodyFileFault check_header(std::span<const std::byte> bytes) {
     FileHeader header = {};
     if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
-    const auto fault = [](FileReason reason) { return BodyFileFault{reason}; };
-    if (header.magic != file_magic) return fault(FileReason::not_a_body_file);
-    if (header.byte_order != file_byte_order) {
-        constexpr std::uint32_t other_order = 0x04030201;
-        return fault(header.byte_order == other_order ? FileReason::byte_order : FileReason::not_a_body_file);
-    }
-    if (header.version != body_file_version) return fault(FileReason::version);
-    if (header.bytes > bytes.size()) return fault(FileReason::truncated);
-    if (header.bytes < bytes.size()) return fault(FileReason::too_long);
-    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % column_alignment != 0)
-        return fault(FileReason::alignment);
-    return {};
+    if (const BodyFileFault fault = check_start(header, bytes.size()); !fault.none()) return fault;
+    const bool aligned_there = reinterpret_cast<std::uintptr_t>(bytes.data()) % column_alignment == 0;
+    return {aligned_there ? FileReason::none : FileReason::alignment};
 }
 
 BodyFileFault check_rest_of_header(const FileHeader& header) {
@@ -290,7 +284,7 @@ private:
         BodyFileLevel& level = file_.levels.back();
         level.rest_bounds = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
         const std::size_t vertices = data->vertex_count;
-        level.body = Body(std::move(data));
+        level.body = Body(data.release());
         return load_mesh(level, index, vertices);
     }
 
@@ -433,6 +427,18 @@ private:
 };
 
 }  // namespace
+
+BodyFileFault check_start(const FileHeader& header, std::uint64_t size) noexcept {
+    const auto fault = [](FileReason reason) { return BodyFileFault{reason}; };
+    if (header.magic != file_magic) return fault(FileReason::not_a_body_file);
+    if (header.byte_order != file_byte_order) {
+        constexpr std::uint32_t other_order = 0x04030201;
+        return fault(header.byte_order == other_order ? FileReason::byte_order : FileReason::not_a_body_file);
+    }
+    if (header.version != body_file_version) return fault(FileReason::version);
+    if (header.bytes > size) return fault(FileReason::truncated);
+    return fault(header.bytes < size ? FileReason::too_long : FileReason::none);
+}
 
 std::optional<BodyFile> load_held(std::span<const std::byte> bytes, BodyFileFault* fault, Verify verify,
                                   FileMemory holdings) {

@@ -2,6 +2,7 @@
 #include "file/format.hpp"
 
 #include <goffer/bend/job.hpp>
+#include <goffer/bend/rest_vertex.hpp>
 
 #include <glm/common.hpp>
 

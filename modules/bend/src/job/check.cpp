@@ -238,6 +238,7 @@ Fault check_instance(const Batch& batch, std::size_t element) noexcept {
 Fault check_memory(const Batch& batch) noexcept {
     if (batch.body == nullptr) return fault_of(Field::body, Reason::null);
     if (batch.body->empty()) return fault_of(Field::body, Reason::empty);
+    if (batch.count == 0) return {};  // the last instance may have gone, and the buffer with it
     const Streams streams(batch);
     bool wanted = false;
     for (const StreamMemory& stream : streams) wanted |= stream.wanted();
@@ -245,7 +246,6 @@ Fault check_memory(const Batch& batch) noexcept {
     if (Fault fault = check(streams); !fault.none()) return fault;
     if (!batch.tangents.empty() && !batch.body->has_tangents())
         return fault_of(Field::tangents, Reason::not_supported);
-    if (batch.count == 0) return {};
     if (Fault fault = check_columns(batch); !fault.none()) return fault;
     return check_places(batch, streams);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/sockets.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <goffer/bend/body_file_fault.hpp>
 #include <goffer/bend/file_memory.hpp>
 #include <goffer/bend/job.hpp>
-#include <goffer/bend/sockets.hpp>
+#include <goffer/bend/socket.hpp>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -37,8 +37,8 @@ inline constexpr std::uint32_t body_file_version = 1;
 /// The most levels of detail that a file can have.
 inline constexpr std::size_t max_levels = 16;
 
-/// Triangles that are drawn together. Names, and notes, are bytes as they were given: UTF-8 is meant, but not
-/// looked for.
+/// Triangles that are drawn together. Names, and notes, are bytes as they were given. They should be UTF-8;
+/// this is not checked.
 struct DrawPart {
     std::string_view name;  ///< may be empty
     std::uint32_t first_triangle = 0;
@@ -57,7 +57,7 @@ struct DrawMesh {
     std::span<const std::uint32_t> triangles;  ///< 3 vertices of the body each; counterclockwise from outside
     std::span<const glm::vec2> uvs;            ///< none, or one per vertex; v points up
     /// None, or for each vertex of the body which vertex it is in the model that it was made from: to find
-    /// what else the model says of it (colors, weights). Nothing looks whether the model has that many.
+    /// what else the model says of it (colors, weights). Nothing checks that the model has that many.
     std::span<const std::uint32_t> source;
     std::span<const DrawPart> parts;  ///< none, or covering all triangles, in order
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/bend/body.hpp>
+#include <goffer/bend/body_fault.hpp>
 #include <goffer/bend/fault.hpp>
 
 #include <cstddef>
@@ -46,7 +46,7 @@ enum class FileReason : std::uint8_t {
     count,            ///< a section has too few entries, too many, or not as many as another one
     number,           ///< a number is not finite, or out of its range
     index,            ///< an entry refers to what is not there
-    rig,              ///< a level has not the regions, tables or frame of the first one
+    rig,              ///< a level does not have the regions, tables or frame of the first one
     empty,            ///< a level has no body
     unreadable,       ///< load_file() cannot open or read it
 };

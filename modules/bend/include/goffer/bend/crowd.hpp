@@ -4,8 +4,8 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/engine/strided_view.hpp>
 
+#include <glm/fwd.hpp>
 #include <glm/mat4x3.hpp>
-#include <glm/mat4x4.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +44,9 @@ struct TransformColumn {
     TransformColumn() = default;
     TransformColumn(StridedView<float> view, MatrixLayout how) : first(view), layout(how) {}
     TransformColumn(const StridedView<glm::mat4x3>& view) : first(floats(view)) {}
-    TransformColumn(const StridedView<glm::mat4>& view)
+    /// Of glm::mat4, whose header, glm/mat4x4.hpp, is the caller's to include.
+    template <glm::qualifier Q>
+    TransformColumn(const StridedView<glm::mat<4, 4, float, Q>>& view)
         : first(floats(view)), layout(MatrixLayout::columns4) {}
 
     [[nodiscard]] bool empty() const noexcept { return first.empty(); }
@@ -82,8 +84,9 @@ struct Batch {
     StridedView<std::uint8_t> visible = {};
     /// 0: pose and outputs of the instance are still those of the last run, and it is skipped. Default: 1.
     StridedView<std::uint8_t> changed = {};
-    /// n > 1: the instance is skipped unless (CrowdJob::frame + i) mod n is 0, which spreads the work on
-    /// instances far away over frames. 0 counts as 1. Default: 1.
+    /// n > 1: the instance is skipped unless (CrowdJob::frame + i) mod n is 0, with i its place in the batch:
+    /// spreads the work on instances far away over frames. One that has just come into view needs 1, or its
+    /// outputs are old. 0 counts as 1. Default: 1.
     StridedView<std::uint8_t> update_intervals = {};
 
     /// Where vertices go: streams as in DeformJob, over a buffer that holds the vertices of all instances.

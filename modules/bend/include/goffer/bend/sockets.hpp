@@ -3,6 +3,7 @@
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/job.hpp>
+#include <goffer/bend/socket.hpp>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x3.hpp>
@@ -19,14 +20,6 @@
 /// the vertex goes.
 
 namespace goffer::bend {
-
-/// A place on or in the rest body, with a frame. fit::socket_at and fit::socket_near make one.
-struct Socket {
-    std::size_t region = 0;          ///< index of the region that it lies in
-    RestVertex vertex;               ///< z is counted from where the region begins
-    RestVector normal = {1, 0, 0};   ///< third axis of the frame, unit length. Default: outward
-    RestVector tangent = {0, 0, 1};  ///< first axis, unit length, orthogonal to `normal`. Default: to the tip
-};
 
 /// The frame of a socket on the deformed body. The columns of `axes` are tangent, normal x tangent, and
 /// normal: orthonormal and right-handed.
