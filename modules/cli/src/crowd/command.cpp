@@ -86,6 +86,7 @@ struct CrowdRequest {
 
 std::vector<BoundModel> bind_models(std::vector<ModelFile> files, const BindRequest& request) {
     std::vector<BoundModel> models;
+    models.reserve(files.size());
     for (ModelFile& file : files) models.push_back(bind_model(std::move(file), request));
     return models;
 }
@@ -189,6 +190,7 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
 
 void run_crowd(const CrowdOptions& options) {
     std::vector<ModelFile> files;
+    files.reserve(options.models.size());
     for (const std::filesystem::path& model : options.models)
         files.emplace_back(model, options.bind.load.limits);
     const CrowdRequest request(options, regions_in(files));

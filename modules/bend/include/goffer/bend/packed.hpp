@@ -6,8 +6,8 @@
 
 /// The packed stream: position and normal in 12 bytes per vertex, for a GPU to decode.
 ///
-/// goffer/bend/packed.glsl decodes it, from vertex attributes or from words, and packed.hlsl does in HLSL. With
-/// GLM's types both are also valid C++, which is how the tests run them.
+/// goffer/bend/packed.glsl decodes it, from vertex attributes or from words, and packed.hlsl does in HLSL.
+/// With GLM's types both are also valid C++, which is how the tests run them.
 
 namespace goffer::bend {
 
