@@ -73,6 +73,7 @@ Worst compare(std::span<const bend::PackedVertex> packed, const bend::Bounds& bo
         if (shader::goffer_position(unorm(packed[i].position), box.low, box.high) != position ||
             hlsl::goffer_position(words(packed[i]), box.low, box.high) != position ||
             shader::goffer_normal(snorm(packed[i].normal)) != normal ||
+            hlsl::goffer_normal(words(packed[i])) != normal ||
             hlsl::goffer_normal(snorm(packed[i].normal)) != normal)
             ++different;
         const glm::dvec3 decoded(position);
