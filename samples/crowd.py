@@ -11,7 +11,10 @@ import math
 import mmap
 import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("crowd.py needs NumPy: on Debian python3-numpy, and /usr/bin/python3")
 
 INSTANCES, MAX_REGIONS = 100, 32
 WORM = np.dtype([("poses", np.float32, (MAX_REGIONS, 2)), ("model", np.float32, 12)])

@@ -37,4 +37,5 @@ int main(int argc, char** argv) {
     bend::run(job);
     std::printf("%zu regions, off the path by %.1f %% of the length%s\n", poses.size(),
                 static_cast<double>(100 * fit.error / length), fit.clamped ? ", as far as they bend" : "");
+    if (poses.size() < 4) std::puts("more regions come closer: goffer bake --regions");
 }

@@ -231,6 +231,24 @@ TEST_CASE("P7: columns whose elements are too near to each other are named") {
     CHECK(told(after_poses(2 * sizeof(bend::Pose) - 4)) == "poses stride, batch 1");
     CHECK(told(after_poses(2 * sizeof(bend::Pose))) == "none");
     CHECK(told(after_poses(0)) == "none");  // the same poses for all
+    // A member of a struct that is large enough, but something else follows it.
+    const auto after_values = [](std::uint32_t values) {
+        return after([&](Crowd&, Batch& b) { b.poses.values = values; });
+    };
+    CHECK(told(after_values(1)) == "poses stride, batch 1");
+    CHECK(told(after_values(2)) == "none");
+    struct Worm {
+        bend::Pose pose;
+        std::array<bend::Pose, 3> poses;
+        bend::Pose plain[4];
+    };
+    const std::array<Worm, 2> worms{};
+    CHECK(strided(std::span(worms), &Worm::pose).values == 1);
+    CHECK(strided(std::span(worms), &Worm::poses).values == 3);
+    CHECK(strided(std::span(worms), &Worm::plain).values == 4);
+    const Worm* const pages[] = {worms.data()};
+    CHECK(paged(pages, 2, 2, &Worm::pose).values == 1);
+    CHECK(paged(pages, 2, 2, &Worm::plain).values == 4);
     CHECK(told(after([](Crowd&, Batch& b) { b.previous_poses.stride = sizeof(bend::Pose); })) ==
           "previous_poses stride, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.transforms.first.stride = sizeof(float); })) ==

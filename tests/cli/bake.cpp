@@ -96,6 +96,13 @@ TEST_CASE("bake: levels of detail, of which bend takes the one that is asked for
     CHECK(bent["vertices"] == 16 * 41);
     refused(folder, 1, {"bend", "worm.goffer", "--level", "2", "-o", "b.ply"}, {"worm.goffer", "2 levels"});
     refused(folder, 2, {"bend", "fine.ply", "--level", "1", "-o", "b.ply"}, {"--level", "fine.ply"});
+    const auto warned = [&](const std::string& level) {
+        const Result baked = run(folder, {"bake", "fine.ply", "--lod", level, "-o", "worm.goffer"});
+        return baked.err.find(level + ": as a level of detail it is off by") != std::string::npos;
+    };
+    base(folder, "thin.ply", {"--radius", "0.1"});
+    CHECK(!warned("coarse.ply"));
+    CHECK(warned("thin.ply"));
 }
 
 TEST_CASE("bake: a crowd of body files, and of models with them, moves as the models do") {

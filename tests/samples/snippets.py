@@ -35,11 +35,10 @@ ASSUMED = {
         struct Pose {};
         struct Worm { Pose pose; };
         struct Pool { Worm** raw(); };
-        struct Registry { template <class Component> Pool storage(); };
         extern std::vector<Pose> poses;
         extern std::vector<Worm> worms;
-        extern Registry registry;
-        extern std::size_t n;
+        extern Pool pool;
+        extern const std::size_t page_size, n;
     """,
     "modules/bend/include/goffer/bend/body_file.hpp": """
         extern const std::span<const std::byte> bytes;

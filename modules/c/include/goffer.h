@@ -175,7 +175,7 @@ typedef struct goffer_job {
     const goffer_body* body;
     const goffer_pose* poses; /* one for each region */
     size_t pose_count;
-    float wrinkle_weight;   /* 0 to 1: set it to 1 for full wrinkles */
+    float wrinkle_weight;   /* 0 to 1: set it to 1 for full wrinkles; a job of zeros has none */
     const float* transform; /* null, or 12 floats: four columns of 3, as glm::mat4x3 */
     goffer_stream positions, normals, tangents;
     goffer_packed_stream packed;
@@ -223,7 +223,9 @@ typedef struct goffer_batch {
     const goffer_body* body;
     size_t count;             /* instances */
     const uint32_t* indices;  /* null, or `count` of them: the element that each one reads */
-    goffer_column poses;      /* goffer_pose; those of further regions behind the first one's */
+    /* goffer_pose; those of further regions behind the first one's: each element has at least as many as the body
+     * has regions, which nothing can check. */
+    goffer_column poses;
     goffer_column transforms; /* floats, as transform_layout says; not given: the identity */
     int transform_layout;
     goffer_column wrinkle_weights; /* float; not given: 1 */

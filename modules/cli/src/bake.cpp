@@ -13,6 +13,7 @@
 #include <goffer/fit/sockets.hpp>
 #include <goffer/io/atomic_file.hpp>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -101,6 +102,24 @@ BoundModel bind_next(const std::filesystem::path& file, const BindRequest& reque
     }
     model.cylinder = rig.cylinder;
     return model;
+}
+
+/// Warns of a level that does not lie where MODEL does: it would jump when it takes MODEL's place.
+void warn_of_level(Report& report, const BoundModel& model, const BoundModel& level) {
+    const auto box_of = [](const BoundModel& of) {
+        bend::Bounds box{of.rest.positions.front(), of.rest.positions.front()};
+        for (const glm::vec3& position : of.rest.positions)
+            box = {glm::min(box.low, position), glm::max(box.high, position)};
+        return box;
+    };
+    const bend::Bounds box = box_of(model), other = box_of(level);
+    const double away = std::max(glm::distance(glm::dvec3(box.low), glm::dvec3(other.low)),
+                                 glm::distance(glm::dvec3(box.high), glm::dvec3(other.high)));
+    const double size = glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
+    if (away > size / 10)
+        report.warn(level.file.string() + ": as a level of detail it is off by up to " + number(away) + ", " +
+                    number(100 * away / size) + " % of " + model.file.string() +
+                    "'s size; is it the same model, in the same units?");
 }
 
 /// Parts as stretches of triangles. `place` of a material: which of the file's it is.
@@ -250,6 +269,7 @@ void run_bake(const BakeOptions& options) {
     for (std::size_t i = 1; i < levels.size(); ++i) {
         if (levels[i].model.binding.body.vertex_count() >= levels[i - 1].model.binding.body.vertex_count())
             report.warn(levels[i].model.file.string() + ": is not coarser than the level before it");
+        warn_of_level(report, finest, levels[i].model);
     }
     io::AtomicFiles outputs;
     outputs.add(options.output).write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -32,6 +32,9 @@ struct StridedView {
     std::uint32_t stride = sizeof(T);
     std::uint32_t offset = 0;  ///< bytes from the beginning of the array, or of a page, to its first element
     std::uint32_t page_shift = unpaged;  ///< a page holds 2^page_shift elements
+    /// How many values of type T each element has, one behind the other; 0: as many as the stride has room
+    /// for. A view of a member knows that what follows the member is something else.
+    std::uint32_t values = 0;
 
     [[nodiscard]] bool empty() const noexcept { return data == nullptr; }
 
@@ -57,18 +60,22 @@ namespace detail {
 template <class M>
 struct Element {
     using Type = std::remove_const_t<M>;
+    static constexpr std::uint32_t count = 1;
 };
 template <class M, std::size_t N>
 struct Element<M[N]> {
     using Type = std::remove_const_t<M>;
+    static constexpr std::uint32_t count = N;
 };
 template <class M, std::size_t N>
 struct Element<std::array<M, N>> {
     using Type = std::remove_const_t<M>;
+    static constexpr std::uint32_t count = N;
 };
 template <class M, std::size_t N>
 struct Element<const std::array<M, N>> {
     using Type = std::remove_const_t<M>;
+    static constexpr std::uint32_t count = N;
 };
 
 /// Whether `Class` is `Object` or a base of it.
@@ -112,7 +119,8 @@ template <class Object, std::size_t N, class Class, class M>
     return StridedView<T>{.data = objects.data(),
                           .count = objects.size(),
                           .stride = sizeof(Object),
-                          .offset = detail::offset_of(objects.front(), member)};
+                          .offset = detail::offset_of(objects.front(), member),
+                          .values = detail::Element<M>::count};
 }
 
 /// `count` elements in pages of `page_size` elements, a power of two. pages[p] is the address of page p.
@@ -135,7 +143,8 @@ template <class Object, class Class, class M>
                           .count = count,
                           .stride = sizeof(Object),
                           .offset = detail::offset_of(*pages[0], member),
-                          .page_shift = detail::shift_of(page_size)};
+                          .page_shift = detail::shift_of(page_size),
+                          .values = detail::Element<M>::count};
 }
 
 }  // namespace goffer

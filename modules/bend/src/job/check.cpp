@@ -155,7 +155,8 @@ struct ColumnCheck {
     template <class T>
     void take(Field field, const StridedView<T>& view, std::size_t bytes = sizeof(T)) noexcept {
         if (!fault.none() || view.empty()) return;
-        if (view.stride != 0 && view.stride < bytes) {
+        const bool others_follow = view.values != 0 && view.values * sizeof(T) < bytes;
+        if ((view.stride != 0 && view.stride < bytes) || others_follow) {
             fault = fault_of(field, Reason::stride);
         } else if (view.count < elements) {
             fault = fault_of(field, Reason::count);

@@ -98,7 +98,7 @@ std::string_view words(Field field, Reason reason) noexcept {
             return "its count is below what the instances' vertices take";
         case Reason::stride:
             return is_column(field)
-                       ? "the stride is below what is read of an instance: a pose per region, a matrix"
+                       ? "an element has less room than is read of it: a pose per region, a matrix"
                        : "the stride is not a multiple of 4, or below what one vertex takes";
         case Reason::alignment:
             return "not aligned to the type of its elements";

@@ -73,7 +73,9 @@ struct Batch {
     std::span<const std::uint32_t> indices = {};
 
     /// Each element is the pose of the first region; those of the other regions follow it in memory, so that
-    /// the stride is at least region_count() poses, or 0: the same for all. Must be given.
+    /// the stride is at least region_count() poses, or 0: the same for all. Must be given. (A member of type
+    /// Pose has one: for a body of n regions the struct needs Pose[n], or an array that is as long as that of
+    /// the body with the most regions.)
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};          ///< as DeformJob::transform; default: the identity
     StridedView<float> wrinkle_weights = {};  ///< as DeformJob::wrinkle_weight; default: 1
@@ -106,8 +108,8 @@ struct Batch {
 
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not. Stores past the cache can then write
-    /// records as whole cache lines. Bytes before an instance's first output and behind its last one stay
-    /// untouched all the same.
+    /// records as whole cache lines, except for bodies with a shape, whose gaps stay untouched and cost the
+    /// same. Bytes before an instance's first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
 };
 
