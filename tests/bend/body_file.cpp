@@ -4,6 +4,7 @@
 #include "support/rounds.hpp"
 
 #include <goffer/bend/body_file.hpp>
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/sockets.hpp>
 
@@ -12,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -422,6 +424,25 @@ TEST_CASE("body file: without verification a changed file still runs within its 
         if (made) ++loaded, run_of(made->levels[0].body, 1);
     }
     CHECK(loaded > 100);
+}
+
+TEST_CASE("body file: the angle of a table without rows may be anything") {
+    const bend::RestVertex vertex{.z = 5, .rho = 1};
+    const bend::RestVector normal{.rho = 1};
+    bend::RegionInput region{.length = 10, .max_angle = 1, .vertex_count = 1};
+    region.table.max_angle = region.factors.max_angle = std::numeric_limits<float>::quiet_NaN();
+    bend::BodyInput input;
+    input.radius = 1;
+    input.regions = {&region, 1};
+    input.vertices = {&vertex, 1};
+    input.normals = {&normal, 1};
+    const bend::Body body = bend::Body::make(input).value();
+    const std::array<bend::LevelInput, 2> levels{bend::LevelInput{&body, {}}, bend::LevelInput{&body, {}}};
+    BodyFileFault fault;
+    const std::vector<std::byte> bytes = bend::save({levels, {}, {}, {}}, &fault);
+    INFO(bend::describe(fault).c_str());
+    REQUIRE(!bytes.empty());
+    CHECK(bend::load_copy(bytes).has_value());
 }
 
 TEST_CASE("body file: what cannot be read as a file is said to be") {

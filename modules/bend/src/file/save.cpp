@@ -15,8 +15,14 @@ namespace goffer::bend {
 namespace {
 
 /// Whether two regions differ in nothing but how many vertices they have.
-bool same(RegionInput a, const RegionInput& b) {
-    a.vertex_count = b.vertex_count;
+bool same(RegionInput a, RegionInput b) {
+    for (RegionInput* region : {&a, &b}) {
+        region->vertex_count = 0;
+        // The angle of a table without rows means nothing, and may be no number, which is not equal to
+        // itself.
+        if (region->table.empty()) region->table.max_angle = 0;
+        if (region->factors.empty()) region->factors.max_angle = 0;
+    }
     return a == b;
 }
 
