@@ -199,13 +199,11 @@ bend::CrowdResult CrowdSystem::deform(const Pools& pools) {
     const bend::CrowdJob crowd{.batches = batches_};
     assert(bend::validate(crowd).none());
     const bend::CrowdResult result = threads_ != nullptr ? threads_->run(crowd) : bend::run_parallel(crowd);
-    for (const std::unique_ptr<Kind>& kind : kinds_) {
-        for (std::size_t level = 0; kind && level < kind->due.size(); ++level) {
-            for (const std::uint32_t index : kind->due[level]) {
-                pools.bends[index].drawn = pools.bends[index].now;
-                pools.places[index].drawn = pools.places[index].now;
-                pools.details[index].moved = true;
-            }
+    for (const bend::Batch& batch : batches_) {
+        for (const std::uint32_t index : batch.indices) {
+            pools.bends[index].drawn = pools.bends[index].now;
+            pools.places[index].drawn = pools.places[index].now;
+            pools.details[index].moved = true;
         }
     }
     return result;

@@ -1,17 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Makes the runtime's two files, compiles them alone, and compares bits with the library's.
-   amalgamated.py TOP FOLDER COMPILER LIBRARY_PROGRAM ISA..
-TOP: goffer's sources. FOLDER: to work in. LIBRARY_PROGRAM: bits.cpp, linked with the library. ISA: one that the library has
-kernels for; the last that runs here is tried."""
+   amalgamated.py TOP FOLDER COMPILER LIBRARY_PROGRAM FLAGS ISA=FLAGS..
+TOP: goffer's sources. FOLDER: to work in. LIBRARY_PROGRAM: bits.cpp, linked with the library. FLAGS: those of the library's
+kernels. ISA: one that the library has kernels for; the last that runs here is tried."""
 import pathlib
 import subprocess
 import sys
-
-FLAGS = {"scalar": [], "sse4.2": ["-msse4.2"], "avx2": ["-mavx2", "-mfma"], "neon": [],
-         # g++ 12 sees uninitialized values inside its own AVX-512 header.
-         "avx512": ["-mavx512f", "-mavx512cd", "-mavx512dq", "-mavx512bw", "-mavx2", "-mfma", "-Wno-uninitialized",
-                    "-Wno-maybe-uninitialized"]}
 
 
 def output_of(command):
@@ -23,12 +18,13 @@ def output_of(command):
 def main():
     top, folder, compiler, library = map(pathlib.Path, sys.argv[1:5])
     data = top / "tests/data/cylinder_v1.goffer"
-    sums = {isa: output_of([library, data, isa]) for isa in ["scalar", *sys.argv[5:]]}
+    flags = dict(argument.split("=", 1) for argument in ["scalar=", *sys.argv[6:]])
+    sums = {isa: output_of([library, data, isa]) for isa in flags}
     isa = [isa for isa, bits in sums.items() if bits][-1]
     subprocess.run([top / "engine/packaging/amalgamate", folder], check=True)
     program = folder / "bits"
-    subprocess.run([compiler, "-std=c++20", "-O1", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-fno-math-errno",
-                    "-fno-trapping-math", *FLAGS[isa], "-I", folder, top / "tests/package/bits.cpp",
+    subprocess.run([compiler, "-std=c++20", "-O1", "-Wall", "-Wextra", "-Werror", *sys.argv[5].split(),
+                    *flags[isa].split(), "-I", folder, top / "tests/package/bits.cpp",
                     folder / "goffer.cpp", "-o", program], check=True)
     failed = False
     for name in {"scalar", isa}:

@@ -221,10 +221,10 @@ enum { GOFFER_COLUMNS3, GOFFER_COLUMNS4, GOFFER_ROWS4 }; /* TransformColumn::Mat
 
 typedef struct goffer_batch {
     const goffer_body* body;
-    size_t count;             /* instances */
-    const uint32_t* indices;  /* null, or `count` of them: the element that each one reads */
-    /* goffer_pose; those of further regions behind the first one's: each element has at least as many as the body
-     * has regions, which nothing can check. */
+    size_t count;            /* instances */
+    const uint32_t* indices; /* null, or `count` of them: the element that each one reads */
+    /* goffer_pose; those of further regions behind the first one's: each element has at least as many as the
+     * body has regions, which nothing can check. */
     goffer_column poses;
     goffer_column transforms; /* floats, as transform_layout says; not given: the identity */
     int transform_layout;

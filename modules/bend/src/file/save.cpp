@@ -15,14 +15,8 @@ namespace goffer::bend {
 namespace {
 
 /// Whether two regions differ in nothing but how many vertices they have.
-bool same(RegionInput a, RegionInput b) {
-    for (RegionInput* region : {&a, &b}) {
-        region->vertex_count = 0;
-        // The angle of a table without rows means nothing, and may be no number, which is not equal to
-        // itself.
-        if (region->table.empty()) region->table.max_angle = 0;
-        if (region->factors.empty()) region->factors.max_angle = 0;
-    }
+bool same(RegionInput a, const RegionInput& b) {
+    a.vertex_count = b.vertex_count;
     return a == b;
 }
 
@@ -37,7 +31,8 @@ BodyFileFault check_levels(std::span<const LevelInput> levels) {
     for (std::size_t i = 0; i < levels.size(); ++i) {
         if (levels[i].body == nullptr || levels[i].body->empty())
             return {FileReason::empty, FileSection::level, i};
-        if (!same_rig(*levels[i].body, *levels[0].body)) return {FileReason::rig, FileSection::level, i};
+        if (i > 0 && !same_rig(*levels[i].body, *levels[0].body))
+            return {FileReason::rig, FileSection::level, i};
     }
     return {};
 }

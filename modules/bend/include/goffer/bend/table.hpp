@@ -39,7 +39,10 @@ struct WrinkleTable {
     std::vector<WrinkleRow> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
-    [[nodiscard]] bool operator==(const WrinkleTable&) const = default;
+    /// Whether they do the same: without rows the angle means nothing.
+    [[nodiscard]] bool operator==(const WrinkleTable& other) const noexcept {
+        return rows == other.rows && (empty() || max_angle == other.max_angle);
+    }
 
     /// The row at `angle` in radians, interpolated linearly over the angle's root between the two nearest
     /// rows. Angles outside 0..max_angle count as the nearer end, and those that are not finite as 0. Zeros
@@ -60,7 +63,10 @@ struct FactorTable {
     std::vector<std::array<float, directions>> rows;  ///< none, or at least two
 
     [[nodiscard]] bool empty() const noexcept { return rows.empty(); }
-    [[nodiscard]] bool operator==(const FactorTable&) const = default;
+    /// As of a WrinkleTable.
+    [[nodiscard]] bool operator==(const FactorTable& other) const noexcept {
+        return rows == other.rows && (empty() || max_angle == other.max_angle);
+    }
 
     /// The factor at `angle`, and at `direction` from the rest arc's, both in radians. Its square is
     /// interpolated linearly over the direction and over the angle's root. Angles outside 0..max_angle count
