@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "kernel/kernels.hpp"
 #include "output/output_plan.hpp"
 #include "output/staging_buffer.hpp"
 #include "support/layout_case.hpp"
@@ -21,7 +22,7 @@ TEST_CASE("a staging buffer has room for whole units behind every plane") {
                                            "xyzuvwabcdpqr", "xyzuvwabcdpqr123", "pqr123"}) {
         CAPTURE(picture);
         OutputBuffer out(picture, test_mesh.count());
-        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), false);
+        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), bend::kernels(Isa::automatic), false);
         bend::StagingBuffer stage(plan);
         REQUIRE(stage.capacity() > 0);
         CHECK(stage.capacity() % bend::line_floats == 0);

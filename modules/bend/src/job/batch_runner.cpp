@@ -52,7 +52,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
     : batch_(batch),
       body_(*batch.body->data()),
       kernels_(kernels),
-      plan_(batch, non_temporal),
+      plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, kernels.setup),

@@ -165,8 +165,8 @@ using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::si
 /// One instruction set's kernels.
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
-    RowKernel rows[squeeze_count][stream_set_count];         ///< null for Squeeze::shaped
-    WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
+    RowKernel rows[squeeze_count][stream_set_count];         ///< null where there is none
+    WeavingKernel weaving[squeeze_count][stream_set_count];  ///< likewise
     Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null where there is none
     CopyLines copy_lines;
     Setup setup;

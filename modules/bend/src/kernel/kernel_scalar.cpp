@@ -5,6 +5,6 @@
 
 namespace goffer::bend {
 
-extern constexpr KernelSet kernels_scalar = kernel_set<simd::ScalarLanes>();
+extern constexpr KernelSet kernels_scalar = kernel_set<simd::ScalarLanes, RecordKernels::no>();
 
 }  // namespace goffer::bend

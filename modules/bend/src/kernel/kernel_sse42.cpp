@@ -6,6 +6,7 @@
 
 namespace goffer::bend {
 
-extern constexpr KernelSet kernels_sse42 = kernel_set<simd::DoubledLanes<simd::XsimdLanes<xsimd::sse4_2>>>();
+extern constexpr KernelSet kernels_sse42 =
+    kernel_set<simd::DoubledLanes<simd::XsimdLanes<xsimd::sse4_2>>, RecordKernels::no>();
 
 }  // namespace goffer::bend

@@ -61,9 +61,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Bodies with a shape do without these: their records are woven.
-bool has_row_kernels(const BodyData& body) noexcept {
-    return body.columns.scale == nullptr;
+/// Whether there are kernels that write the records of a pass; where there are none, it is staged.
+bool has_kernels(const KernelSet& kernels, const BodyData& body, const PassPlan& pass) noexcept {
+    const Squeeze squeeze = body.columns.scale == nullptr ? Squeeze::plain : Squeeze::shaped;
+    return (pass.mode != WriteMode::rows || kernels.row_kernel(squeeze, pass.streams) != nullptr) &&
+           (pass.mode != WriteMode::records || kernels.weaving_kernel(squeeze, pass.streams) != nullptr);
 }
 
 const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
@@ -101,7 +103,8 @@ void OutputPlan::add(Pass pass, StreamSet streams, std::size_t value, const Stre
         components_[component_count_++] = {stream.component[c], stream.stride, first + c};
 }
 
-OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_temporal_(non_temporal) {
+OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
+    : non_temporal_(non_temporal) {
     if (!batch.previous_positions.empty())
         add(Pass::previous, StreamSet::positions, 0, batch.previous_positions);
     if (!batch.positions.empty() || !batch.normals.empty() || !batch.tangents.empty()) {
@@ -120,8 +123,7 @@ OutputPlan::OutputPlan(const Batch& batch, bool non_temporal) noexcept : non_tem
         pass.mode = set_planes(pass, batch) ? WriteMode::planes
                     : set_rows(pass, batch) ? mode_of_rows(pass)
                                             : WriteMode::staged;
-        if (pass.mode == WriteMode::rows && !has_row_kernels(*batch.body->data()))
-            pass.mode = WriteMode::staged;
+        if (!has_kernels(kernels, *batch.body->data(), pass)) pass.mode = WriteMode::staged;
         staged |= pass.mode == WriteMode::staged;
     }
     if (staged) stage_all();

@@ -79,8 +79,8 @@ struct PassPlan {
 
 class OutputPlan {
 public:
-    /// `non_temporal`: for writes past the cache.
-    OutputPlan(const Batch& batch, bool non_temporal) noexcept;
+    /// For writes by `kernels`. `non_temporal`: past the cache.
+    OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept;
     OutputPlan(const OutputPlan&) = delete;
     OutputPlan& operator=(const OutputPlan&) = delete;
 
