@@ -199,7 +199,9 @@ bend::CrowdResult CrowdSystem::deform(const Pools& pools) {
     const bend::CrowdJob crowd{.batches = batches_};
     assert(bend::validate(crowd).none());
     const bend::CrowdResult result = threads_ != nullptr ? threads_->run(crowd) : bend::run_parallel(crowd);
+    deformed_vertices_ = 0;
     for (const bend::Batch& batch : batches_) {
+        deformed_vertices_ += batch.count * batch.body->vertex_count();
         for (const std::uint32_t index : batch.indices) {
             pools.bends[index].drawn = pools.bends[index].now;
             pools.places[index].drawn = pools.places[index].now;

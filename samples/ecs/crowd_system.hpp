@@ -81,6 +81,8 @@ public:
     [[nodiscard]] std::span<const glm::vec3> previous_positions() const { return previous_; }
     [[nodiscard]] std::span<const goffer::bend::SocketFrame> hats() const { return hats_; }
     [[nodiscard]] std::size_t seen() const { return seen_; }
+    /// Vertices that the last deform() has written.
+    [[nodiscard]] std::size_t deformed_vertices() const { return deformed_vertices_; }
 
 private:
     struct Kind {
@@ -108,7 +110,7 @@ private:
     std::vector<goffer::bend::Batch> batches_;
     std::vector<std::uint32_t> near_;  // indices of creatures with hats and collisions
     std::vector<goffer::bend::SocketFrame> hats_;
-    std::size_t seen_ = 0;
+    std::size_t seen_ = 0, deformed_vertices_ = 0;
 };
 
 }  // namespace ecs

@@ -16,6 +16,7 @@
 #include <exception>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -115,6 +116,10 @@ public:
                     of(animate), of(cull), of(deform), of(attach));
     }
 
+    [[nodiscard]] double sum(Part part) const {
+        return std::accumulate(times_[part].begin(), times_[part].end(), 0.0);
+    }
+
 private:
     [[nodiscard]] double of(Part part) const { return measure::median(times_[part]); }
 
@@ -169,9 +174,15 @@ public:
         hash.add(crowd_.previous_positions());
         std::printf("%u creatures, %zu files, %u frames; %u came and went\n", options_.creatures,
                     options_.files.size(), options_.frames, next_ - options_.creatures);
-        std::printf("in all frames: %zu seen, %zu deformed, %zu hats, %zu touched\n", seen_, deformed_,
-                    hat_count_, touched_);
+        const auto per_frame = [&](std::size_t sum) {
+            return static_cast<double>(sum) / static_cast<double>(options_.frames);
+        };
+        std::printf("creatures per frame: %.1f seen, %.1f deformed, %.1f with hats, %.1f touched\n",
+                    per_frame(seen_), per_frame(deformed_), per_frame(hat_count_), per_frame(touched_));
         times_.print();
+        std::printf(
+            "deform: %.2f ns per vertex, with previous positions\n",
+            times_.sum(Times::deform) * 1e6 / static_cast<double>(std::max<std::size_t>(vertices_, 1)));
         if (measure::allocations())
             std::printf("allocations in frames: %llu\n", static_cast<unsigned long long>(allocated_));
         std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
@@ -239,6 +250,7 @@ private:
         });
         seen_ += crowd_.seen();
         deformed_ += result.deformed;
+        vertices_ += crowd_.deformed_vertices();
         hat_count_ += crowd_.hats().size();
         hats_.add(crowd_.hats());
         for (std::size_t i = 0; i < pools.count; ++i) touched_ += pools.details[i].touched ? 1 : 0;
@@ -264,7 +276,7 @@ private:
     std::vector<std::uint32_t> kinds_;    // that creatures come of
     std::uint32_t first_ = 0, next_ = 0;  // ids: of those that stay, and of the next one
     std::uint64_t allocated_ = 0;
-    std::size_t seen_ = 0, deformed_ = 0, hat_count_ = 0, touched_ = 0;
+    std::size_t seen_ = 0, deformed_ = 0, vertices_ = 0, hat_count_ = 0, touched_ = 0;
     Hash hats_;
 };
 

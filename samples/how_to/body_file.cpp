@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     if (argc != 3) return std::puts("usage: body_file FILE.goffer NEWER.goffer"), 2;
     bend::BodyFileFault fault;
     std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);  // bend::load uses a mapped one
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
 
     // Instances keep a handle, never an address.
     bend::BodyTable bodies;
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
             // The artist has baked it anew: between two frames it takes the old one's place. The file stays,
             // with what is drawn of the body.
             std::optional<bend::BodyFile> newer = bend::load_file(argv[2], &fault);
-            if (!newer) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+            if (!newer) return std::printf("%s: %s\n", argv[2], bend::describe(fault).c_str()), 1;
             bodies.replace(worm, std::move(newer->levels[0].body));
             file = std::move(newer);
         }

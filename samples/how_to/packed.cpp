@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: packed FILE.goffer"), 2;
     bend::BodyFileFault fault;
     const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
     const bend::Body& body = file->levels[0].body;
     const std::size_t count = body.vertex_count();
     const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.8f});

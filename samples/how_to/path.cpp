@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: path FILE.goffer"), 2;
     bend::BodyFileFault fault;
     const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
     const bend::Body& body = file->levels[0].body;
     const auto length = static_cast<float>(body.length());
     std::vector<glm::vec3> points;  // any polyline, in the body's unit: here a wave

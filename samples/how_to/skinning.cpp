@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: skinning FILE.goffer"), 2;
     bend::BodyFileFault fault;
     const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
     const auto& [body, mesh, rest] = file->levels[0];
 
     // Skin weights are the model's, one per vertex of its file; `source` says which vertex that is. Those

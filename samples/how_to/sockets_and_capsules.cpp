@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: sockets_and_capsules FILE.goffer"), 2;
     bend::BodyFileFault fault;
     const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
     const bend::Body& body = file->levels[0].body;
     const std::vector<bend::Pose> poses(body.region_count(), {.angle = 0.5f});
     const bend::DeformJob instance{.body = &body, .poses = poses};
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     std::vector<bend::SocketFrame> frames(sockets->count());
     sockets->frames(instance, frames);  // in every frame; the mesh is not touched
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const glm::vec3 at = frames[i].position;
+        const glm::vec3 at = frames[i][3];  // frames[i] takes the hat to the body
         std::printf("%.*s: %.2f %.2f %.2f\n", static_cast<int>(file->sockets[i].name.size()),
                     file->sockets[i].name.data(), static_cast<double>(at.x), static_cast<double>(at.y),
                     static_cast<double>(at.z));

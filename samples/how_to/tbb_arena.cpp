@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::puts("usage: tbb_arena FILE.goffer"), 2;
     bend::BodyFileFault fault;
     const std::optional<bend::BodyFile> file = bend::load_file(argv[1], &fault);
-    if (!file) return std::printf("%s\n", bend::describe(fault).c_str()), 1;
+    if (!file) return std::printf("%s: %s\n", argv[1], bend::describe(fault).c_str()), 1;
     const bend::Body& body = file->levels[0].body;
     if (body.region_count() != 1) return std::puts("this program is for bodies of one region"), 1;
     std::vector<bend::Pose> poses(200);

@@ -121,7 +121,7 @@ struct Results {
         for (const bend::Capsule& capsule : capsules)
             if (!finite(capsule.from) || !finite(capsule.to) || !(capsule.radius >= 0)) return "capsules";
         for (const bend::SocketFrame& frame : frames)
-            if (!finite(frame.position) || !(glm::determinant(frame.axes) > 0.99f)) return "frames";
+            if (!finite(frame[3]) || !(glm::determinant(glm::mat3(frame)) > 0.99f)) return "frames";
         return {};
     }
 };

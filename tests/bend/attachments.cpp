@@ -85,9 +85,9 @@ TEST_CASE("a socket goes where the vertex at its place goes") {
         made->frames(job, frames);
         made->frames(chain.poses, same, transform);
         for (std::size_t i = 0; i < sockets.size(); ++i) {
-            REQUIRE(glm::length(glm::dvec3(frames[i].position) - out.position(vertices[i])) < 2e-6 * size);
-            REQUIRE(frames[i].position == same[i].position);
-            const glm::dmat3 a(frames[i].axes);
+            REQUIRE(glm::length(glm::dvec3(frames[i][3]) - out.position(vertices[i])) < 2e-6 * size);
+            REQUIRE(frames[i][3] == same[i][3]);
+            const glm::dmat3 a(glm::mat3(frames[i]));
             const glm::dmat3 unit = glm::transpose(a) * a;
             for (int c = 0; c < 3; ++c)
                 for (int r = 0; r < 3; ++r) REQUIRE(std::fabs(unit[c][r] - (c == r)) < 2e-6);
@@ -115,8 +115,8 @@ TEST_CASE("the socket nearest to a point lies on the surface there, its axis alo
             const std::vector<bend::Pose> rest = chain.binding.body.rest_poses();
             bend::SocketFrame frame;
             made->frames(rest, {&frame, 1});
-            REQUIRE(glm::length(glm::dvec3(frame.position) - middle) < 5e-7);
-            REQUIRE(angle_between(glm::dvec3(frame.axes[2]), normal) < 5e-5);
+            REQUIRE(glm::length(glm::dvec3(frame[3]) - middle) < 5e-7);
+            REQUIRE(angle_between(glm::dvec3(frame[2]), normal) < 5e-5);
         }
     }
 }
@@ -194,7 +194,7 @@ TEST_CASE("poses along a path: the center line follows it, the better the more r
         REQUIRE(made);
         std::vector<bend::SocketFrame> frames(sockets.size());
         made->frames(poses, frames, fit.transform);
-        CHECK(glm::length(frames[0].position - control[0]) < 3e-6f);
+        CHECK(glm::length(frames[0][3] - control[0]) < 3e-6f);
         double worst = 0;
         for (const bend::SocketFrame& frame : frames) {
             double nearest = std::numeric_limits<double>::infinity();
@@ -202,7 +202,7 @@ TEST_CASE("poses along a path: the center line follows it, the better the more r
                 const float t = static_cast<float>(i) / 4000, u = 1 - t;
                 const glm::vec3 p = u * u * u * control[0] + 3 * u * u * t * control[1] +
                                     3 * u * t * t * control[2] + t * t * t * control[3];
-                nearest = std::min(nearest, static_cast<double>(glm::distance(p, frame.position)));
+                nearest = std::min(nearest, static_cast<double>(glm::distance(p, frame[3])));
             }
             worst = std::max(worst, nearest);
         }

@@ -69,7 +69,7 @@ struct Outputs {
             take(box.high[axis], other.box.high[axis]);
         }
         for (std::size_t i = 0; i < frames.size(); ++i)
-            take(glm::distance(frames[i].position, other.frames[i].position), 0);
+            take(glm::distance(frames[i][3], other.frames[i][3]), 0);
         take(path.error, other.path.error);
         return largest;
     }

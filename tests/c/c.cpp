@@ -289,11 +289,10 @@ TEST_CASE("C: a body file") {
 
     goffer_sockets* sockets = goffer_file_sockets(file, &error);
     REQUIRE(sockets != nullptr);
-    goffer_job job = {};
+    goffer_job job = goffer_job_defaults();
     job.body = body;
     job.poses = twice.poses.data();
     job.pose_count = 2;
-    job.wrinkle_weight = 1;
     goffer_socket_frame frame;
     goffer_sockets_frames(sockets, &job, &frame);
     bend::SocketFrame expected;
@@ -309,6 +308,54 @@ TEST_CASE("C: a body file") {
     CHECK(goffer_file_load(bytes.data(), bytes.size(), 7, 1, &error) == nullptr);
     CHECK(std::string(error.text).starts_with("verify: "));
     CHECK(goffer_file_load(nullptr, 5, GOFFER_VERIFY_LAYOUT, 0, &error) == nullptr);
+}
+
+TEST_CASE("C: instruction set and stores are the caller's choice") {
+    for (int isa = GOFFER_ISA_AUTOMATIC; isa <= GOFFER_ISA_NEON; ++isa)
+        CHECK(goffer_isa_runs_here(isa) == (runs_here(static_cast<Isa>(isa)) ? 1 : 0));
+    CHECK(goffer_isa_runs_here(-1) == 0);
+    CHECK(goffer_isa_runs_here(256 + GOFFER_ISA_SCALAR) == 0);
+
+    Random random(75);
+    const Twice twice(random, 2);
+    const std::size_t count = goffer_body_vertex_count(twice.body);
+    const std::vector<bend::Pose> poses = twice.cpp_poses();
+    std::vector<float> expected(3 * count), out(3 * count);
+    bend::DeformJob scalar{.body = &twice.binding.body, .poses = poses, .isa = Isa::scalar};
+    scalar.positions = interleaved<3>(expected.data(), count);
+    bend::run(scalar);
+
+    goffer_job job = goffer_job_defaults();
+    job.body = twice.body;
+    job.poses = twice.poses.data();
+    job.pose_count = 2;
+    job.positions = stream(out, 3);
+    job.isa = GOFFER_ISA_SCALAR;
+    REQUIRE(goffer_job_validate(&job, nullptr) == 1);
+    goffer_job_run(&job);
+    CHECK(same_bits(expected, out));
+    job.isa = 256 + GOFFER_ISA_SCALAR;
+    CHECK(error_of_job(job).starts_with("isa: "));
+
+    goffer_error error;
+    goffer_batch batch = {};
+    batch.body = twice.body;
+    batch.count = 1;
+    batch.poses = {poses.data(), 1, 2 * sizeof(goffer_pose), 0, 0};
+    batch.positions = stream(out, 3);
+    goffer_crowd* crowd = goffer_crowd_create(1, &error);
+    REQUIRE(goffer_crowd_set(crowd, 0, &batch, &error) == 1);
+    goffer_crowd_set_isa(crowd, GOFFER_ISA_SCALAR);
+    for (int stores = GOFFER_STORES_AUTOMATIC; stores <= GOFFER_STORES_NON_TEMPORAL + 1; ++stores) {
+        goffer_crowd_set_stores(crowd, stores);
+        std::ranges::fill(out, 0.0f);
+        REQUIRE(goffer_crowd_validate(crowd, &error) == 1);
+        goffer_crowd_run(crowd);
+        CHECK(same_bits(expected, out));
+    }
+    goffer_crowd_set_isa(crowd, -1);
+    CHECK(goffer_crowd_validate(crowd, &error) == 0);
+    goffer_crowd_free(crowd);
 }
 
 TEST_CASE("C: what is wrong is said, and null does no harm") {

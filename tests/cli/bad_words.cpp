@@ -98,6 +98,8 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
     refused(place.folder, 2, bend + Words{"--xyzzy"}, {"no option --xyzzy; see goffer bend --help"});
     refused(place.folder, 2, bend + Words{"other.ply"},
             {"'other.ply' is a word too many; see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"--png", "--angle", "40"},
+            {"--png needs a value; --angle is an option; see goffer bend --help"});
     refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required"});
     refused(place.folder, 2, {"inspect"}, {"model is required"});
     refused(place.folder, 2, {"base"}, {"--output is required"});

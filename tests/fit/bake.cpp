@@ -121,7 +121,7 @@ TEST_CASE("bake: levels of one rig, and sockets") {
     const auto tip_of = [&](const bend::Body& body, const bend::Socket& socket) {
         bend::SocketFrame frame;
         bend::Sockets::make(body, {&socket, 1}).value().frames(poses, {&frame, 1});
-        return frame.position;
+        return frame[3];
     };
     CHECK(tip_of(file.levels[1].body, file.sockets[0].socket) ==
           tip_of(fine.binding.body, sockets[0].socket));

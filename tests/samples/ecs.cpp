@@ -51,15 +51,17 @@ TEST_CASE("ecs: worlds and threads draw the same, and frames do not allocate") {
     const Game game;
     const std::string plain = game.play("arrays", "--threads 1 " + three);
     CHECK(line_of(plain, "300 creatures") == "300 creatures, 3 files, 40 frames; 245 came and went");
-    const std::string drawn = line_of(plain, "in all frames:");
+    const std::string drawn = line_of(plain, "creatures per frame:");
     CHECK(std::regex_match(
-        drawn, std::regex(R"(in all frames: \d{5} seen, \d{4} deformed, \d{3} hats, [1-9]\d* touched)")));
+        drawn,
+        std::regex(
+            R"(creatures per frame: \d{3}\.\d seen, \d{2,3}\.\d deformed, \d+\.\d with hats, \d*\.\d touched)")));
     const auto plays_the_same = [&](const std::string& world, const std::string& words) {
         CAPTURE(world);
         CAPTURE(words);
         const std::string out = game.play(world, words + three);
         CHECK(line_of(out, "hash ") == line_of(plain, "hash "));
-        CHECK(line_of(out, "in all frames:") == drawn);
+        CHECK(line_of(out, "creatures per frame:") == drawn);
         CHECK(out.ends_with("exit 0\n"));
         if (measure::allocations()) CHECK(line_of(out, "allocations") == "allocations in frames: 0");
     };
@@ -79,7 +81,7 @@ TEST_CASE("ecs: what cannot be played is said") {
     CHECK(game.play("arrays", "--creatures worm.goffer")
               .ends_with("/arrays: worm.goffer: not a number from 1 to 100000\nexit 2\n"));
     CHECK(game.play("arrays", "none.goffer")
-              .ends_with("/arrays: none.goffer: body file: cannot be opened or read\nexit 1\n"));
+              .ends_with("/arrays: none.goffer: body file: there is none of that name\nexit 1\n"));
     CHECK(game.play("arrays", "chain.goffer")
               .ends_with("/arrays: this game is for bodies of one region\nexit 1\n"));
     CHECK(game.play("arrays", "--creatures 1 --frames 1 bald.goffer").ends_with("exit 0\n"));

@@ -73,7 +73,7 @@ TEST_CASE("how to: programs say what is wrong with a file, and how they are call
         CAPTURE(name);
         CHECK(bodies.run(name, "").starts_with("usage: " + name + " FILE.goffer"));
         const std::string files = name == "body_file" ? "worm.ply worm.ply" : "worm.ply";
-        CHECK(bodies.run(name, files) == "body file: not a body file; goffer bake makes one\n");
+        CHECK(bodies.run(name, files) == "worm.ply: body file: not a body file; goffer bake makes one\n");
     }
 }
 

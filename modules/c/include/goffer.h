@@ -44,6 +44,18 @@ typedef struct goffer_string {
     size_t size;
 } goffer_string;
 
+/* Instruction sets. [goffer/engine/isa.hpp] */
+enum {
+    GOFFER_ISA_AUTOMATIC,
+    GOFFER_ISA_SCALAR,
+    GOFFER_ISA_SSE42,
+    GOFFER_ISA_AVX2,
+    GOFFER_ISA_AVX512,
+    GOFFER_ISA_NEON
+};
+/* 1 if the library has kernels for `isa` and this machine can run them. */
+GOFFER_API int goffer_isa_runs_here(int isa);
+
 /* The most regions that a body can have. */
 #define GOFFER_MAX_REGIONS 32
 
@@ -175,14 +187,18 @@ typedef struct goffer_job {
     const goffer_body* body;
     const goffer_pose* poses; /* one for each region */
     size_t pose_count;
-    float wrinkle_weight;   /* 0 to 1: set it to 1 for full wrinkles; a job of zeros has none */
+    float wrinkle_weight;   /* 0 to 1; a job of zeros has no wrinkles */
     const float* transform; /* null, or 12 floats: four columns of 3, as glm::mat4x3 */
     goffer_stream positions, normals, tangents;
     goffer_packed_stream packed;
     goffer_stream previous_positions;
     const goffer_pose* previous_poses; /* as many as poses */
     const float* previous_transform;
+    int isa; /* one that runs here */
 } goffer_job;
+
+/* A job that wants nothing yet, with full wrinkles. */
+GOFFER_API goffer_job goffer_job_defaults(void);
 
 typedef struct goffer_job_result {
     int clamped; /* an angle was beyond the largest, and was clamped to it */
@@ -255,6 +271,11 @@ GOFFER_API int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_
                                 goffer_error* error);
 /* The number of the frame, by which update_intervals count. */
 GOFFER_API void goffer_crowd_set_frame(goffer_crowd* crowd, uint32_t frame);
+/* Whether results go past the cache; automatic where the number means nothing. [bend::Stores] */
+enum { GOFFER_STORES_AUTOMATIC, GOFFER_STORES_CACHED, GOFFER_STORES_NON_TEMPORAL };
+GOFFER_API void goffer_crowd_set_stores(goffer_crowd* crowd, int stores);
+/* The crowd does not validate if `isa` does not run here. */
+GOFFER_API void goffer_crowd_set_isa(goffer_crowd* crowd, int isa);
 GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
 /* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
  * caller's. The crowd must validate. The bits are the same. */
@@ -269,8 +290,8 @@ GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, gof
 typedef struct goffer_sockets goffer_sockets;
 
 typedef struct goffer_socket_frame {
-    float position[3];
     float axes[9]; /* columns: along the surface, across, outward */
+    float position[3];
 } goffer_socket_frame;
 
 /* All sockets of a file. */

@@ -49,6 +49,11 @@ auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
     return body != nullptr ? body->body : nullptr;
 }
 
+/// One that does not run here where the number means nothing.
+[[nodiscard]] inline Isa isa_of(int isa) noexcept {
+    return static_cast<Isa>(isa >= GOFFER_ISA_AUTOMATIC && isa <= GOFFER_ISA_NEON ? isa : 255);
+}
+
 [[nodiscard]] bend::DeformJob job_of(const goffer_job& job) noexcept;
 [[nodiscard]] Stream3 stream3(const goffer_stream& stream) noexcept;
 [[nodiscard]] Stream4 stream4(const goffer_stream& stream) noexcept;

@@ -16,11 +16,15 @@ static_assert(sizeof(goffer_bounds) == sizeof(bend::Bounds));
 struct goffer_crowd {
     std::vector<bend::Batch> batches;
     std::uint32_t frame = 0;
+    bend::Stores stores = bend::Stores::automatic;
+    Isa isa = Isa::automatic;
 
     [[nodiscard]] bend::CrowdJob job() const noexcept {
         bend::CrowdJob job;
         job.batches = batches;
         job.frame = frame;
+        job.stores = stores;
+        job.isa = isa;
         return job;
     }
 };
@@ -105,6 +109,16 @@ int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batc
 
 void goffer_crowd_set_frame(goffer_crowd* crowd, uint32_t frame) {
     crowd->frame = frame;
+}
+
+void goffer_crowd_set_stores(goffer_crowd* crowd, int stores) {
+    crowd->stores = stores == GOFFER_STORES_CACHED         ? bend::Stores::cached
+                    : stores == GOFFER_STORES_NON_TEMPORAL ? bend::Stores::non_temporal
+                                                           : bend::Stores::automatic;
+}
+
+void goffer_crowd_set_isa(goffer_crowd* crowd, int isa) {
+    crowd->isa = isa_of(isa);
 }
 
 int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error) {

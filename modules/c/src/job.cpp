@@ -13,6 +13,7 @@ using namespace goffer::c;
 static_assert(sizeof(goffer_pose) == sizeof(bend::Pose));
 static_assert(sizeof(goffer_capsule) == sizeof(bend::Capsule) &&
               offsetof(goffer_capsule, radius) == offsetof(bend::Capsule, radius));
+static_assert(GOFFER_ISA_NEON == static_cast<int>(Isa::neon));
 
 namespace {
 
@@ -69,6 +70,17 @@ bend::DeformJob goffer::c::job_of(const goffer_job& from) noexcept {
     job.previous_positions = stream3(from.previous_positions);
     job.previous_poses = poses_of(from.previous_poses, from.pose_count);
     job.previous_transform = matrix_of(from.previous_transform);
+    job.isa = isa_of(from.isa);
+    return job;
+}
+
+int goffer_isa_runs_here(int isa) {
+    return runs_here(isa_of(isa)) ? 1 : 0;
+}
+
+goffer_job goffer_job_defaults(void) {
+    goffer_job job = {};
+    job.wrinkle_weight = 1;
     return job;
 }
 

@@ -16,7 +16,7 @@ struct goffer_sockets {
 
 // Frames are written as C++ has them.
 static_assert(sizeof(goffer_socket_frame) == sizeof(bend::SocketFrame) &&
-              offsetof(goffer_socket_frame, axes) == offsetof(bend::SocketFrame, axes));
+              offsetof(goffer_socket_frame, position) == 3 * sizeof(bend::SocketFrame::col_type));
 
 goffer_sockets* goffer::c::make_sockets(const bend::Body& body, std::span<const bend::Socket> sockets) {
     std::optional<bend::Sockets> made = bend::Sockets::make(body, sockets);

@@ -182,7 +182,7 @@ void report_sockets(Report& report, const BoundModel& model, const std::vector<S
     std::vector<bend::SocketFrame> frames(sockets->count());
     sockets->frames(model.binding.body.rest_poses(), frames);
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        glm::dvec3 at = frames[i].position;
+        glm::dvec3 at = frames[i][3];
         const double noise = 1e-7 * model.binding.body.length();  // of rounding to float
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(at[axis]) < noise) at[axis] = 0;

@@ -147,8 +147,10 @@ void run_inspect(const InspectOptions& options) {
     report.json["folds_capacity"] = binding.folds_capacity();
     report.json["folds"] = binding.folds();
     report.line("largest angle", number(max_angle) + " degrees");
-    report.line("folds", std::to_string(binding.folds()) + " would be used; the mesh carries " +
-                             std::to_string(binding.folds_capacity()));
+    const std::string carried = "; the mesh carries " + std::to_string(binding.folds_capacity());
+    report.line("folds", binding.folds() > 0
+                             ? "it would have " + std::to_string(binding.folds()) + carried
+                             : "none as it is" + carried + "; goffer bend adds rows for more");
     io::AtomicFiles outputs;
     report.finish(outputs);
 }

@@ -52,8 +52,22 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
     return names;
 }
 
-/// What is wrong with words that a command leaves over: an unknown option, or else too many names.
+/// An option that has another option's name for its value, since its own was left out; or nothing.
+std::string fault_of_values(const CLI::App& command) {
+    const std::vector<std::string> names = names_of_options(command);
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& value : option->results()) {
+            if (std::ranges::count(names, value) != 0)
+                return option->get_name() + " needs a value; " + value + " is an option";
+        }
+    }
+    return "";
+}
+
+/// What is wrong with words that a command leaves over: an unknown option, one without its value, or else too
+/// many names.
 std::string fault_of_rest(const CLI::App& command, const std::vector<std::string>& rest) {
+    if (std::string fault = fault_of_values(command); !fault.empty()) return fault;
     const auto option =
         std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("-"); });
     if (option == rest.end()) return "'" + rest.front() + "' is a word too many";

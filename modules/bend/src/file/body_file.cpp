@@ -3,6 +3,7 @@
 
 #include <goffer/bend/body_file.hpp>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -58,7 +59,7 @@ std::optional<BodyFile> load_file(const char* name, BodyFileFault* fault, Verify
         if (fault != nullptr) *fault = {reason};
         return std::nullopt;
     };
-    if (!file) return refused(FileReason::unreadable);
+    if (!file) return refused(errno == ENOENT ? FileReason::missing : FileReason::unreadable);
     // A folder opens and has a size, but cannot be read: reading comes first.
     FileHeader header = {};
     const bool whole = std::fread(&header, sizeof header, 1, file.get()) == 1;

@@ -36,6 +36,8 @@ const char* words_of(FileReason reason) noexcept {
             return "does not have the regions, tables and frame of the first level; bind it with bind_level";
         case FileReason::empty:
             return "has no body";
+        case FileReason::missing:
+            return "there is none of that name";
         case FileReason::unreadable:
             return "cannot be opened or read";
     }

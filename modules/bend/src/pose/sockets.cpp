@@ -35,21 +35,20 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
     const PlaneOutput out = {{planes[0], planes[1], planes[2]},
                              {planes[3], planes[4], planes[5]},
                              {planes[6], planes[7], planes[8], planes[9]}};
-    each_region(body, set.setup, poses_of(job), job.transform, job.wrinkle_weight,
-                [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
-                    const PlaneKernel kernel =
-                        set.plane_kernel(squeeze, StreamSet::positions_normals_tangents);
-                    const Region& region = body.regions[r];
-                    for (std::size_t first = region.first; first < region.last; first += chunk) {
-                        const std::size_t count = std::min(chunk, region.last - first);
-                        kernel(body.columns, k, out, first, count, Write::staged);
-                        for (std::size_t i = 0; i < count; ++i) {
-                            const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
-                            frames[place_[first + i]] = {
-                                vector(0, i), glm::mat3(tangent, glm::cross(normal, tangent), normal)};
-                        }
-                    }
-                });
+    each_region(
+        body, set.setup, poses_of(job), job.transform, job.wrinkle_weight,
+        [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
+            const PlaneKernel kernel = set.plane_kernel(squeeze, StreamSet::positions_normals_tangents);
+            const Region& region = body.regions[r];
+            for (std::size_t first = region.first; first < region.last; first += chunk) {
+                const std::size_t count = std::min(chunk, region.last - first);
+                kernel(body.columns, k, out, first, count, Write::staged);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
+                    frames[place_[first + i]] = {tangent, glm::cross(normal, tangent), normal, vector(0, i)};
+                }
+            }
+        });
 }
 
 }  // namespace goffer::bend

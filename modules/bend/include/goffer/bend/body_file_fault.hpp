@@ -48,6 +48,7 @@ enum class FileReason : std::uint8_t {
     index,            ///< an entry refers to what is not there
     rig,              ///< a level does not have the regions, tables or frame of the first one
     empty,            ///< a level has no body
+    missing,          ///< load_file() finds no file of that name
     unreadable,       ///< load_file() cannot open or read it
 };
 

@@ -5,9 +5,7 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/bend/socket.hpp>
 
-#include <glm/mat3x3.hpp>
 #include <glm/mat4x3.hpp>
-#include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -21,12 +19,9 @@
 
 namespace goffer::bend {
 
-/// The frame of a socket on the deformed body. The columns of `axes` are tangent, normal x tangent, and
-/// normal: orthonormal and right-handed.
-struct SocketFrame {
-    glm::vec3 position{0};
-    glm::mat3 axes{1};
-};
+/// The frame of a socket on the deformed body: a matrix whose columns are tangent, normal x tangent, normal
+/// (orthonormal and right-handed), and position. It places what is modeled around the origin, z outward.
+using SocketFrame = glm::mat4x3;
 
 /// The sockets of a body. Immutable; move-only; instances and threads share it by reference. An object that
 /// was moved from may only be destroyed or assigned to.
