@@ -3,6 +3,7 @@
 #include "measure.hpp"
 
 #include <goffer/bend/bounds.hpp>
+#include <goffer/bend/kernel_input.hpp>
 #include <goffer/bend/path.hpp>
 #include <goffer/measure/crowd_scene.hpp>
 
@@ -74,6 +75,22 @@ void bounds_batch(benchmark::State& state, Fixture& fixture) {
     state.counters["ns_per_instance"] = measure(state, task).nanoseconds / instances;
 }
 
+/// What a shader needs of an instance.
+void coefficients(benchmark::State& state, Fixture& fixture) {
+    std::vector<bend::Pose> poses(instances);
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i);
+    std::vector<bend::Coefficients> result(instances);
+    bend::Batch batch{.body = &fixture.body(vertices), .count = instances};
+    batch.poses = strided(std::span(poses));
+    const Task task{.batch = 4, .work = [&](std::size_t times) {
+                        for (std::size_t i = 0; i < times; ++i) {
+                            bend::set_up(batch, result);
+                            benchmark::ClobberMemory();
+                        }
+                    }};
+    state.counters["ns_per_instance"] = measure(state, task).nanoseconds / instances;
+}
+
 /// A crowd of instances without a vertex between them, in poses of their own, on `memory`.
 measure::CrowdScene make_crowd(const bend::Body& body, std::size_t count, const measure::StreamLayout& layout,
                                std::span<float> memory) {
@@ -128,6 +145,7 @@ void register_setup(Fixture& fixture) {
     benchmark::RegisterBenchmark("setup/batch", batch, std::ref(fixture));
     benchmark::RegisterBenchmark("setup/bounds", bounds, std::ref(fixture));
     benchmark::RegisterBenchmark("setup/bounds_batch", bounds_batch, std::ref(fixture));
+    benchmark::RegisterBenchmark("setup/coefficients", coefficients, std::ref(fixture));
     benchmark::RegisterBenchmark("setup/path", path, std::ref(fixture));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/accuracy.hpp"
+#include "support/bound_case.hpp"
 #include "support/chains.hpp"
 
 #include <goffer/bend/body_input.hpp>
@@ -15,58 +16,8 @@
 namespace goffer::test {
 namespace {
 
-fit::BindOptions random_regions(Random& random, std::size_t count) {
-    fit::BindOptions options;
-    options.profile = random_profile(random);
-    double sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        options.regions.push_back({uniform(random, 0.5, 2), static_cast<int>(random() % 5)});
-        sum += options.regions.back().share;
-    }
-    for (fit::RegionOptions& region : options.regions) region.share /= sum;
-    return options;
-}
-
-/// Within the regions' limits, and within what a chain of arcs can be bent by before float's error has grown
-/// along it.
-std::vector<bend::Pose> random_poses(Random& random, const bend::Body& body) {
-    std::vector<bend::Pose> poses;
-    for (const bend::Region& region : body.regions()) {
-        const double limit = std::min(static_cast<double>(region.max_angle) * (1 - 1e-6), 3.0);
-        const double angle = random() % 6 == 0 ? 0 : uniform(random, 0, limit);
-        poses.push_back({static_cast<float>(random() % 4 == 0 ? -angle : angle),
-                         static_cast<float>(uniform(random, -6, 6))});
-    }
-    return poses;
-}
-
-bend::DeformJob make_job(const bend::Body& body, std::span<const bend::Pose> poses, Isa isa, Output& out) {
-    bend::DeformJob job = test::make_job(body, bend::Pose{}, isa, out);
-    job.poses = poses;
-    return job;
-}
-
-/// A body with several regions or one, bent at rest or not.
-struct Case {
-    TestMesh test_mesh;
-    fit::BindOptions options;
-    fit::Binding binding;
-};
-
-Case random_case(Random& random, std::size_t regions, bool bent) {
-    const double slenderness = uniform(random, 8, 30);
-    TestMesh test_mesh = random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)));
-    const fit::BindOptions options = random_regions(random, regions);
-    if (random() % 2 == 0 && !(bent && regions > 1)) add_radii(test_mesh, random);
-    // Halfway to where the least wrinkled body would fold through itself.
-    if (bent)
-        test_mesh = bent_at_rest(test_mesh, uniform(random, 0.1, 0.2 * slenderness), uniform(random, -3, 3));
-    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
-    return {std::move(test_mesh), options, std::move(binding)};
-}
-
 /// Every instruction set against the reference, in random poses.
-Worst worst_of(Random& random, const Case& one, double position, double direction) {
+Worst worst_of(Random& random, const BoundCase& one, double position, double direction) {
     Worst worst;
     const std::size_t count = one.test_mesh.positions.size();
     Output out(count);
@@ -89,7 +40,7 @@ Worst worst_of(Random& random, const Case& one, double position, double directio
     return worst;
 }
 
-void check_rest(const Case& one) {
+void check_rest(const BoundCase& one) {
     const std::size_t count = one.test_mesh.positions.size();
     Output out(count);
     const std::vector<bend::Pose> poses = one.binding.body.rest_poses();
@@ -115,7 +66,7 @@ TEST_CASE("P1, P2, P4: regions agree with the double chain") {
         const std::size_t regions = 2 + random() % 7;
         CAPTURE(trial);
         CAPTURE(regions);
-        const Case one = random_case(random, regions, false);
+        const BoundCase one = random_case(random, regions, false);
         check_rest(one);
         worst.add(worst_of(random, one, 5e-6, 0.01));
     }
@@ -128,7 +79,7 @@ TEST_CASE("P1, P2, P4: bodies bent at rest agree with the double closed form") {
     Worst worst;
     for (int trial = 0; trial < 16; ++trial) {
         CAPTURE(trial);
-        const Case one = random_case(random, 1 + random() % 3, true);
+        const BoundCase one = random_case(random, 1 + random() % 3, true);
         check_rest(one);
         worst.add(worst_of(random, one, 5e-6, 0.01));
     }
@@ -144,7 +95,7 @@ TEST_CASE("an onset agrees with the double closed form") {
         options.folds = 1 + static_cast<int>(random() % 6);
         options.onset = std::pow(10, uniform(random, -4, -1));
         CAPTURE(*options.onset);
-        Case one{test_mesh, options, fit::bind(test_mesh.geometry(), test_mesh.cylinder, options)};
+        BoundCase one{test_mesh, options, fit::bind(test_mesh.geometry(), test_mesh.cylinder, options)};
         check_rest(one);
         worst_of(random, one, 5e-6, 0.05);
     }
@@ -298,7 +249,7 @@ TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
     Random random(67);
     for (const bool bent : {false, true}) {
         for (const std::size_t regions : {std::size_t{5}, std::size_t{1}}) {
-            const Case one = random_case(random, regions, bent);
+            const BoundCase one = random_case(random, regions, bent);
             const std::size_t count = one.test_mesh.positions.size();
             const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
             for (const Isa isa : isas_here()) {
@@ -343,7 +294,7 @@ TEST_CASE("P5: ranges, pieces and crowds of regions give the same bits") {
 TEST_CASE("streams that have no kernel of their own have the bits of those that have") {
     Random random(68);
     for (const bool bent : {false, true}) {
-        const Case one = random_case(random, 2, bent);
+        const BoundCase one = random_case(random, 2, bent);
         const std::size_t count = one.test_mesh.positions.size();
         const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
         for (const Isa isa : isas_here()) {
@@ -373,7 +324,7 @@ TEST_CASE("streams that have no kernel of their own have the bits of those that 
 TEST_CASE("P10: bounds hold the vertices of chains and of bodies bent at rest") {
     Random random(70);
     for (int trial = 0; trial < 40; ++trial) {
-        const Case one = random_case(random, 1 + random() % 6, trial % 2 == 0);
+        const BoundCase one = random_case(random, 1 + random() % 6, trial % 2 == 0);
         const std::size_t count = one.test_mesh.positions.size();
         Output out(count);
         const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
@@ -422,7 +373,7 @@ TEST_CASE("P10: bounds hold bodies whose onset takes most of their wrinkles, and
 
 TEST_CASE("a chain is clamped where any region is") {
     Random random(72);
-    const Case one = random_case(random, 3, false);
+    const BoundCase one = random_case(random, 3, false);
     Output out(one.test_mesh.positions.size());
     std::vector<bend::Pose> poses(3);
     CHECK_FALSE(bend::run(make_job(one.binding.body, poses, Isa::automatic, out)).clamped);

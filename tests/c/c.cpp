@@ -3,8 +3,12 @@
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/capsules.hpp>
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/kernel_input.hpp>
 #include <goffer/fit/bake.hpp>
 #include <goffer/fit/sockets.hpp>
+#include <goffer/gpu/source.hpp>
+#include <goffer/gpu/vertices.hpp>
 
 #include <doctest/doctest.h>
 #include <goffer.h>
@@ -355,6 +359,38 @@ TEST_CASE("C: instruction set and stores are the caller's choice") {
     }
     goffer_crowd_set_isa(crowd, -1);
     CHECK(goffer_crowd_validate(crowd, &error) == 0);
+    goffer_crowd_free(crowd);
+}
+
+TEST_CASE("C: what a shader reads is what C++ writes") {
+    Random random(76);
+    const Twice twice(random, 3);
+    const bend::Body& body = twice.binding.body;
+    const gpu::VertexLayout layout = gpu::vertex_layout(body);
+    const goffer_vertex_layout c_layout = goffer_body_vertex_layout(twice.body);
+    CHECK(std::memcmp(&layout, &c_layout, sizeof layout) == 0);
+    std::vector<std::byte> records(body.vertex_count() * layout.stride), c_records(records.size());
+    gpu::write_vertices(body, records);
+    goffer_body_write_vertices(twice.body, c_records.data());
+    CHECK(same_bits(records, c_records));
+    CHECK(std::string_view(goffer_deform_glsl().data, goffer_deform_glsl().size) == gpu::deform_glsl());
+
+    goffer_error error;
+    goffer_batch batch = {};
+    batch.body = twice.body;
+    batch.count = 1;
+    batch.poses = {twice.poses.data(), 1, 3 * sizeof(goffer_pose), 0, 0};
+    batch.previous_poses = {twice.poses.data(), 1, 3 * sizeof(goffer_pose), 0, 0};
+    goffer_crowd* crowd = goffer_crowd_create(1, &error);
+    REQUIRE(goffer_crowd_set(crowd, 0, &batch, &error) == 1);
+    const std::vector<bend::Pose> poses = twice.cpp_poses();
+    const bend::DeformJob job{.body = &body, .poses = poses};
+    std::vector<bend::Coefficients> expected(3), now(3), before(3);
+    bend::set_up(bend::batch_of(job), expected);
+    goffer_crowd_set_up(crowd, 0, reinterpret_cast<float*>(now.data()));
+    goffer_crowd_set_up_previous(crowd, 0, reinterpret_cast<float*>(before.data()));
+    CHECK(std::memcmp(expected.data(), now.data(), 3 * sizeof now[0]) == 0);
+    CHECK(std::memcmp(expected.data(), before.data(), 3 * sizeof now[0]) == 0);
     goffer_crowd_free(crowd);
 }
 

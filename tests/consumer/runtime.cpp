@@ -5,6 +5,8 @@
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/bend/crowd.hpp>
+#include <goffer/gpu/source.hpp>
+#include <goffer/gpu/vertices.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -41,6 +43,9 @@ int main() {
     run(job);
     const goffer::bend::Batch batch = batch_of(job);  // and as a crowd, the same again
     if (run_parallel(goffer::bend::CrowdJob{.batches = {&batch, 1}}).deformed != 1) return 1;
+
+    if (goffer::gpu::vertex_layout(*body) != goffer::gpu::VertexLayout()) return 1;  // and for shaders
+    if (goffer::gpu::deform_glsl().empty()) return 1;
 
     std::printf("the tip is at %g %g %g\n", position[0], position[1], position[2]);
     const double away =

@@ -52,7 +52,8 @@ TEST_CASE("how to: each program does what it says") {
     prints("own_scheduler", "worm.goffer", R"(200 instances in 16 pieces\n)");
     prints("tbb_arena", "worm.goffer", R"(200 instances on 2 threads, and 1\.414\n)");
     prints("culling_and_detail", "worm.goffer", R"(frame 0: 61 of 100\n(frame [1-3]: 31 of 100\n){3})");
-    for (const std::string name : {"own_scheduler", "tbb_arena", "culling_and_detail", "motion_vectors"})
+    for (const std::string name :
+         {"own_scheduler", "tbb_arena", "culling_and_detail", "motion_vectors", "shader"})
         prints(name, "chain.goffer", "this program is for bodies of one region\n");
     prints(
         "sockets_and_capsules", "worm.goffer",
@@ -62,6 +63,11 @@ TEST_CASE("how to: each program does what it says") {
     prints(
         "motion_vectors", "worm.goffer",
         R"(frame 0: moved by 0\.000 at most\nframe 1: moved by 1\.06\d at most\nframe 2: moved by 1\.03\d at most\n)");
+    prints("shader", "worm.goffer",
+           R"(vertices: 44 bytes each; normals from byte 32 on; text: \d{4} bytes\n)"
+           R"(frame 0: 272000 bytes to upload, curvature 0\.000\n)"
+           R"(frame 1: 272000 bytes to upload, curvature 0\.050\n)"
+           R"(frame 2: 272000 bytes to upload, curvature 0\.100\n)");
     prints("packed", "worm.goffer", R"(\d+ bytes instead of \d+, off by \de-0[567] of the length\n)");
 }
 
@@ -86,7 +92,7 @@ TEST_CASE("how to: the README lists every program") {
         CAPTURE(name);
         CHECK(readme.find(name) != std::string::npos);
     }
-    CHECK(programs == 10);
+    CHECK(programs == 11);
 }
 
 }  // namespace goffer::test

@@ -285,6 +285,27 @@ GOFFER_API goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd,
 /* The bounds of each instance of a batch, from its poses alone; `result` holds as many. */
 GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result);
 
+/* ---- Shaders [modules/gpu/README.md, goffer/gpu/vertices.hpp, goffer/bend/kernel_input.hpp] ---- */
+
+/* Where the attributes of a vertex lie in its record, bytes; SIZE_MAX: the body does not have it. */
+typedef struct goffer_vertex_layout {
+    size_t stride, column, wrinkle, normal, shape, tangent;
+} goffer_vertex_layout;
+
+GOFFER_API goffer_vertex_layout goffer_body_vertex_layout(const goffer_body* body);
+/* Writes the records of all vertices: stride bytes each. */
+GOFFER_API void goffer_body_write_vertices(const goffer_body* body, void* result);
+
+/* Floats that a shader reads of each region of each instance. */
+#define GOFFER_COEFFICIENTS 68
+/* Writes them for a batch, whatever its masks say: instance after instance, those of its regions in order.
+ * `result` is aligned to 16 bytes. */
+GOFFER_API void goffer_crowd_set_up(const goffer_crowd* crowd, size_t index, float* result);
+/* The same at the previous poses and transforms, which must be given. */
+GOFFER_API void goffer_crowd_set_up_previous(const goffer_crowd* crowd, size_t index, float* result);
+/* The text of goffer/gpu/deform.glsl; a 0 follows it. */
+GOFFER_API goffer_string goffer_deform_glsl(void);
+
 /* ---- Sockets [goffer/bend/sockets.hpp] ---- */
 
 typedef struct goffer_sockets goffer_sockets;

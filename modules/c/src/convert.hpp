@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 /// C's structs as C++ has them, and what stands behind its handles.
 
@@ -21,6 +22,22 @@
 struct goffer_body {
     std::optional<goffer::fit::Binding> binding;  ///< where it was bound here
     const goffer::bend::Body* body = nullptr;     ///< the binding's, or the file's
+};
+
+struct goffer_crowd {
+    std::vector<goffer::bend::Batch> batches;
+    std::uint32_t frame = 0;
+    goffer::bend::Stores stores = goffer::bend::Stores::automatic;
+    goffer::Isa isa = goffer::Isa::automatic;
+
+    [[nodiscard]] goffer::bend::CrowdJob job() const noexcept {
+        goffer::bend::CrowdJob job;
+        job.batches = batches;
+        job.frame = frame;
+        job.stores = stores;
+        job.isa = isa;
+        return job;
+    }
 };
 
 namespace goffer::c {

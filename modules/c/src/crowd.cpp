@@ -13,22 +13,6 @@ using namespace goffer::c;
 
 static_assert(sizeof(goffer_bounds) == sizeof(bend::Bounds));
 
-struct goffer_crowd {
-    std::vector<bend::Batch> batches;
-    std::uint32_t frame = 0;
-    bend::Stores stores = bend::Stores::automatic;
-    Isa isa = Isa::automatic;
-
-    [[nodiscard]] bend::CrowdJob job() const noexcept {
-        bend::CrowdJob job;
-        job.batches = batches;
-        job.frame = frame;
-        job.stores = stores;
-        job.isa = isa;
-        return job;
-    }
-};
-
 namespace {
 
 template <class T>

@@ -3,7 +3,6 @@
 
 #include "body/layout.hpp"
 #include "kernel/args.hpp"
-#include "kernel/rest_columns.hpp"
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/file_memory.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/rest_columns.hpp"
+#include <goffer/bend/kernel_input.hpp>
 
 #include <cstddef>
 

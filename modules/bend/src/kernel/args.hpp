@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "kernel/rest_columns.hpp"
-
-#include <goffer/bend/method.hpp>
+#include <goffer/bend/kernel_input.hpp>
 
 #include <cstddef>
 
@@ -51,45 +49,6 @@ enum class Write : unsigned char {
     non_temporal,  ///< the same, whole lines past the cache; the caller must fence them
     staged,        ///< whole units: may overwrite up to max_unit values beyond the end
 };
-
-constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
-constexpr std::size_t arc_terms = 4;
-
-/// The numbers of one region of one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
-/// where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset` then take it to the
-/// streams' space. The numbers come in rows of four floats, which set-up stores whole.
-/// See modules/paper/README.md, "Bend".
-struct alignas(16) Coefficients {
-    float cos_half_direction, sin_half_direction;  ///< of theta / 2
-    float one_minus_kappa;
-    float curvature;          ///< alpha / L
-    float arc_z[arc_terms];   ///< L sin delta / alpha = v sum arc_z[n] v^(2n), v = z / L - 1/2
-    float arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
-    float first_curvature;    ///< alpha / 2^doublings / L
-    float doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
-    float half_radius;        ///< r / 2, below which the depth weight falls
-    float handedness;         ///< -1 where `matrix` mirrors, else 1
-    float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
-    float offset[4];          ///< the arc's middle in the streams' space
-    float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
-    /// Plain, with x = s T: A = |h| sqrt(s) sum of amplitude[n] x^n, and dA/dbeta = sign(h) h' sqrt(s) sum of
-    /// amplitude_slope[n] x^n.
-    /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of
-    /// amplitude_slope[n] x^n is its derivative by sqrt(x).
-    float amplitude[amplitude_terms];
-    float amplitude_slope[amplitude_terms];
-    /// What follows is for relative squeezes alone. With u = (cos beta, sin beta), the scales of a column at
-    /// rest and in the pose, and its squeeze, are
-    ///     S_0 = 1 - s (kappa_0 + rest_curl . u)
-    ///     S   = S_0 - s (kappa_change + curl_change . u)
-    ///     q   = 1 - S / S_0 = (kappa_change + curl_change . u) s / S_0
-    float cos_direction, sin_direction;  ///< of theta
-    float rest_curl[2];
-    float curl_change[2];
-    float onset;         ///< > 0
-    float kappa_change;  ///< kappa - kappa_0
-};
-static_assert(sizeof(Coefficients) == 68 * sizeof(float));
 
 /// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
 struct PlaneOutput {

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/bend/method.hpp>
+#include <goffer/engine/isa.hpp>
+
+#include <cstddef>
+#include <span>
+
+/// What the kernels read: the columns of a body, and the coefficients of an instance. For those who evaluate
+/// the map elsewhere, as goffer/gpu does in shaders: what a vertex becomes is a function of these numbers.
+/// Their meaning may change with any minor version, and that of a body file's columns with it.
+
+namespace goffer::bend {
+
+class Body;
+struct Batch;
+
+/// The columns of a body, one value per vertex, as plain pointers. S is the scale of a
+/// vertex's column at rest, s the radius about the vertex over that of its region; in regions that do not
+/// compare_with_rest, S stands for sqrt(s). For g and w see modules/paper/README.md, "Wrinkle", for s and D
+/// "Shaped bodies".
+struct RestColumns {
+    const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
+    const float* sin_half_beta = nullptr;  ///< sqrt(2) sin(beta / 2)
+    const float* rho = nullptr;
+    const float* radial_offset = nullptr;  ///< g w S: rho' = rho + amplitude * radial_offset
+    const float* height = nullptr;         ///< z / L - 1/2, of its region
+    const float* wrinkle = nullptr;        ///< g w S / rho
+    const float* slope = nullptr;          ///< d(g w S) / dz; without relative squeezes sqrt(s) d(g w) / dz
+    const float* normal[3] = {};           ///< along e_rho, e_beta, e_z
+    const float* tangent[3] = {};          ///< likewise; null if the body has no tangents, as is tangent_sign
+    const float* tangent_sign = nullptr;
+    /// These three are null unless the body has a shape.
+    const float* scale = nullptr;  ///< s
+    const float* drift = nullptr;  ///< D / L
+    /// g w (ds / dz) / s, times -1 in regions that compare_with_rest, and times sqrt(s) in others.
+    const float* taper = nullptr;
+    /// These five are null unless a region of the body compares_with_rest.
+    const float* cos_beta = nullptr;
+    const float* sin_beta = nullptr;
+    const float* rest_cosine = nullptr;  ///< s cos(beta) / S
+    const float* rest_sine = nullptr;    ///< s sin(beta) / S
+    const float* rest_scale = nullptr;   ///< s / S
+};
+
+inline constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
+inline constexpr std::size_t arc_terms = 4;
+
+/// The numbers of one region of one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
+/// where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset` then take it to the
+/// streams' space. The numbers come in rows of four floats, which set-up stores whole.
+/// See modules/paper/README.md, "Bend".
+struct alignas(16) Coefficients {
+    float cos_half_direction, sin_half_direction;  ///< of theta / 2
+    float one_minus_kappa;
+    float curvature;          ///< alpha / L
+    float arc_z[arc_terms];   ///< L sin delta / alpha = v sum arc_z[n] v^(2n), v = z / L - 1/2
+    float arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
+    float first_curvature;    ///< alpha / 2^doublings / L
+    float doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
+    float half_radius;        ///< r / 2, below which the depth weight falls
+    float handedness;         ///< -1 where `matrix` mirrors, else 1
+    float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
+    float offset[4];          ///< the arc's middle in the streams' space
+    float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
+    /// Plain, with x = s T: A = |h| sqrt(s) sum of amplitude[n] x^n, and dA/dbeta = sign(h) h' sqrt(s) sum of
+    /// amplitude_slope[n] x^n.
+    /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of
+    /// amplitude_slope[n] x^n is its derivative by sqrt(x).
+    float amplitude[amplitude_terms];
+    float amplitude_slope[amplitude_terms];
+    /// What follows is for squeezes that are relative to those at rest; 0 elsewhere. With u = (cos beta, sin
+    /// beta), the scales of a column at rest and in the pose, and its squeeze, are
+    /// - S_0 = 1 - s (kappa_0 + rest_curl . u),
+    /// - S = S_0 - s (kappa_change + curl_change . u),
+    /// - q = 1 - S / S_0 = (kappa_change + curl_change . u) s / S_0.
+    float cos_direction, sin_direction;  ///< of theta
+    float rest_curl[2];
+    float curl_change[2];
+    float onset;         ///< > 0; 0 tells that squeezes are plain
+    float kappa_change;  ///< kappa - kappa_0
+};
+
+/// Rows of four floats in Coefficients.
+inline constexpr std::size_t coefficient_rows = 17;
+static_assert(sizeof(Coefficients) == coefficient_rows * 4 * sizeof(float));
+
+/// The columns of `body`, which is not empty, and which owns them. Does not allocate. Thread-safe.
+[[nodiscard]] RestColumns rest_columns(const Body& body) noexcept;
+
+/// Sets up every instance of `batch`, whatever its masks say: result[i * regions + r] are the coefficients of
+/// region r of instance i, at the batch's poses, transforms and wrinkle weights. Amplitudes are 0 where
+/// nothing wrinkles. `result` is the caller's and holds batch.count * region_count() or more; it is written
+/// in no order, and not at full lines, so that a mapped buffer of a GPU is better filled by a copy. Poses and
+/// weights may hold any bits, as in a run. batch.body is neither null nor empty, and batch.poses is given;
+/// outputs are not read. `isa` runs here. Does not allocate. Thread-safe.
+void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa = Isa::automatic) noexcept;
+
+/// The same at the previous poses and transforms, which are given.
+void set_up_previous(const Batch& batch, std::span<Coefficients> result, Isa isa = Isa::automatic) noexcept;
+
+}  // namespace goffer::bend

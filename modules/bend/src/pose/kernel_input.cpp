@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "body/body_data.hpp"
+#include "kernel/kernels.hpp"
+#include "pose/posed_group.hpp"
+
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/kernel_input.hpp>
+
+#include <algorithm>
+#include <cassert>
+
+namespace goffer::bend {
+namespace {
+
+/// Set-up leaves what the kernels of an instance do not read as it was.
+void set_unread(Coefficients& k, Squeeze squeeze) noexcept {
+    if (squeeze == Squeeze::none) {
+        std::ranges::fill(k.amplitude, 0.0f);
+        std::ranges::fill(k.amplitude_slope, 0.0f);
+    }
+    if (squeeze == Squeeze::relative) return;
+    k.cos_direction = k.sin_direction = 0;
+    std::ranges::fill(k.rest_curl, 0.0f);
+    std::ranges::fill(k.curl_change, 0.0f);
+    k.onset = k.kappa_change = 0;
+}
+
+void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time time) noexcept {
+    assert(batch.body != nullptr && !batch.body->empty());
+    const BodyData& body = *batch.body->data();
+    const std::size_t regions = body.regions.size();
+    assert(result.size() >= batch.count * regions);
+    PosedGroup group(body, kernels(isa).setup);
+    for (std::size_t first = 0; first < batch.count; first += setup_width) {
+        Coefficients* const k = &result[first * regions];
+        group.clear();
+        for (std::size_t i = first; i < std::min(first + setup_width, batch.count); ++i)
+            group.add(batch, element_of(batch, i), time);
+        for (std::size_t r = 0; r < regions; ++r) {
+            group.set_up(r, k + r, regions);
+            for (std::size_t i = 0; i < group.count(); ++i) set_unread(k[i * regions + r], group.squeeze(i));
+        }
+    }
+}
+
+}  // namespace
+
+RestColumns rest_columns(const Body& body) noexcept {
+    assert(!body.empty());
+    return body.data()->columns;
+}
+
+void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa) noexcept {
+    set_up(batch, result, isa, Time::now);
+}
+
+void set_up_previous(const Batch& batch, std::span<Coefficients> result, Isa isa) noexcept {
+    assert(!batch.previous_poses.empty());
+    set_up(batch, result, isa, Time::before);
+}
+
+}  // namespace goffer::bend

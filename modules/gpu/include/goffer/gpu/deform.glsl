@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// goffer's deformation as a shader function: what a vertex becomes is what the kernels on the processor make of it, up
+// to rounding. modules/gpu/README.md shows a whole shader.
+//   - A GofferVertex is filled from the attributes that goffer::gpu::write_vertices() writes.
+//   - Coefficients are rows of four floats, as goffer::bend::set_up() writes them: 17 for each region of an instance,
+//     those of its regions one behind the other. The shader defines goffer_row, which reads row `row` of them, before
+//     it calls anything here: from a uniform block, a texture or a storage buffer.
+//   - What is not used of the result costs nothing.
+// For GLSL 3.30 and ES 3.00 and later, and Vulkan; in vertex and compute shaders. deform.hlsl is the same for HLSL.
+
+struct GofferVertex {
+    vec4 column;   // sqrt(2) cos(beta / 2), sqrt(2) sin(beta / 2); rho; height
+    vec4 wrinkle;  // radial offset; wrinkle; slope; the region's number
+    vec3 normal;
+    vec4 shape;    // drift; taper; rest scale; scale: 0, 0, 0, 1 for a body that has none
+    vec4 tangent;  // w: the sign
+};
+
+struct GofferBent {
+    vec3 position;
+    vec3 normal;
+    vec4 tangent;  // w: the sign
+};
+
+vec4 goffer_row(int row);
+
+vec3 goffer_row3(int row) {
+    vec4 four = goffer_row(row);
+    return vec3(four.x, four.y, four.z);
+}
+
+// The sum of eight terms c[n] x^n.
+float goffer_series(vec4 low, vec4 high, float x) {
+    float sum = ((high.w * x + high.z) * x + high.y) * x + high.x;
+    return (((sum * x + low.w) * x + low.z) * x + low.y) * x + low.x;
+}
+
+float goffer_series(vec4 terms, float x) {
+    return ((terms.w * x + terms.z) * x + terms.y) * x + terms.x;
+}
+
+// The names are those of modules/bend/src/kernel/deform_batch.hpp, and so is the order.
+GofferBent goffer_deform(GofferVertex vertex, int first_row) {
+    int row = first_row + 17 * int(vertex.wrinkle.w + 0.5f);
+    vec4 pose = goffer_row(row);      // cosine and sine of half the direction; 1 - kappa; curvature
+    vec4 size = goffer_row(row + 3);  // first curvature; doublings; half the radius; handedness
+    vec4 change = goffer_row(row + 16);
+    float scale = vertex.shape.w;
+
+    float h_prime = vertex.column.y * pose.x - vertex.column.x * pose.y;
+    float h = vertex.column.x * pose.x + vertex.column.y * pose.y;
+    float t = h * h;
+    float c = t - 1.0f;
+    float s = h * h_prime;
+
+    float amplitude;
+    float slope;
+    float less_by_scale;
+    if (change.z > 0.0f) {  // relative to the rest arc
+        vec4 rest = goffer_row(row + 15);
+        float rest_scale = vertex.shape.z;
+        float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
+        float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
+        float q = max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
+        float per_root = inversesqrt(q + change.z);
+        float root = q * per_root;
+        float x = root * root;
+        amplitude = root * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
+        float rest_slope = rest.z * rest_sine - rest.w * rest_cosine;
+        float turned = change.y * rest_cosine - change.x * rest_sine;
+        float per_q = per_root * (1.0f - 0.5f * root * per_root) *
+                      goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
+        slope = amplitude * rest_slope + (q > 0.0f ? per_q * (turned - q * rest_slope) : 0.0f);
+        less_by_scale = per_q * q;
+    } else {
+        float x = t * scale;
+        amplitude = abs(h) * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
+        // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
+        float per_turn = goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
+        slope = clamp(h * 707.10678f, -1.0f, 1.0f) * h_prime * per_turn;
+        less_by_scale = abs(h) * per_turn;
+    }
+    float rho = vertex.column.z + amplitude * vertex.wrinkle.x;
+    float rho_c = rho * c;
+    float rho_s = rho * s;
+
+    float v = vertex.column.w - pose.w * vertex.shape.x;
+    float arc_x = v * v * goffer_series(goffer_row(row + 2), v * v);
+    float arc_z = v * goffer_series(goffer_row(row + 1), v * v);
+    float curvature = size.x;
+    for (float n = 0.0f; n < size.y; n += 1.0f) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
+        float cosine_of_half = 1.0f - curvature * arc_x;
+        arc_x = curvature * arc_z * arc_z;
+        arc_z = arc_z * cosine_of_half;
+        curvature += curvature;
+    }
+    float stretch = pose.z - pose.w * rho_c;
+
+    vec3 n = goffer_row3(row + 4);
+    vec3 b = goffer_row3(row + 5);
+    vec3 along = goffer_row3(row + 6);
+    GofferBent bent;
+    bent.position = goffer_row3(row + 7) + n * (arc_x * stretch + rho_c) + b * rho_s + along * (arc_z * stretch);
+
+    // The Jacobian in the bent frame: a, b and d of its first row, growth and stretch of its diagonal.
+    float kappa = 1.0f - pose.z;
+    stretch = stretch * (1.0f + kappa - kappa * scale);
+    float growth = 1.0f + amplitude * vertex.wrinkle.y;
+    float j_a = vertex.column.z < size.z * scale ? growth : 1.0f;
+    float j_b = slope * vertex.wrinkle.y;
+    float j_d = amplitude * vertex.wrinkle.z - less_by_scale * vertex.shape.y;
+    float cosine = 1.0f - pose.w * arc_x;
+    float sine = pose.w * arc_z;
+
+    vec3 at_rest = vertex.normal;
+    vec3 local = vec3(growth * stretch * at_rest.x, stretch * (j_a * at_rest.y - j_b * at_rest.x),
+                      growth * (j_a * at_rest.z - j_d * at_rest.x));
+    float p = c * local.x - s * local.y;
+    vec3 turned = goffer_row3(row + 8) * (p * cosine + local.z * sine) +
+                  goffer_row3(row + 9) * (s * local.x + c * local.y) +
+                  goffer_row3(row + 10) * (local.z * cosine - p * sine);
+    bent.normal = turned * inversesqrt(dot(turned, turned) + 1e-30f);
+
+    at_rest = vec3(vertex.tangent.x, vertex.tangent.y, vertex.tangent.z);
+    local = vec3(j_a * at_rest.x + j_b * at_rest.y + j_d * at_rest.z, growth * at_rest.y, stretch * at_rest.z);
+    p = c * local.x - s * local.y;
+    turned = n * (p * cosine + local.z * sine) + b * (s * local.x + c * local.y) + along * (local.z * cosine - p * sine);
+    bent.tangent = vec4(turned * inversesqrt(dot(turned, turned) + 1e-30f), size.w * vertex.tangent.w);
+    return bent;
+}

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "gl.hpp"
+
+#include <goffer/bend/kernel_input.hpp>
+#include <goffer/gpu/source.hpp>
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <stdexcept>
+#include <string_view>
+
+namespace goffer::test {
+namespace {
+
+constexpr std::size_t texture_width = 1024;
+
+const std::string vertex_main = R"(
+layout(location = 0) in vec4 column;
+layout(location = 1) in vec4 wrinkle;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in vec4 shape;
+layout(location = 4) in vec4 tangent;
+uniform int rows_per_instance;
+out vec3 bent_position;
+out vec3 bent_normal;
+out vec4 bent_tangent;
+void main() {
+    GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent);
+    GofferBent bent = goffer_deform(vertex, gl_InstanceID * rows_per_instance);
+    bent_position = bent.position;
+    bent_normal = bent.normal;
+    bent_tangent = bent.tangent;
+    gl_Position = vec4(bent.position, 1.0);
+}
+)";
+
+const std::string core_rows = R"(
+uniform samplerBuffer coefficients;
+vec4 goffer_row(int row) { return texelFetch(coefficients, row); }
+)";
+
+const std::string embedded_rows = R"(
+uniform highp sampler2D coefficients;
+vec4 goffer_row(int row) { return texelFetch(coefficients, ivec2(row % 1024, row / 1024), 0); }
+)";
+
+const std::string compute_main = R"(
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Vertices { float vertices[]; };
+layout(std430, binding = 1) readonly buffer Rows { vec4 rows[]; };
+layout(std430, binding = 2) writeonly buffer Results { float results[]; };
+uniform int rows_per_instance, vertex_count, instance_count, stride, shape, tangent;
+vec4 goffer_row(int row) { return rows[row]; }
+vec4 four(int at) { return vec4(vertices[at], vertices[at + 1], vertices[at + 2], vertices[at + 3]); }
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    if (i >= vertex_count * instance_count) return;
+    int at = i % vertex_count * stride;
+    GofferVertex vertex;
+    vertex.column = four(at);
+    vertex.wrinkle = four(at + 4);
+    vertex.normal = vec3(vertices[at + 8], vertices[at + 9], vertices[at + 10]);
+    vertex.shape = shape < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : four(at + shape);
+    vertex.tangent = tangent < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : four(at + tangent);
+    GofferBent bent = goffer_deform(vertex, i / vertex_count * rows_per_instance);
+    for (int c = 0; c < 3; ++c) {
+        results[10 * i + c] = bent.position[c];
+        results[10 * i + 3 + c] = bent.normal[c];
+    }
+    for (int c = 0; c < 4; ++c) results[10 * i + 6 + c] = bent.tangent[c];
+}
+)";
+
+std::string text_of(GlApi api) {
+    const std::string deform(gpu::deform_glsl());
+    switch (api) {
+        case GlApi::core:
+            return "#version 330 core\n" + deform + core_rows + vertex_main;
+        case GlApi::embedded:
+            return "#version 300 es\n" + deform + embedded_rows + vertex_main;
+        case GlApi::compute:
+            return "#version 430 core\n" + deform + compute_main;
+    }
+    return {};
+}
+
+void check(bool good, const std::string& what) {
+    if (!good) throw std::runtime_error(what);
+}
+
+/// EGL's context, current while it lives.
+class Context {
+public:
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+    Context(GlApi api, std::string& why) {
+        display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
+            why = "EGL has no display without a surface";
+            return;
+        }
+        const bool embedded = api == GlApi::embedded;
+        const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               api == GlApi::compute ? 4 : 3,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               3,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
+        const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
+        eglBindAPI(embedded ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
+        context_ =
+            eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, embedded ? &es[0] : &core[0]);
+        if (context_ == EGL_NO_CONTEXT ||
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
+            why = "EGL makes no such context";
+    }
+    ~Context() {
+        if (display_ == EGL_NO_DISPLAY) return;
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+        eglTerminate(display_);
+    }
+
+private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+std::string log_of(GLuint shader, bool program) {
+    char log[4096] = "";
+    program ? glGetProgramInfoLog(shader, sizeof log, nullptr, log)
+            : glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    return log;
+}
+
+GLuint compiled(GLenum stage, const std::string& text) {
+    const GLuint shader = glCreateShader(stage);
+    const char* const source = text.c_str();
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint good = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    check(good != 0, log_of(shader, false));
+    return shader;
+}
+
+GLuint linked(GlApi api) {
+    const GLuint program = glCreateProgram();
+    glAttachShader(program,
+                   compiled(api == GlApi::compute ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, text_of(api)));
+    if (api == GlApi::embedded)  // which has no program without one
+        glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
+    if (api != GlApi::compute) {
+        const char* const outputs[] = {"bent_position", "bent_normal", "bent_tangent"};
+        glTransformFeedbackVaryings(program, 3, outputs, GL_INTERLEAVED_ATTRIBS);
+    }
+    glLinkProgram(program);
+    GLint good = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    check(good != 0, log_of(program, true));
+    return program;
+}
+
+GLuint buffer(GLenum target, std::size_t bytes, const void* data) {
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    glBindBuffer(target, name);
+    glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+    return name;
+}
+
+void attribute(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {
+    if (offset == gpu::VertexLayout::none) return;
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(layout.stride),
+                          reinterpret_cast<const void*>(offset));
+}
+
+/// Something to draw into, without which nothing is drawn: there is no window.
+void set_target() {
+    GLuint pixel = 0, target = 0;
+    glGenRenderbuffers(1, &pixel);
+    glBindRenderbuffer(GL_RENDERBUFFER, pixel);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
+    glGenFramebuffers(1, &target);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixel);
+}
+
+void set_attributes(const gpu::VertexLayout& layout) {
+    attribute(0, 4, layout, layout.column);
+    attribute(1, 4, layout, layout.wrinkle);
+    attribute(2, 3, layout, layout.normal);
+    attribute(3, 4, layout, layout.shape);
+    attribute(4, 4, layout, layout.tangent);
+}
+
+/// Binds the coefficients as a texture buffer, or as a texture of whole lines.
+void set_texture(GlApi api, std::span<const float> rows) {
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    if (api == GlApi::core) {
+        const GLuint data = buffer(GL_TEXTURE_BUFFER, rows.size_bytes(), rows.data());
+        glBindTexture(GL_TEXTURE_BUFFER, texture);
+        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, data);
+        return;
+    }
+    const std::size_t lines = (rows.size() / 4 + texture_width - 1) / texture_width;
+    std::vector<float> padded(rows.begin(), rows.end());
+    padded.resize(4 * texture_width * lines);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, texture_width, static_cast<GLsizei>(lines), 0, GL_RGBA,
+                 GL_FLOAT, padded.data());
+}
+
+class Deformer : public GlDeformer {
+public:
+    Deformer(GlApi api, std::string& why) : context_(api, why), api_(api) {
+        if (why.empty()) program_ = linked(api);
+    }
+
+    std::vector<GlVertex> run(std::span<const std::byte> vertices, const gpu::VertexLayout& layout,
+                              std::size_t count, std::span<const float> rows,
+                              std::size_t instances) override {
+        glUseProgram(program_);
+        const auto set = [&](const char* name, std::size_t value) {
+            glUniform1i(glGetUniformLocation(program_, name), static_cast<GLint>(value));
+        };
+        set("rows_per_instance", rows.size() / 4 / instances);
+        std::vector<GlVertex> result(count * instances);
+        const std::size_t bytes = result.size() * sizeof(GlVertex);
+        GLenum target = GL_TRANSFORM_FEEDBACK_BUFFER;
+        if (api_ == GlApi::compute) {
+            target = GL_SHADER_STORAGE_BUFFER;
+            set("vertex_count", count);
+            set("instance_count", instances);
+            set("stride", layout.stride / sizeof(float));
+            const auto floats = [](std::size_t offset) {
+                return offset == gpu::VertexLayout::none ? offset : offset / sizeof(float);
+            };
+            set("shape", floats(layout.shape));
+            set("tangent", floats(layout.tangent));
+            glBindBufferBase(target, 0, buffer(target, vertices.size(), vertices.data()));
+            glBindBufferBase(target, 1, buffer(target, rows.size_bytes(), rows.data()));
+            glBindBufferBase(target, 2, buffer(target, bytes, nullptr));
+            glDispatchCompute(static_cast<GLuint>((result.size() + 63) / 64), 1, 1);
+            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        } else {
+            GLuint array = 0;
+            glGenVertexArrays(1, &array);
+            glBindVertexArray(array);
+            buffer(GL_ARRAY_BUFFER, vertices.size(), vertices.data());
+            set_attributes(layout);
+            set_texture(api_, rows);
+            set_target();
+            glBindBufferBase(target, 0, buffer(target, bytes, nullptr));
+            glEnable(GL_RASTERIZER_DISCARD);
+            glBeginTransformFeedback(GL_POINTS);
+            glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(count), static_cast<GLsizei>(instances));
+            glEndTransformFeedback();
+        }
+        const void* const mapped =
+            glMapBufferRange(target, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
+        check(mapped != nullptr, "the results cannot be mapped");
+        std::copy_n(static_cast<const GlVertex*>(mapped), result.size(), result.begin());
+        glUnmapBuffer(target);
+        check(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
+        return result;
+    }
+
+    [[nodiscard]] std::string device() const override {
+        const auto text = [](GLenum name) {
+            return std::string(reinterpret_cast<const char*>(glGetString(name)));
+        };
+        return text(GL_VERSION) + ", " + text(GL_RENDERER);
+    }
+
+private:
+    Context context_;
+    GlApi api_;
+    GLuint program_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<GlDeformer> GlDeformer::make(GlApi api, std::string& why) {
+    why.clear();
+    auto deformer = std::make_unique<Deformer>(api, why);
+    if (!why.empty()) return nullptr;
+    return deformer;
+}
+
+}  // namespace goffer::test
