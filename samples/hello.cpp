@@ -2,7 +2,10 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
-int main() {
+
+#include <cstdio>
+
+int main() try {
     using namespace goffer;
     const mesh::Mesh model = mesh::load("worm.glb");
     mesh::VertexArrays shape = mesh::vertex_arrays(model);
@@ -13,4 +16,6 @@ int main() {
     if (!shape.normals.empty()) job.normals = interleaved<3>(&shape.normals[0].x, shape.normals.size());
     bend::run(job);  // every frame: no allocation, no lock
     mesh::save(mesh::with_vertex_arrays(model, shape), "bent.glb");
+} catch (const std::exception& error) {
+    return std::fprintf(stderr, "%s\n", error.what()), 1;
 }

@@ -74,6 +74,14 @@ TEST_CASE("bad words: what does not go together") {
     refused(place.folder, 2, {"bend", "base.ply", "-o", "a.obj", "--json", "a.mtl"},
             {"--json", "a.mtl", "materials"});
     place.refuse_bend({"--ghost"}, {"--ghost", "--png"});
+    place.refuse_bend({"--size", "100x100"}, {"--size", "--png"});
+    place.refuse_bend({"--camera", "side"}, {"--camera", "--png"});
+    for (const char* const size :
+         {"", "100", "x", "100x", "x100", "0x100", "100x16385", "1e2x100", "100x100x3", "-1x5"})
+        place.refuse_bend({"--png", "out.png", "--size", size},
+                          {"--size: '" + std::string(size) + "' is no size", "WIDTHxHEIGHT"});
+    for (const char* const camera : {"", "above", "10", "0,91", "0,-90.5", "1,2,3", "a,b", "0,nan"})
+        place.refuse_bend({"--png", "out.png", "--camera", camera}, {"--camera: '"});
     place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
     place.refuse_bend({"--paper", "--profile", "even"}, {"--profile", "--paper"});
     place.refuse_bend({"--paper", "--shape", "cylinder"}, {"--shape", "--paper"});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "pixels.hpp"
 
 #include <doctest/doctest.h>
-#include <png.h>
 
 #include <cmath>
 #include <numbers>
@@ -23,16 +23,11 @@ json local(const Folder& folder, const Words& words) {
 
 /// How many pixels of a picture are much bluer than red, and the other way round.
 std::pair<std::size_t, std::size_t> blue_and_red(const std::filesystem::path& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    REQUIRE(png_image_begin_read_from_file(&image, file.string().c_str()) != 0);
-    image.format = PNG_FORMAT_RGB;
-    std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
-    REQUIRE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0);
+    const Pixels pixels(file);
     std::size_t blue = 0, red = 0;
-    for (std::size_t i = 0; i < pixels.size(); i += 3) {
-        blue += pixels[i + 2] > pixels[i] + 40 ? 1 : 0;
-        red += pixels[i] > pixels[i + 2] + 40 ? 1 : 0;
+    for (std::size_t i = 0; i < pixels.bytes.size(); i += 3) {
+        blue += pixels.bytes[i + 2] > pixels.bytes[i] + 40 ? 1 : 0;
+        red += pixels.bytes[i] > pixels.bytes[i + 2] + 40 ? 1 : 0;
     }
     return {blue, red};
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "pixels.hpp"
 #include "support/models.hpp"
 
 #include <doctest/doctest.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,15 +14,10 @@ namespace {
 
 /// The brightness of every pixel.
 std::vector<png_byte> gray_of(const std::filesystem::path& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    REQUIRE(png_image_begin_read_from_file(&image, file.string().c_str()) != 0);
-    CHECK(image.width == 1280);
-    CHECK(image.height == 960);
-    image.format = PNG_FORMAT_GRAY;
-    std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
-    REQUIRE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0);
-    return pixels;
+    const Pixels pixels(file, PNG_FORMAT_GRAY);
+    CHECK(pixels.width == 1280);
+    CHECK(pixels.height == 960);
+    return pixels.bytes;
 }
 
 /// The solid's share of the picture: what is darker than the background and a ghost on it.

@@ -135,6 +135,17 @@ TEST_CASE("smooth shading hides the facets, and no shadow shows them") {
     CHECK(test::difference(test::render({flat}, small), b, 3) > 16 * test::difference(a, b, 3));
 }
 
+TEST_CASE("few samples show what many do") {
+    test::Shape board = test::square({0, 0, -1.2f}, 2.5f);
+    board.color = {0.6f, 0.6f, 0.5f, 1};
+    const test::Shape bumpy = test::sphere({0, 0, 0}, 1, 200, 100, 0.08f);
+    view::Settings few{320, 240, 16}, many = few;
+    many.samples = 1024;
+    const view::Picture a = test::render({bumpy, board}, few), b = test::render({bumpy, board}, many);
+    CHECK(test::difference(a, b, 2) < 0.03);
+    CHECK(test::difference(a, b, 8) < 0.002);
+}
+
 TEST_CASE("one pixel, one sample") {
     const auto picture = test::render({test::sphere({0, 0, 0}, 1, 12, 6)}, {1, 1, 1});
     CHECK(picture.rgb.size() == 3);

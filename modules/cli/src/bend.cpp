@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,7 +37,8 @@ struct BendOptions {
     std::filesystem::path fit;
     std::string isa = "auto";
     int threads = 0;
-    std::filesystem::path png;
+    PictureWords picture;
+    std::optional<std::string> camera;
     bool ghost = false;
     std::string show;  ///< what the picture's colors stand for; empty: the materials
     std::filesystem::path json;
@@ -48,22 +50,28 @@ struct Request {
     BindRequest bind;
     Isa isa;
     int threads;
+    PictureStyle style;
 
     Request(const BendOptions& options, std::vector<fit::RegionOptions> baked)
         : pose(options.pose, std::move(baked)),
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
-        if (options.ghost && options.png.empty())
-            throw UsageError("--ghost: belongs to a picture; add --png FILE");
-        if (!options.show.empty() && options.png.empty())
-            throw UsageError("--show: belongs to a picture; add --png FILE");
+        const auto needs_picture = [&](bool given, const std::string& option) {
+            if (given && options.picture.file.empty())
+                throw UsageError(option + ": belongs to a picture; add --png FILE");
+        };
+        needs_picture(options.ghost, "--ghost");
+        needs_picture(!options.show.empty(), "--show");
+        needs_picture(options.camera.has_value(), "--camera");
         if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         check_places({{"MODEL", options.model}, {"--fit", options.fit}},
-                     {{"-o", options.output}, {"--png", options.png}, {"--json", options.json}});
+                     {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}});
         check_model_output(options.output);
-        if (!options.png.empty()) check_picture_output(options.png);
+        style.settings = picture_settings(options.picture);
+        if (options.camera) style.viewpoint = parse_camera(*options.camera);
+        style.ghost = options.ghost;
     }
 };
 
@@ -185,16 +193,16 @@ void run_bend(const BendOptions& options) {
     in_file(options.model, [&] { report_local_area(report, model, poses, bent.records.positions); });
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
-    if (!options.png.empty()) {
-        const Progress progress("rendering " + options.png.string());
+    if (const std::filesystem::path& png = options.picture.file; !png.empty()) {
+        const Progress progress("rendering " + png.string());
         const bool show = !options.show.empty();
         const std::vector<glm::vec4> colors =
             show ? area_colors(model, bent.records.positions) : std::vector<glm::vec4>();
         write_picture(
             {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
-            options.ghost, options.png, outputs);
+            request.style, png, outputs);
         if (show) report_area_colors(report);
-        report.line("picture", options.png.string());
+        report.line("picture", png.string());
     }
     mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output, outputs);
     report.line("written", options.output.string());
@@ -229,7 +237,9 @@ void add_bend(CLI::App& app, Action& action) {
                      "Use this many threads, at most the machine's; 0: all of them")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    command->add_option("--png", options->png, "Write a picture, 1280 x 960");
+    add_picture_words(*command, options->picture, "");
+    command->add_option("--camera", options->camera,
+                        "Look at it from: side, inner (onto the folds), front, or AZIMUTH,ELEVATION [0,35]");
     command->add_flag("--ghost", options->ghost, "Show the rest shape in the picture too, translucent");
     command
         ->add_option("--show", options->show,

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "picture.hpp"
 
+#include "arguments.hpp"
 #include "model.hpp"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <system_error>
 #include <vector>
 
 namespace goffer::cli {
 namespace {
 
-view::Camera camera_for(const bend::Body& body, const bend::Pose& pose) {
+view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from) {
     const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
     const glm::dmat3& e = body.axes();
     const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
     const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
-    constexpr double elevation = 35 * std::numbers::pi / 180;
+    const double azimuth = radians(from.azimuth), elevation = radians(from.elevation);
+    const glm::dvec3 level = std::cos(azimuth) * across + std::sin(azimuth) * e[2];
     view::Camera camera;
-    camera.toward = glm::vec3(-std::cos(elevation) * across - std::sin(elevation) * toward);
-    camera.up = glm::vec3(toward);
+    camera.toward = glm::vec3(-std::cos(elevation) * level - std::sin(elevation) * toward);
+    camera.up = glm::vec3(std::cos(elevation) * toward - std::sin(elevation) * level);
     return camera;
 }
 
@@ -35,7 +40,51 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     return {glm::max(dimmed, glm::vec3(0.06f)), 1.0f};
 }
 
+[[noreturn]] void refuse_size(const std::string& text) {
+    throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to 16384");
+}
+
+int read_side(const std::string& side, const std::string& text) {
+    constexpr int largest = 16384;
+    int pixels = 0;
+    const auto [end, error] = std::from_chars(side.data(), side.data() + side.size(), pixels);
+    if (error != std::errc() || end != side.data() + side.size() || pixels < 1 || pixels > largest)
+        refuse_size(text);
+    return pixels;
+}
+
 }  // namespace
+
+void add_picture_words(CLI::App& command, PictureWords& words, const std::string& of) {
+    command.add_option("--png", words.file, "Write a picture" + of);
+    command.add_option("--size", words.size, "Make the picture WIDTHxHEIGHT pixels [1280x960]");
+}
+
+view::Settings picture_settings(const PictureWords& words) {
+    if (words.size && words.file.empty()) throw UsageError("--size: belongs to a picture; add --png FILE");
+    if (!words.file.empty()) check_picture_output(words.file);
+    view::Settings settings;
+    if (!words.size) return settings;
+    const std::size_t by = words.size->find('x');
+    if (by == std::string::npos) refuse_size(*words.size);
+    settings.width = read_side(words.size->substr(0, by), *words.size);
+    settings.height = read_side(words.size->substr(by + 1), *words.size);
+    return settings;
+}
+
+Viewpoint parse_camera(const std::string& text) {
+    if (text == "side") return {0, 0};
+    if (text == "inner") return {0, 90};
+    if (text == "front") return {90, 0};
+    if (text.find(',') == std::string::npos)
+        throw UsageError("--camera: '" + text +
+                         "' is no place for a camera; give side, inner, front or AZIMUTH,ELEVATION");
+    const std::vector<double> angles = read_numbers("--camera", text);
+    if (angles.size() != 2 || std::abs(angles[1]) > 90)
+        throw UsageError("--camera: '" + text +
+                         "' is not an azimuth and an elevation of -90 to 90; give two angles in degrees");
+    return {std::remainder(angles[0], 360.0), angles[1]};
+}
 
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
                                      const glm::vec4& plain) {
@@ -55,7 +104,7 @@ std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& 
     return models;
 }
 
-void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file,
+void write_picture(const BentModel& model, const PictureStyle& style, const std::filesystem::path& file,
                    io::AtomicFiles& outputs) {
     const view::Model bent{
         .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
@@ -64,14 +113,15 @@ void write_picture(const BentModel& model, bool ghost, const std::filesystem::pa
         part.colors = model.colors;
         if (!model.colors.empty()) part.color = glm::vec4(1);
     }
-    if (ghost) {
+    if (style.ghost) {
         view::Model rest;
         rest.positions = model.rest.positions;
         rest.triangles = model.rest.triangles;
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
-    view::save_png(view::render(models, camera_for(model.body, model.pose)), file, outputs);
+    const view::Camera camera = camera_for(model.body, model.pose, style.viewpoint);
+    view::save_png(view::render(models, camera, style.settings), file, outputs);
 }
 
 }  // namespace goffer::cli

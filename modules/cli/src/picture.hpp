@@ -6,14 +6,39 @@
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/view/picture.hpp>
 
+#include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace goffer::cli {
+
+/// Words about a picture.
+struct PictureWords {
+    std::filesystem::path file;  ///< empty: none is wanted
+    std::optional<std::string> size;
+};
+
+void add_picture_words(CLI::App& command, PictureWords& words, const std::string& of);
+
+/// The size that is asked for, and the quality. Throws UsageError for a size that is none, for one without a
+/// picture, and for a file that is no PNG; io::Error for one that cannot be written.
+[[nodiscard]] view::Settings picture_settings(const PictureWords& words);
+
+/// Where a bent model is looked at from. At 0, 0 the eye looks across the plane that it bends in, and it lies
+/// from left to right, its squeezed side up. Degrees.
+struct Viewpoint {
+    double azimuth = 0;     ///< turns the eye about the picture's vertical, toward the tip's side
+    double elevation = 35;  ///< raises it, up to 90, where it looks at the squeezed side
+};
+
+/// "side", "inner", "front" or "AZIMUTH,ELEVATION". Throws UsageError.
+[[nodiscard]] Viewpoint parse_camera(const std::string& text);
 
 /// What a picture of a bend needs. The caller owns all of it.
 struct BentModel {
@@ -32,10 +57,15 @@ struct BentModel {
 [[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
                                                    const glm::vec4& plain);
 
-/// Renders the bent model, seen across the plane that it bends in and from above its squeezed side, so that
-/// it lies from left to right and its wrinkles are in view; with `ghost` the rest shape too, translucent.
-/// Writes a PNG, which `outputs` puts in its place.
-void write_picture(const BentModel& model, bool ghost, const std::filesystem::path& file,
+/// How to draw it.
+struct PictureStyle {
+    view::Settings settings;
+    Viewpoint viewpoint;
+    bool ghost = false;  ///< shows the rest shape too, translucent
+};
+
+/// Renders the bent model, and writes a PNG, which `outputs` puts in its place.
+void write_picture(const BentModel& model, const PictureStyle& style, const std::filesystem::path& file,
                    io::AtomicFiles& outputs);
 
 }  // namespace goffer::cli

@@ -8,6 +8,9 @@
 
 namespace goffer::mesh {
 
+/// A mesh that was read, and the one that its Source keeps.
+constexpr std::uint64_t kept_copies = 2;
+
 /// A mesh beyond its limits. what() does not name the file: load() puts it in front.
 class OverLimit : public Error {
 public:

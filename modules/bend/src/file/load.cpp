@@ -2,6 +2,7 @@
 #include "body/check.hpp"
 #include "file/format.hpp"
 #include "file/load_held.hpp"
+#include "file/sections.hpp"
 
 #include <goffer/bend/body_input.hpp>
 
@@ -29,92 +30,6 @@ BodyFileFault check_rest_of_header(const FileHeader& header) {
                        std::ranges::all_of(header.zero, [](std::uint64_t word) { return word == 0; });
     return zeros ? BodyFileFault{} : BodyFileFault{FileReason::layout, FileSection::header};
 }
-
-/// The sections of a file, whose memory is aligned and begins with a whole header. FileSections may only lie
-/// one behind the other, each at the next cache line.
-class FileSections {
-public:
-    FileSections(std::span<const std::byte> bytes, std::size_t levels) : bytes_(bytes), levels_(levels) {}
-
-    [[nodiscard]] BodyFileFault check() const {
-        const std::uint64_t size = bytes_.size();
-        std::uint64_t end = sizeof(FileHeader) + section_count(levels_) * sizeof(SectionRecord);
-        if (end > size) return {FileReason::truncated, FileSection::directory};
-        for (std::size_t i = 0; i < section_count(levels_); ++i) {
-            const SectionRecord record = records()[i];
-            const std::uint64_t begin = aligned(end);
-            if (record.offset != begin || begin > size || !zeros(end, begin))
-                return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
-            const std::uint64_t bytes_each = size_of(section_at(i));
-            if (record.count > (size - begin) / bytes_each)
-                return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
-            end = begin + record.count * bytes_each;
-        }
-        const bool whole = aligned(end) == size && zeros(end, size);
-        return whole ? BodyFileFault{} : BodyFileFault{FileReason::layout, FileSection::directory};
-    }
-
-    /// The records of a section. T is what size_of() has for it.
-    template <class T>
-    [[nodiscard]] std::span<const T> get(FileSection section, std::size_t level = 0) const {
-        const SectionRecord& record = records()[place_of(section, level)];
-        return {reinterpret_cast<const T*>(bytes_.data() + record.offset),
-                static_cast<std::size_t>(record.count)};
-    }
-
-private:
-    [[nodiscard]] const SectionRecord* records() const {
-        return reinterpret_cast<const SectionRecord*>(bytes_.data() + sizeof(FileHeader));
-    }
-
-    [[nodiscard]] bool zeros(std::uint64_t first, std::uint64_t last) const {
-        const auto gap =
-            bytes_.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first));
-        return std::ranges::all_of(gap, [](std::byte byte) { return byte == std::byte{0}; });
-    }
-
-    static FileSection section_at(std::size_t place) {
-        constexpr auto first = static_cast<std::size_t>(FileSection::rig);
-        const std::size_t in_level = (place - shared_sections) % level_sections;
-        return static_cast<FileSection>(first +
-                                        (place < shared_sections ? place : shared_sections + in_level));
-    }
-
-    static std::size_t size_of(FileSection section) {
-        switch (section) {
-            case FileSection::rig:
-                return sizeof(RigRecord);
-            case FileSection::regions:
-                return sizeof(RegionRecord);
-            case FileSection::wrinkle_rows:
-                return sizeof(WrinkleRow);
-            case FileSection::factor_rows:
-                return sizeof(FactorTable::rows[0]);
-            case FileSection::materials:
-                return sizeof(MaterialRecord);
-            case FileSection::sockets:
-                return sizeof(SocketRecord);
-            case FileSection::level:
-                return sizeof(LevelRecord);
-            case FileSection::bands:
-                return sizeof(BandsRecord);
-            case FileSection::columns:
-                return sizeof(float);
-            case FileSection::triangles:
-            case FileSection::source:
-                return sizeof(std::uint32_t);
-            case FileSection::uvs:
-                return sizeof(glm::vec2);
-            case FileSection::parts:
-                return sizeof(PartRecord);
-            default:
-                return 1;
-        }
-    }
-
-    std::span<const std::byte> bytes_;
-    std::size_t levels_;
-};
 
 bool all_finite(std::span<const float> numbers) {
     return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });

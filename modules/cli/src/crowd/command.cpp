@@ -5,6 +5,7 @@
 #include "crowd/render.hpp"
 #include "crowd/timing.hpp"
 #include "model.hpp"
+#include "picture.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -31,7 +32,7 @@ struct CrowdOptions {
     std::string stores = "automatic";
     std::string isa = "auto";
     int threads = 0;
-    std::filesystem::path png;
+    PictureWords picture;
     std::filesystem::path json;
 };
 
@@ -62,6 +63,7 @@ struct CrowdRequest {
     BindRequest bind;
     CrowdPlan plan;
     int threads;
+    view::Settings picture;
 
     CrowdRequest(const CrowdOptions& options, std::vector<fit::RegionOptions> baked)
         : pose(options.pose, std::move(baked)),
@@ -79,8 +81,8 @@ struct CrowdRequest {
         }
         std::vector<NamedFile> inputs;
         for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
-        check_places(inputs, {{"--png", options.png}, {"--json", options.json}});
-        if (!options.png.empty()) check_picture_output(options.png);
+        check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}});
+        picture = picture_settings(options.picture);
     }
 };
 
@@ -203,14 +205,14 @@ void run_crowd(const CrowdOptions& options) {
     report_crowd(report, options, request, crowd, timing);
     report_models(report, request, models);
     io::AtomicFiles outputs;
-    if (!options.png.empty()) {
-        const Progress rendering("rendering " + options.png.string());
-        const std::size_t shown = write_crowd_picture(crowd, models, options.png, outputs);
-        report.line("picture", options.png.string() + (shown == options.instances
-                                                           ? std::string()
-                                                           : ", " + std::to_string(shown) + " of " +
-                                                                 std::to_string(options.instances) +
-                                                                 " instances, those in front"));
+    if (const std::filesystem::path& file = options.picture.file; !file.empty()) {
+        const Progress rendering("rendering " + file.string());
+        const std::size_t shown = write_crowd_picture(crowd, models, request.picture, file, outputs);
+        report.line("picture",
+                    file.string() + (shown == options.instances ? std::string()
+                                                                : ", " + std::to_string(shown) + " of " +
+                                                                      std::to_string(options.instances) +
+                                                                      " instances, those in front"));
     }
     report.finish(outputs);
 }
@@ -259,7 +261,7 @@ void add_crowd(CLI::App& app, Action& action) {
         ->add_option("--threads", options->threads,
                      "Use this many threads, at most the machine's (default: all of them)")
         ->check(CLI::Range(1, 1024));
-    command->add_option("--png", options->png, "Write a picture of the last frame, 1280 x 960");
+    add_picture_words(*command, options->picture, " of the last frame");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, &action] { action = [options] { run_crowd(*options); }; });
 }

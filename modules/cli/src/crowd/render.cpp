@@ -111,7 +111,8 @@ std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> 
 }  // namespace
 
 std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
-                                const std::filesystem::path& file, io::AtomicFiles& outputs) {
+                                const view::Settings& settings, const std::filesystem::path& file,
+                                io::AtomicFiles& outputs) {
     const std::vector<std::size_t> chosen = choose(crowd, models);
     std::vector<Vertices> vertices;
     std::vector<view::Model> parts;
@@ -131,7 +132,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     }
     view::Camera camera;
     camera.toward = {0.12f, 1.0f, -0.85f};
-    view::save_png(view::render(parts, camera), file, outputs);
+    view::save_png(view::render(parts, camera, settings), file, outputs);
     return chosen.size();
 }
 

@@ -4,6 +4,8 @@
 #include "crowd/crowd.hpp"
 #include "model.hpp"
 
+#include <goffer/view/picture.hpp>
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -14,6 +16,7 @@ namespace goffer::cli {
 /// puts in its place. Of a large crowd, the middle of the front: at most 400 instances and about 4 million
 /// triangles. `models`: those of the crowd. Returns how many instances there are in the picture.
 std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
-                                const std::filesystem::path& file, io::AtomicFiles& outputs);
+                                const view::Settings& settings, const std::filesystem::path& file,
+                                io::AtomicFiles& outputs);
 
 }  // namespace goffer::cli

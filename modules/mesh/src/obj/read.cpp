@@ -22,8 +22,6 @@ namespace {
 
 constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 
-constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
-
 class ObjReader {
 public:
     ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options,
@@ -73,8 +71,9 @@ Mesh ObjReader::read() {
     Statement statement;
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) total_.add(statement);
     if (total_.v == 0) fail(file_, "has no vertices (v lines); give an OBJ file that has a mesh");
-    budget_.take_vertices(total_.v, kept * sizeof(glm::vec3));
-    budget_.take(text_.size() + kept * (total_.vt * sizeof(glm::vec2) + total_.vn * sizeof(glm::vec3)));
+    budget_.take_vertices(total_.v, kept_copies * sizeof(glm::vec3));
+    budget_.take(text_.size() +
+                 kept_copies * (total_.vt * sizeof(glm::vec2) + total_.vn * sizeof(glm::vec3)));
     for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) take(statement);
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
     if (short_faces_ > 0)
@@ -114,7 +113,7 @@ void ObjReader::take_vertex(const Statement& statement) {
     mesh_.positions.emplace_back(n[0], n[1], n[2]);
     constexpr glm::vec4 white(1.0f);
     if (count >= 6) {
-        if (mesh_.colors.empty()) budget_.take(kept * total_.v * sizeof(glm::vec4));
+        if (mesh_.colors.empty()) budget_.take(kept_copies * total_.v * sizeof(glm::vec4));
         mesh_.colors.resize(mesh_.positions.size() - 1, white);  // the vertices before that had no color
         mesh_.colors.emplace_back(finite_or_zero(n[3]), finite_or_zero(n[4]), finite_or_zero(n[5]),
                                   count >= 7 ? finite_or_zero(n[6]) : 1.0f);
@@ -157,7 +156,7 @@ void ObjReader::take_face(const Statement& statement) {
             corners->resize(first);
         return;
     }
-    budget_.take_faces(1, size, kept * 3 * sizeof(std::uint32_t));
+    budget_.take_faces(1, size, kept_copies * 3 * sizeof(std::uint32_t));
     begin_part();
     mesh_.faces.push_back(static_cast<std::uint32_t>(size));
     ++mesh_.parts.back().face_count;
@@ -167,7 +166,7 @@ void ObjReader::begin_part() {
     const auto& parts = mesh_.parts;
     if (!parts.empty() && parts.back().name == part_.name && parts.back().material == part_.material) return;
     part_.first_face = static_cast<std::uint32_t>(mesh_.faces.size());
-    budget_.take(kept * (sizeof(Part) + part_.name.size()));
+    budget_.take(kept_copies * (sizeof(Part) + part_.name.size()));
     mesh_.parts.push_back(part_);
 }
 
@@ -176,7 +175,7 @@ void ObjReader::take_material(std::string_view name) {
     const auto [known, is_new] = material_of_.try_emplace(name, static_cast<std::int32_t>(materials.size()));
     part_.material = known->second;
     if (!is_new) return;
-    budget_.take(kept * sizeof(Material) + kept * name.size() + 2 * sizeof(*known));
+    budget_.take(kept_copies * sizeof(Material) + kept_copies * name.size() + 2 * sizeof(*known));
     materials.emplace_back().name = name;
 }
 

@@ -12,8 +12,6 @@ namespace {
 using namespace ply;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
-constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
-
 class PlyReader {
 public:
     PlyReader(const Header& header, Budget& budget);
@@ -112,8 +110,8 @@ void PlyReader::end_vertex(const Cursor& cursor) {
                                  " is not finite (nan, infinite or beyond float); "
                                  "correct or remove the vertex");
     budget_.take_vertices(
-        1, kept * (sizeof(glm::vec3) * (has_normals_ ? 2 : 1) + (has_colors_ ? sizeof(glm::vec4) : 0) +
-                   (has_uvs_ ? sizeof(glm::vec2) : 0)));
+        1, kept_copies * (sizeof(glm::vec3) * (has_normals_ ? 2 : 1) + (has_colors_ ? sizeof(glm::vec4) : 0) +
+                          (has_uvs_ ? sizeof(glm::vec2) : 0)));
     mesh_.positions.emplace_back(at(Role::x), at(Role::y), at(Role::z));
     if (has_normals_) mesh_.normals.values.emplace_back(at(Role::nx), at(Role::ny), at(Role::nz));
     if (has_colors_)
@@ -129,7 +127,7 @@ void PlyReader::end_face() {
     const std::size_t size = indices_.size();
     if (size >= 3) {
         constexpr std::uint64_t index = sizeof(std::uint32_t), uv = sizeof(glm::vec2);
-        budget_.take_faces(1, size, kept * (has_texcoords_ ? 2 * index + uv : index));
+        budget_.take_faces(1, size, kept_copies * (has_texcoords_ ? 2 * index + uv : index));
         mesh_.faces.push_back(static_cast<std::uint32_t>(size));
         mesh_.corners.insert(mesh_.corners.end(), indices_.begin(), indices_.end());
         for (std::size_t i = 0; has_texcoords_ && i < size; ++i) {

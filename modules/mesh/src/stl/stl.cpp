@@ -116,11 +116,9 @@ void TextFacets::take_numbers(std::size_t first) {
     for (std::size_t axis = 0; axis < 3; ++axis) numbers_[first + axis] = next_token(rest_);
 }
 
-constexpr std::uint64_t kept = 2;  ///< the mesh, and the one that its source keeps
-
 void take_facets(Budget& budget, std::uint64_t count) {
-    budget.take_vertices(3 * count, kept * sizeof(glm::vec3));
-    budget.take_faces(count, 3 * count, kept * sizeof(std::uint32_t));
+    budget.take_vertices(3 * count, kept_copies * sizeof(glm::vec3));
+    budget.take_faces(count, 3 * count, kept_copies * sizeof(std::uint32_t));
 }
 
 void add_vertex(Mesh& mesh, const glm::vec3& position) {
@@ -147,7 +145,7 @@ Mesh read_text(const std::filesystem::path& file, std::string_view text, Budget&
             add_vertex(mesh, position);
         }
         if (facets.solids() > mesh.parts.size()) {
-            budget.take(kept * (facets.solids() - mesh.parts.size()) * sizeof(Part));
+            budget.take(kept_copies * (facets.solids() - mesh.parts.size()) * sizeof(Part));
             const auto first = static_cast<std::uint32_t>(mesh.faces.size());
             mesh.parts.resize(facets.solids() - 1,
                               {.name = {}, .first_face = first});  // solids without facets

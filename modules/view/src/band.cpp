@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "band.hpp"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::view {
+namespace {
+
+constexpr int steps[] = {1, 2, 4};  // between the pixels that are smoothed over, pass after pass
+static_assert(steps[0] + steps[1] + steps[2] == Band::reach);
+constexpr float edge_cosine = 0.9f;  // of the angle between normals, below which there is an edge
+constexpr float edge_offset = 2;     // of a surface from its neighbor's plane, in pixels
+
+// `dither`, 0..1, decides where to round up, which hides the steps of faint gradients.
+std::uint8_t to_srgb(float linear, float dither) {
+    const float c = std::isfinite(linear) ? std::clamp(linear, 0.0f, 1.0f) : 0.0f;
+    const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(std::min(255.0f, 255 * s + dither));
+}
+
+float to_eighth(float x) {
+    x *= x;
+    x *= x;
+    return x * x;
+}
+
+}  // namespace
+
+Band::Band(const Scene& scene, const View& view, const Settings& settings, int first, int last)
+    : scene_(scene),
+      view_(view),
+      settings_(settings),
+      first_(first),
+      last_(last),
+      top_(std::max(first - reach, 0)),
+      bottom_(std::min(last + reach, settings.height)),
+      rays_(static_cast<std::uint32_t>(std::max(settings.samples / 8, 1))),
+      seen_(static_cast<std::size_t>(bottom_ - top_) * static_cast<std::size_t>(settings.width)),
+      smooth_(seen_.size()) {}
+
+glm::vec2 Band::place_of(const glm::vec2& pixel) const {
+    const glm::vec2 at = pixel / glm::vec2(settings_.width, settings_.height);
+    return {2 * at.x - 1, 1 - 2 * at.y};
+}
+
+Band::Seen Band::look(int x, int y, std::vector<Hit>& hits) const {
+    Seen seen;
+    Ray ray = view_.ray(place_of(glm::vec2(x, y) + 0.5f));
+    if (const auto hit = scene_.solid(ray)) {
+        const Surface surface = scene_.surface(*hit, ray);
+        Sampler sampler(static_cast<std::uint32_t>(y * settings_.width + x), 0);
+        seen.solid = true;
+        seen.hit = *hit;
+        seen.position = surface.position;
+        seen.normal = surface.normal;
+        seen.light = light_at(scene_, view_, surface, -ray.direction, sampler, rays_);
+        ray.length = hit->distance;
+    }
+    scene_.ghosts(ray, hits);
+    seen.ghosts = static_cast<std::uint32_t>(hits.size());
+    return seen;
+}
+
+/// How far a point is from the plane of what was seen, in pixels there.
+float Band::off_plane(const Seen& of, const glm::vec3& position) const {
+    const float pixel =
+        glm::dot(of.position - view_.eye, view_.forward) * 2 * view_.tangent.y / settings_.height;
+    return std::abs(glm::dot(of.normal, position - of.position)) / std::max(pixel, 1e-9f);
+}
+
+/// Light of the pixel and of those around it that show the same surface (an "a-trous" pass, Dammertz et al.
+/// 2010).
+Light Band::smoothed(int x, int y, int step) const {
+    const Seen& own = seen_[index(x, y)];
+    if (!own.solid) return own.light;
+    float sum = 0;
+    Light light{0, 0};
+    for (int dy = -step; dy <= step; dy += step) {
+        for (int dx = -step; dx <= step; dx += step) {
+            if (!inside(x + dx, y + dy)) continue;
+            const Seen& other = seen_[index(x + dx, y + dy)];
+            if (!other.solid) continue;
+            const float off = off_plane(own, other.position) / static_cast<float>(step);
+            const float alike = to_eighth(std::max(0.0f, glm::dot(own.normal, other.normal)));
+            const float weight = (dx == 0 ? 2.0f : 1.0f) * (dy == 0 ? 2.0f : 1.0f) * alike / (1 + off * off);
+            light.key += weight * other.light.key;
+            light.sky += weight * other.light.sky;
+            sum += weight;
+        }
+    }
+    return sum > 0 ? Light{light.key / sum, light.sky / sum} : own.light;
+}
+
+void Band::smooth(int step) {
+    tbb::parallel_for(top_, bottom_, [&](int y) {
+        for (int x = 0; x < settings_.width; ++x) smooth_[index(x, y)] = smoothed(x, y, step);
+    });
+    for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i].light = smooth_[i];
+}
+
+bool Band::at_edge(int x, int y) const {
+    const Seen& own = seen_[index(x, y)];
+    constexpr int around[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    return std::ranges::any_of(around, [&](const int(&step)[2]) {
+        if (!inside(x + step[0], y + step[1])) return false;
+        const Seen& other = seen_[index(x + step[0], y + step[1])];
+        if (own.solid != other.solid || own.ghosts != other.ghosts) return true;
+        return own.solid && (glm::dot(own.normal, other.normal) < edge_cosine ||
+                             off_plane(own, other.position) > edge_offset);
+    });
+}
+
+/// The light of the pixel nearby that shows the same surface; where none does, new rays find it.
+Light Band::light_near(int x, int y, const Surface& surface, const glm::vec3& to_eye,
+                       Sampler& sampler) const {
+    const Seen* best = nullptr;
+    float least = 1 - edge_cosine + 1;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            if (!inside(x + dx, y + dy)) continue;
+            const Seen& other = seen_[index(x + dx, y + dy)];
+            if (!other.solid) continue;
+            const float off =
+                1 - glm::dot(other.normal, surface.normal) + off_plane(other, surface.position) / edge_offset;
+            if (off < least) least = off, best = &other;
+        }
+    }
+    return best != nullptr ? best->light : light_at(scene_, view_, surface, to_eye, sampler, rays_);
+}
+
+/// What look() has found, in color.
+glm::vec3 Band::color_in_middle(int x, int y, std::vector<Hit>& hits) const {
+    const Seen& seen = seen_[index(x, y)];
+    const glm::vec2 place = place_of(glm::vec2(x, y) + 0.5f);
+    if (!seen.solid && seen.ghosts == 0) return background(place);
+    Ray ray = view_.ray(place);
+    glm::vec3 color = background(place);
+    if (seen.solid) {
+        color = shade(view_, scene_.surface(seen.hit, ray), -ray.direction, seen.light);
+        ray.length = seen.hit.distance;
+    }
+    if (seen.ghosts == 0) return color;
+    scene_.ghosts(ray, hits);
+    return under_ghosts(scene_, view_, ray, hits, color);
+}
+
+/// The same of another place in the pixel.
+glm::vec3 Band::color_at(int x, int y, const glm::vec2& within, Sampler& sampler,
+                         std::vector<Hit>& hits) const {
+    const glm::vec2 place = place_of(glm::vec2(x, y) + within);
+    Ray ray = view_.ray(place);
+    glm::vec3 color = background(place);
+    if (const auto hit = scene_.solid(ray)) {
+        const Surface surface = scene_.surface(*hit, ray);
+        color = shade(view_, surface, -ray.direction, light_near(x, y, surface, -ray.direction, sampler));
+        ray.length = hit->distance;
+    }
+    scene_.ghosts(ray, hits);
+    return under_ghosts(scene_, view_, ray, hits, color);
+}
+
+glm::vec3 Band::color(int x, int y, std::vector<Hit>& hits) const {
+    if (settings_.samples == 1 || !at_edge(x, y)) return color_in_middle(x, y, hits);
+    const auto pixel = static_cast<std::uint32_t>(y * settings_.width + x);
+    glm::vec3 sum(0);
+    for (int i = 0; i < settings_.samples; ++i) {
+        Sampler sampler(pixel, static_cast<std::uint32_t>(i));
+        const glm::vec2 within = sampler.next();
+        sum += color_at(x, y, within, sampler, hits);
+    }
+    return sum / static_cast<float>(settings_.samples);
+}
+
+void Band::render(Picture& picture) {
+    tbb::parallel_for(top_, bottom_, [&](int y) {
+        std::vector<Hit> hits;
+        for (int x = 0; x < settings_.width; ++x) seen_[index(x, y)] = look(x, y, hits);
+    });
+    for (const int step : steps) smooth(step);
+    tbb::parallel_for(first_, last_, [&](int y) {
+        std::vector<Hit> hits;
+        for (int x = 0; x < settings_.width; ++x) {
+            const glm::vec3 light = color(x, y, hits);
+            const auto pixel = static_cast<std::uint32_t>(y * settings_.width + x);
+            const float dither = Sampler(pixel, 0).next().x;
+            for (int c = 0; c < 3; ++c)
+                picture.rgb[std::size_t{3} * pixel + static_cast<std::size_t>(c)] = to_srgb(light[c], dither);
+        }
+    });
+}
+
+}  // namespace goffer::view
