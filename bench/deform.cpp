@@ -145,7 +145,9 @@ void register_deform(Fixture& fixture) {
                 if (!runs_here(isa)) continue;
                 for (const int threads : Fixture::thread_counts())
                     register_case(fixture, "deform", size.name, {layout, size.size, isa, threads});
-                if (layout.name != "positions" && layout.name != "positions+normals") continue;
+                if (layout.name != "positions" && layout.name != "positions+normals" &&
+                    layout.name != "record32-positions+normals")
+                    continue;
                 for (const Like& like : others)
                     register_case(fixture, "deform", size.name + like.name,
                                   {layout, size.size, isa, 1, like.shape, like.wrinkle_weight});

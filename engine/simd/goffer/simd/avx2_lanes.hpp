@@ -14,6 +14,7 @@ struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
     using X86Rows<Avx2Lanes>::mixed_row;
     using X86Rows<Avx2Lanes>::row_times;
     using X86Rows<Avx2Lanes>::store_row;
+    using X86Rows<Avx2Lanes>::stream_row;
     using X86Rows<Avx2Lanes>::store_row_first;
 
     template <class Visit>

@@ -73,6 +73,8 @@ struct ScalarLanes {
         visit(0, Row{{a, b, c, c}});
     }
     static void store_row(float* to, const Row& row) { std::memcpy(to, row.values, sizeof row.values); }
+    /// The same past the cache, to an address that is a multiple of 16 bytes.
+    static void stream_row(float* to, const Row& row) { store_row(to, row); }
     /// Stores the first `count` values, 1 to 4.
     template <std::size_t count>
     static void store_row_first(float* to, const Row& row) {

@@ -24,6 +24,7 @@ struct X86Rows {
     }
     static Row row_times(Row row, const float* factors) { return _mm_mul_ps(row, _mm_loadu_ps(factors)); }
     static void store_row(float* to, Row row) { _mm_storeu_ps(to, row); }
+    static void stream_row(float* to, Row row) { _mm_stream_ps(to, row); }
     template <std::size_t count>
     static void store_row_first(float* to, Row row) {
         if constexpr (count == 4) {

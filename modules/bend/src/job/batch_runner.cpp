@@ -46,7 +46,7 @@ void quantize(Coefficients& k, const Bounds& bounds) noexcept {
 
 }  // namespace
 
-static_assert(sizeof(BatchRunner) <= std::size_t{64} << 10, "crowd.hpp states how much stack a run takes");
+static_assert(sizeof(BatchRunner) <= std::size_t{48} << 10, "crowd.hpp states how much stack a run takes");
 
 BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
     : batch_(batch),
@@ -87,7 +87,6 @@ void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last)
 
 void BatchRunner::finish() noexcept {
     if (member_count_ != 0) run_group(0, body_.vertex_count);
-    strips_.flush(plan_, kernels_);
 }
 
 void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
@@ -203,7 +202,6 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
     if (first >= last) return;
     if (plan_.has(WriteMode::staged)) return deform_staged(member, WriteMode::staged, first, last);
     if (plan_.has(WriteMode::records)) deform_records(member, first, last);
-    if (plan_.has(WriteMode::rows)) deform_rows(member, first, last);
     if (plan_.has(WriteMode::planes)) deform_planes(member, first, last);
 }
 
@@ -260,45 +258,6 @@ void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t f
     }
 }
 
-/// Where a pass writes its rows from `vertex` on: to the caller's memory, or to strips whose first vertex is
-/// `block_first`.
-RowOutput BatchRunner::row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,
-                                  std::size_t block_first) noexcept {
-    float* first[3] = {};
-    std::size_t stride[3] = {};
-    for (std::size_t s = 0; s < 3; ++s) {
-        if (pass.rows[s].first == nullptr) continue;
-        const Record& record = plan_.records()[pass.rows[s].record];
-        stride[s] = record.stride;
-        first[s] = record.in_strip
-                       ? strips_.at(plan_, pass.rows[s].record,
-                                    (vertex - block_first) * record.stride_floats() +
-                                        static_cast<std::size_t>(pass.rows[s].first - record.first))
-                       : pass.rows[s].first + (members_[member].vertex + vertex) * record.stride_floats();
-    }
-    return {first[0], first[1], first[2], stride[0], stride[1], stride[2]};
-}
-
-/// Kernels write rows: to the caller's records, or to strips that are then written as whole lines.
-void BatchRunner::deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept {
-    while (first < last) {
-        const std::size_t end = block_end(member, first, last, Strips::max_vertices);
-        const std::size_t vertex = members_[member].vertex + first;
-        strips_.begin(plan_, vertex);
-        for (const PassPlan& pass : plan_.passes()) {
-            if (pass.mode != WriteMode::rows) continue;
-            const std::size_t set = set_of(pass.pass);
-            each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
-                kernels_.row_kernel(squeezes(member, set)[region], pass.streams)(
-                    body_.columns, coefficients(member, set)[region], row_output(member, pass, from, first),
-                    from, to - from);
-            });
-        }
-        strips_.write(plan_, kernels_, end - first, end == body_.vertex_count);
-        first = end;
-    }
-}
-
 /// Kernels of all passes in the mode `mode` write planes of the stage, which is then written out.
 void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t first,
                                 std::size_t last) noexcept {
@@ -313,7 +272,8 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
                     to - from, Write::staged);
             });
         }
-        stage_.write(plan_, kernels_, mode, members_[member].vertex + first, end - first);
+        stage_.write(plan_, kernels_, mode, members_[member].vertex + first, end - first,
+                     end == body_.vertex_count);
         first = end;
     }
 }

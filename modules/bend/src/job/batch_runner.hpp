@@ -5,7 +5,6 @@
 #include "kernel/args.hpp"
 #include "output/output_plan.hpp"
 #include "output/staging_buffer.hpp"
-#include "output/strips.hpp"
 #include "pose/posed_group.hpp"
 
 #include <goffer/bend/crowd.hpp>
@@ -18,7 +17,7 @@ namespace goffer::bend {
 /// Deforms instances of a batch. What all of them share (kernels, columns, outputs) is looked up once, when
 /// the runner is made. Instances are taken in groups, whose coefficients fit into the first-level cache. Each
 /// group is set up, and its vertices are deformed block by block: the rest columns of a block stay in that
-/// cache, too, while they serve the whole group. Lives on the stack and takes at most 64 KB.
+/// cache, too, while they serve the whole group. Lives on the stack and takes at most 48 KB.
 class BatchRunner {
 public:
     /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
@@ -66,12 +65,9 @@ private:
     template <class Deform>
     void each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                       const Deform& deform) noexcept;
-    void deform_rows(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_staged(std::size_t member, WriteMode mode, std::size_t first, std::size_t last) noexcept;
     [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
                                         std::size_t most) const noexcept;
-    [[nodiscard]] RowOutput row_output(std::size_t member, const PassPlan& pass, std::size_t vertex,
-                                       std::size_t block_first) noexcept;
     template <class Deform>
     void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
@@ -95,7 +91,6 @@ private:
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;
     StagingBuffer stage_;
-    Strips strips_;
 };
 
 }  // namespace goffer::bend

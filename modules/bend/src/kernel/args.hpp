@@ -57,23 +57,10 @@ struct PlaneOutput {
     float* tangent[4];
 };
 
-/// Where a kernel call writes rows: vectors, or packed words, whose components follow each other. That of the
-/// j-th vertex of the call lies j * stride bytes behind the first.
-struct RowOutput {
-    float* position;
-    float* normal;
-    float* tangent;
-    std::size_t position_stride, normal_stride, tangent_stride;
-};
-
 /// Deforms `count` vertices of one region from vertex `first` on. May read widest_batch rest vertices from
 /// any of them. With Write::non_temporal, all planes must begin their cache lines at the same vertices.
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
                              std::size_t first, std::size_t count, Write write);
-
-/// The same to rows. Writes exactly the values asked for, into the cache.
-using RowKernel = void (*)(const RestColumns& rest, const Coefficients& k, const RowOutput& out,
-                           std::size_t first, std::size_t count);
 
 /// The same to records without gaps that hold the kernel's vectors and nothing else, the first one at
 /// `record`. With Write::non_temporal, vertex first + peeled must begin a cache line, from which on lines go
@@ -86,10 +73,14 @@ using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, f
 using Weave = void (*)(const float* const* planes, std::size_t lines, float* to, bool non_temporal);
 
 /// The most floats of a record that is woven.
-constexpr std::size_t max_woven = 13;
+constexpr std::size_t max_woven = 16;
 
 /// Copies `count` floats. `non_temporal`: whole lines past the cache, to be fenced by the caller.
 using CopyLines = void (*)(const float* from, float* to, std::size_t count, bool non_temporal);
+
+/// Writes `count` rows, each of one float from every plane, `stride` bytes apart, into the cache. May read a
+/// register beyond the end of planes.
+using WriteRows = void (*)(const float* const* planes, std::size_t count, float* first, std::size_t stride);
 
 /// The most instances that are set up together.
 constexpr std::size_t setup_width = 16;
@@ -124,17 +115,14 @@ using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::si
 /// One instruction set's kernels.
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
-    RowKernel rows[squeeze_count][stream_set_count];         ///< null where there is none
-    WeavingKernel weaving[squeeze_count][stream_set_count];  ///< likewise
-    Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null where there is none
+    WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
+    Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null below 3
     CopyLines copy_lines;
+    WriteRows write_rows[max_woven + 1];  ///< indexed by the floats of a row; null where there is none
     Setup setup;
 
     [[nodiscard]] PlaneKernel plane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
-    }
-    [[nodiscard]] RowKernel row_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
-        return rows[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
     }
     [[nodiscard]] WeavingKernel weaving_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];

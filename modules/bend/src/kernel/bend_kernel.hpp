@@ -79,71 +79,6 @@ void store_signs(const Results<L> (&results)[batches<L>], float* out, std::size_
     }
 }
 
-/// Addresses of rows at equal distances, asked for in order. Computed in groups of four, each address as one
-/// register plus a small multiple of another.
-template <class L>
-class RowCursor {
-public:
-    RowCursor(float* first, std::size_t stride) : at_(reinterpret_cast<std::byte*>(first)), stride_(stride) {}
-
-    /// The address of row `row`; call it for 0, 1, 2 and so on.
-    float* operator()(std::size_t row) {
-        if (row != 0 && row % 4 == 0) at_ += 4 * stride_;
-        return reinterpret_cast<float*>(at_ + row % 4 * stride_);
-    }
-
-private:
-    std::byte* at_;
-    std::size_t stride_;
-};
-
-/// Calls store(address, row) for each row of a unit, or for the first `count` if not `whole`. rows(results,
-/// part, visit) visits the rows of one register.
-template <class L, bool whole, class Rows, class Store>
-void store_rows(const Results<L> (&results)[batches<L>], float* first, std::size_t stride, std::size_t count,
-                const Rows& rows, const Store& store) {
-    using Single = typename L::Single;
-    RowCursor<L> row_at(first, stride);
-    std::size_t before = 0;
-    for (std::size_t b = 0; b < batches<L>; ++b) {
-        for (std::size_t part = 0; part < L::width / Single::width; ++part, before += Single::width) {
-            rows(results[b], part, [&](std::size_t row, typename Single::Row values) {
-                float* const at = row_at(before + row);
-                if (whole || before + row < count) store(at, values);
-            });
-        }
-    }
-}
-
-/// Stores a vector of each vertex as rows.
-template <class L, bool whole>
-void store_vectors(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*vector, float* first,
-                   std::size_t stride, std::size_t count) {
-    using Single = typename L::Single;
-    store_rows<L, whole>(
-        results, first, stride, count,
-        [&](const Results<L>& batch, std::size_t part, const auto& visit) {
-            const auto& [x, y, z] = (batch.*vector).component;
-            Single::for_rows(L::single(x, part), L::single(y, part), L::single(z, part), visit);
-        },
-        [](float* at, typename Single::Row row) { Single::template store_row_first<3>(at, row); });
-}
-
-/// Stores tangents with their signs as rows.
-template <class L, bool whole>
-void store_tangents(const Results<L> (&results)[batches<L>], float* first, std::size_t stride,
-                    std::size_t count) {
-    using Single = typename L::Single;
-    store_rows<L, whole>(
-        results, first, stride, count,
-        [&](const Results<L>& batch, std::size_t part, const auto& visit) {
-            const auto& [x, y, z] = batch.tangent.component;
-            Single::for_rows(L::single(x, part), L::single(y, part), L::single(z, part),
-                             L::single(batch.tangent_sign, part), visit);
-        },
-        [](float* at, typename Single::Row row) { Single::store_row(at, row); });
-}
-
 /// Returns where the last whole unit ends that has one of `vertices` and fits `room`. The unit at j is
 /// followed by the one at `next`.
 template <class L>
@@ -213,40 +148,6 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
             if constexpr (has_tangents(streams)) {
                 store_planes<L>(results, &Results<L>::tangent, out.tangent, j, count, write);
                 store_signs<L>(results, out.tangent[3], j, count, write);
-            }
-        });
-}
-
-/// Stores the rows of a unit whose first vertex is the j-th of the call.
-template <class L, StreamSet streams, bool whole>
-void store_row_streams(const Results<L> (&results)[batches<L>], const RowOutput& out, std::size_t j,
-                       std::size_t count) {
-    const auto behind = [](float* row, std::size_t bytes) {
-        return reinterpret_cast<float*>(reinterpret_cast<std::byte*>(row) + bytes);
-    };
-    store_vectors<L, whole>(results, &Results<L>::position, behind(out.position, j * out.position_stride),
-                            out.position_stride, count);
-    if constexpr (has_normals(streams) && streams != StreamSet::packed)
-        store_vectors<L, whole>(results, &Results<L>::normal, behind(out.normal, j * out.normal_stride),
-                                out.normal_stride, count);
-    if constexpr (has_tangents(streams))
-        store_tangents<L, whole>(results, behind(out.tangent, j * out.tangent_stride), out.tangent_stride,
-                                 count);
-}
-
-template <class L, Squeeze squeeze, StreamSet streams>
-GOFFER_FLATTENED void bend_to_rows(const RestColumns& columns, const Coefficients& coefficients,
-                                   const RowOutput& output, std::size_t first, std::size_t vertices) {
-    const RestColumns rest = columns;
-    const Coefficients k = coefficients;
-    const RowOutput out = output;
-    deform_units<L, squeeze, streams>(
-        rest, k, first, vertices, unit<L>,
-        [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
-            if (count == unit<L>) [[likely]] {
-                store_row_streams<L, streams, true>(results, out, j, count);
-            } else {
-                store_row_streams<L, streams, false>(results, out, j, count);
             }
         });
 }

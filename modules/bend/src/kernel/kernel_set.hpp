@@ -3,15 +3,18 @@
 
 #include "kernel/bend_kernel.hpp"
 #include "kernel/copy_kernel.hpp"
+#include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
+
+#include <utility>
 
 namespace goffer::bend {
 
 /// Which kernels an instruction set has beside those that write planes.
 enum class RecordKernels : unsigned char {
     yes,
-    /// Records are copied from the staging buffer, which takes up to a quarter longer: for instruction sets
-    /// that few run, since these kernels are two thirds of the code.
+    /// Records are woven from the staging buffer, which takes up to a quarter longer: for instruction sets
+    /// that few run, since these kernels are half of the code.
     no,
 };
 
@@ -19,11 +22,7 @@ template <class L, RecordKernels records, Squeeze squeeze, StreamSet streams>
 constexpr void add_kernels(KernelSet& set) {
     set.planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
         &bend_to_planes<L, squeeze, streams>;
-    if constexpr (records == RecordKernels::no) return;
-    if constexpr (squeeze != Squeeze::shaped)
-        set.rows[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
-            &bend_to_rows<L, squeeze, streams>;
-    if constexpr (streams != StreamSet::positions_normals_tangents)
+    if constexpr (records == RecordKernels::yes && streams != StreamSet::positions_normals_tangents)
         set.weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)] =
             &bend_to_records<L, squeeze, streams>;
 }
@@ -36,6 +35,16 @@ constexpr void add_kernels(KernelSet& set) {
     add_kernels<L, records, squeeze, StreamSet::packed>(set);
 }
 
+template <class L, int... n>
+constexpr void add_row_writers(KernelSet& set, std::integer_sequence<int, n...>) {
+    ((set.write_rows[n] = &write_rows<L, n>), ...);
+}
+
+template <class L, std::size_t... n>
+constexpr void add_weaves(KernelSet& set, std::index_sequence<n...>) {
+    ((set.weave[n + 3] = &weave<L, static_cast<int>(n + 3)>), ...);
+}
+
 /// All kernels of an instruction set. Those that deform vertices use `L`, the others its single registers.
 template <class L, RecordKernels records = RecordKernels::yes>
 constexpr KernelSet kernel_set() {
@@ -45,13 +54,9 @@ constexpr KernelSet kernel_set() {
     add_kernels<L, records, Squeeze::plain>(set);
     add_kernels<L, records, Squeeze::relative>(set);
     add_kernels<L, records, Squeeze::shaped>(set);
-    set.weave[3] = &weave<Single, 3>;
-    set.weave[6] = &weave<Single, 6>;
-    set.weave[7] = &weave<Single, 7>;
-    set.weave[9] = &weave<Single, 9>;
-    set.weave[10] = &weave<Single, 10>;
-    set.weave[13] = &weave<Single, 13>;
+    add_weaves<Single>(set, std::make_index_sequence<max_woven - 2>());
     set.copy_lines = &copy_lines<Single>;
+    add_row_writers<Single>(set, std::integer_sequence<int, 3, 4, 6, 7, 9, 10, 13>());
     set.setup = &set_up<Single>;
     return set;
 }

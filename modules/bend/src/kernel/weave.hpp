@@ -10,7 +10,8 @@
 /// For odd N, value i of plane c belongs at place N i + c of the records, which is lane (N i + c) mod width
 /// of its batch. N and the width have no common factor, so one permutation takes all values of a plane to
 /// their lanes, and blending alone then makes each batch of records. For even N the same is done with pairs
-/// of planes, 2 c and 2 c + 1.
+/// of planes, 2 c and 2 c + 1. Where N is a multiple of 4, records are rows of four, which a transposition
+/// makes.
 
 namespace goffer::bend {
 
@@ -71,12 +72,28 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_te
     }
 }
 
+/// Stores a register of each plane as records of rows of four.
+template <class L, int N>
+void store_rows(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
+    typename L::Row rows[N / 4][L::width];
+    for (std::size_t g = 0; g < N / 4; ++g) {
+        const auto keep = [&](std::size_t i, typename L::Row row) { rows[g][i] = row; };
+        L::for_rows(planes[4 * g], planes[4 * g + 1], planes[4 * g + 2], planes[4 * g + 3], keep);
+    }
+    for (std::size_t i = 0; i < L::width; ++i) {
+        for (std::size_t g = 0; g < N / 4; ++g, to += 4)
+            non_temporal ? L::stream_row(to, rows[g][i]) : L::store_row(to, rows[g][i]);
+    }
+}
+
 /// Stores a register of each plane as records of N floats.
 template <class L, int N>
 void store_records(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
     constexpr int W = static_cast<int>(L::width);
     if constexpr (W == 1) {
         for (int c = 0; c < N; ++c) L::store(to + c, planes[c]);
+    } else if constexpr (N % 4 == 0) {
+        store_rows<L, N>(planes, to, non_temporal);
     } else if constexpr (N % 2 == 1) {
         spread_and_store<L, N, 1, 0>(planes, to, non_temporal, std::make_integer_sequence<int, N>());
     } else {

@@ -3,10 +3,10 @@
 
 #include "body/body_data.hpp"
 #include "kernel/lines.hpp"
-#include "output/strips.hpp"
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 namespace goffer::bend {
 namespace {
@@ -61,11 +61,10 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Whether there are kernels that write the records of a pass; where there are none, it is staged.
-bool has_kernels(const KernelSet& kernels, const BodyData& body, const PassPlan& pass) noexcept {
-    const Squeeze squeeze = body.columns.scale == nullptr ? Squeeze::plain : Squeeze::shaped;
-    return (pass.mode != WriteMode::rows || kernels.row_kernel(squeeze, pass.streams) != nullptr) &&
-           (pass.mode != WriteMode::records || kernels.weaving_kernel(squeeze, pass.streams) != nullptr);
+/// Whether there are kernels that write the records of a pass.
+bool has_kernels(const KernelSet& kernels, const BodyData& body, StreamSet streams) noexcept {
+    return kernels.weaving_kernel(body.columns.scale == nullptr ? Squeeze::plain : Squeeze::shaped,
+                                  streams) != nullptr;
 }
 
 const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
@@ -84,7 +83,7 @@ bool has_tangents(const PassPlan& pass) noexcept {
 }  // namespace
 
 std::size_t Record::to_line(std::size_t vertex) const noexcept {
-    const float* at = first + vertex * stride_floats();
+    const float* at = first - lead + vertex * stride_floats();
     if (plane()) return floats_to_line<Record>(at);
     for (std::size_t peeled = 0; peeled < line_floats; ++peeled, at += stride_floats())
         if (floats_to_line<Record>(at) == 0) return peeled;
@@ -117,13 +116,13 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
     }
     if (!batch.packed.empty()) add(Pass::packed, StreamSet::packed, 0, words_of(batch.packed));
     find_records(batch.scratch_gaps);
-    find_strips();
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
         pass.mode = set_planes(pass, batch) ? WriteMode::planes
-                    : set_rows(pass, batch) ? mode_of_rows(pass)
-                                            : WriteMode::staged;
-        if (!has_kernels(kernels, *batch.body->data(), pass)) pass.mode = WriteMode::staged;
+                    : set_rows(pass, batch) && fills_record(pass) &&
+                            has_kernels(kernels, *batch.body->data(), pass.streams)
+                        ? WriteMode::records
+                        : WriteMode::staged;
         staged |= pass.mode == WriteMode::staged;
     }
     if (staged) stage_all();
@@ -135,26 +134,17 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
 
 void OutputPlan::stage_all() noexcept {
     for (PassPlan& pass : std::span(passes_, pass_count_)) pass.mode = WriteMode::staged;
-    for (Record& record : std::span(records_, record_count_)) {
-        record.in_lines &= !record.has_gaps();
-        record.in_strip = false;
-    }
 }
 
-/// Records without gaps are woven from planes in registers, which is faster than narrow stores: by the pass'
-/// own kernels if the record holds the values of the pass, in its order, and nothing else; otherwise from the
-/// stage.
-WriteMode OutputPlan::mode_of_rows(const PassPlan& pass) const noexcept {
-    WriteMode mode = WriteMode::rows;
-    for (const RowStream& stream : pass.rows) {
-        if (stream.first != nullptr && !records_[stream.record].has_gaps()) mode = WriteMode::staged;
-    }
-    if (mode == WriteMode::rows || has_tangents(pass)) return mode;
+/// Whether the pass' own kernels can write its record: it holds the values of the pass, in its order, and
+/// nothing else. All others are written from the stage.
+bool OutputPlan::fills_record(const PassPlan& pass) const noexcept {
+    if (has_tangents(pass)) return false;
     const Record& record = records_[pass.rows[0].record];
     const bool alone = !record.has_gaps() && record.first == pass.rows[0].first &&
                        record.floats == values_of(pass.streams) &&
                        (!has_normals(pass) || pass.rows[1].first == record.first + 3);
-    return alone && (!non_temporal_ || record.to_line(0) != line_floats) ? WriteMode::records : mode;
+    return alone && (!non_temporal_ || record.to_line(0) != line_floats);
 }
 
 /// Passes that share a record have the same mode.
@@ -190,22 +180,23 @@ void OutputPlan::find_records(bool scratch_gaps) noexcept {
         record.floats = offset(to - 1) + 1;
         // Components of one struct may end up in several records; each writes in the gaps of the others.
         const bool alone = !same_stride(to) && (from == 0 || components[from - 1].stride != first.stride);
-        record.in_lines = non_temporal_ && (!record.has_gaps() || (scratch_gaps && alone));
+        record.woven = record.plane() || !record.has_gaps() || (scratch_gaps && alone);
+        if (record.woven && !record.plane()) set_woven(record);
+        record.in_lines = non_temporal_ && record.woven;
     }
 }
 
-/// Assigns strips to records with gaps. Those that no room is left for are written into the cache.
-void OutputPlan::find_strips() noexcept {
-    std::size_t taken = 0;
-    for (Record& record : std::span(records_, record_count_)) {
-        if (!record.in_lines || !record.has_gaps()) continue;
-        const std::size_t floats = Strips::floats_of(record.stride_floats());
-        record.in_lines =
-            record.stride_floats() <= Strips::longest_record && taken + floats <= Strips::max_floats;
-        record.in_strip = record.in_lines;
-        record.strip = taken;
-        taken += record.in_lines ? floats : 0;
-    }
+/// Finds where woven records begin, so that some of them begin cache lines; their first and last gaps are
+/// then not their own first and last floats. Records that are too long, or whose values would straddle two of
+/// these, are not woven.
+void OutputPlan::set_woven(Record& record) const noexcept {
+    const std::size_t floats = record.stride_floats();
+    record.woven = floats <= max_woven;
+    if (!record.has_gaps()) return;
+    const std::size_t step = std::gcd(floats, line_floats);
+    const std::size_t lead = (line_floats - floats_to_line<Record>(record.first)) % step;
+    record.woven &= lead + record.floats <= floats;
+    if (record.woven) record.lead = lead;
 }
 
 /// Sets pass.planes, if all values of the pass go to planes that kernels can write directly.

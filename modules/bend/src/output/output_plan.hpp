@@ -25,10 +25,9 @@ constexpr std::size_t max_values = 16;
 enum class WriteMode : std::uint8_t {
     planes,   ///< kernels write the caller's planes
     records,  ///< kernels write the caller's records, which have no gaps and hold this pass alone
-    rows,     ///< kernels write rows of the caller's records or of a strip
     staged,   ///< kernels write planes of a stage, which is then copied to the caller's memory
 };
-constexpr std::size_t write_mode_count = 4;
+constexpr std::size_t write_mode_count = 3;
 
 /// Where one value of each vertex goes. (Has no initial values, nor has Record: plans hold more than they
 /// use.)
@@ -44,9 +43,9 @@ struct Record {
     float* first;           ///< vertex 0's first value
     std::size_t stride;     ///< bytes
     std::size_t floats;     ///< from the first value to the end of the last
-    bool in_lines;          ///< goes past the cache: it has no gaps, or gaps that may be overwritten
-    bool in_strip;          ///< in_lines, and assembled in a strip
-    std::size_t strip;      ///< where its strip begins in Strips, floats
+    std::size_t lead;       ///< floats before `first` from which on all are written: gaps that may be
+    bool woven;             ///< all floats are written, as records of `stride`: it has no gaps that must stay
+    bool in_lines;          ///< woven, and goes past the cache
     WriteMode mode;         ///< that of the passes that write it
     std::size_t component;  ///< its components are [component, component_end)
     std::size_t component_end;
@@ -61,7 +60,7 @@ struct Record {
     [[nodiscard]] std::size_t to_line(std::size_t vertex) const noexcept;
 };
 
-/// A stream of a pass, as rows.
+/// A stream of a pass whose components follow each other.
 struct RowStream {
     float* first = nullptr;  ///< row of vertex 0; null if the pass has no such stream
     std::size_t record = 0;  ///< index of the record that it is a part of
@@ -72,8 +71,7 @@ struct PassPlan {
     StreamSet streams = StreamSet::positions;
     std::size_t value = 0;    ///< index of its first value among those of all passes
     PlaneOutput planes = {};  ///< for WriteMode::planes, from vertex 0 on
-    RowStream rows[3] =
-        {};  ///< for WriteMode::rows and records: positions or packed words, normals, tangents
+    RowStream rows[3] = {};   ///< for WriteMode::records: positions or packed words, normals, tangents
     WriteMode mode = WriteMode::staged;
 };
 
@@ -103,13 +101,13 @@ private:
     template <std::size_t N>
     void add(Pass pass, StreamSet streams, std::size_t value, const Stream<N>& stream) noexcept;
     void find_records(bool scratch_gaps) noexcept;
-    void find_strips() noexcept;
+    void set_woven(Record& record) const noexcept;
     void stage_all() noexcept;
     [[nodiscard]] bool set_planes(PassPlan& pass, const Batch& batch) const noexcept;
     template <std::size_t N>
     [[nodiscard]] bool set_rows(RowStream& rows, const Stream<N>& stream) const noexcept;
     [[nodiscard]] bool set_rows(PassPlan& pass, const Batch& batch) const noexcept;
-    [[nodiscard]] WriteMode mode_of_rows(const PassPlan& pass) const noexcept;
+    [[nodiscard]] bool fills_record(const PassPlan& pass) const noexcept;
     [[nodiscard]] WriteMode mode_of(const Record& record) const noexcept;
 
     PassPlan passes_[pass_count];

@@ -2,13 +2,18 @@
 #include "output/staging_buffer.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace goffer::bend {
 
 StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
-    const std::size_t room = max_floats / std::max<std::size_t>(plan.value_count(), 1) - spare;
+    const std::size_t planes = plan.value_count() + 1;
+    const std::size_t room = max_floats / planes - spare;
     capacity_ = std::min(max_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
+    float* const zeros = planes_ + plan.value_count() * stride_;
+    zeros_ = zeros;
+    std::fill_n(zeros, capacity_, 0.0f);
 }
 
 PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
@@ -23,19 +28,38 @@ PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noex
 }
 
 void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode,
-                          std::size_t vertex, std::size_t count) const noexcept {
+                          std::size_t vertex, std::size_t count, bool ends) const noexcept {
     for (const Record& record : plan.records()) {
         if (record.mode != mode) continue;
         const std::span<const Component> components = plan.components(record);
         if (record.plane()) {
             kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
                                plan.non_temporal());
-        } else if (!record.has_gaps() && components.size() <= max_woven &&
-                   kernels.weave[components.size()] != nullptr) {
-            weave(record, components, kernels, vertex, count, plan.non_temporal());
+        } else if (record.woven && kernels.weave[record.stride_floats()] != nullptr) {
+            weave(record, components, kernels, vertex, count, ends);
         } else {
-            write_values(record, components, vertex, 0, count);
+            write_rows(record, components, kernels, vertex, count);
         }
+    }
+}
+
+/// Components that follow each other are rows, as many at a time as there is a kernel for.
+void StagingBuffer::write_rows(const Record& record, std::span<const Component> components,
+                               const KernelSet& kernels, std::size_t vertex,
+                               std::size_t count) const noexcept {
+    while (!components.empty()) {
+        std::size_t run = 1;
+        while (run < components.size() && components[run].first == components[0].first + run) ++run;
+        while (run > 1 && kernels.write_rows[run] == nullptr) --run;
+        if (run == 1) {
+            write_values(record, components.first(1), vertex, 0, count);
+        } else {
+            const float* planes[max_values];
+            for (std::size_t c = 0; c < run; ++c) planes[c] = planes_ + components[c].value * stride_;
+            kernels.write_rows[run](planes, count, components[0].first + vertex * record.stride_floats(),
+                                    record.stride);
+        }
+        components = components.subspan(run);
     }
 }
 
@@ -51,19 +75,27 @@ void StagingBuffer::write_values(const Record& record, std::span<const Component
 
 void StagingBuffer::weave(const Record& record, std::span<const Component> components,
                           const KernelSet& kernels, std::size_t vertex, std::size_t count,
-                          bool non_temporal) const noexcept {
-    float* const to = record.first + vertex * record.stride_floats();
+                          bool ends) const noexcept {
+    const std::size_t floats = record.stride_floats();
+    bool non_temporal = record.in_lines;
     std::size_t peeled = 0;  // vertices before the first that begins a line
     if (non_temporal) {
         peeled = record.to_line(vertex);
         if (peeled == line_floats) non_temporal = false, peeled = 0;
-        peeled = std::min(peeled, count);
     }
+    // What lies before the first vertex may be another range's, and what lies behind the last one nobody's.
+    if (record.lead > 0 && peeled == 0) peeled = line_floats / std::gcd(floats, line_floats);
+    const bool keeps_last = ends && record.lead + record.floats < floats;
+    const std::size_t most = count - (keeps_last ? 1 : 0);
+    peeled = std::min(peeled, most);
     const float* planes[max_woven];
-    for (std::size_t c = 0; c < components.size(); ++c)
-        planes[c] = planes_ + components[c].value * stride_ + peeled;
-    const std::size_t lines = (count - peeled) / line_floats;
-    kernels.weave[components.size()](planes, lines, to + peeled * record.stride_floats(), non_temporal);
+    std::fill_n(planes, floats, zeros_);
+    for (const Component& component : components)
+        planes[record.lead + static_cast<std::size_t>(component.first - record.first)] =
+            planes_ + component.value * stride_ + peeled;
+    const std::size_t lines = (most - peeled) / line_floats;
+    float* const to = record.first - record.lead + (vertex + peeled) * floats;
+    kernels.weave[floats](planes, lines, to, non_temporal);
     write_values(record, components, vertex, 0, peeled);
     write_values(record, components, vertex, peeled + lines * line_floats, count);
 }

@@ -11,7 +11,7 @@ namespace goffer::bend {
 
 /// A block of one instance's vertices as planes in the first-level cache. Kernels write it where they cannot
 /// write the outputs themselves: planes that cannot be written side by side, lines that two regions share,
-/// records of several passes, components in another order.
+/// records of several passes or with gaps, components in another order.
 class StagingBuffer {
 public:
     /// Has a plane for each value of the plan.
@@ -24,26 +24,31 @@ public:
     [[nodiscard]] PlaneOutput output(const PassPlan& pass, std::size_t vertex) noexcept;
 
     /// Writes the first `count` vertices of the block to the caller's buffer, from its vertex `vertex` on:
-    /// the values of passes in the mode `mode`.
+    /// the values of passes in the mode `mode`. `ends`: the last of them is the last of the instance, and the
+    /// gap behind it must not be written.
     void write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode, std::size_t vertex,
-               std::size_t count) const noexcept;
+               std::size_t count, bool ends) const noexcept;
 
 private:
+    /// Writes all of them, and leaves gaps as they are.
+    void write_rows(const Record& record, std::span<const Component> components, const KernelSet& kernels,
+                    std::size_t vertex, std::size_t count) const noexcept;
     /// Writes the vertices [first, last) of the block, value by value.
     void write_values(const Record& record, std::span<const Component> components, std::size_t vertex,
                       std::size_t first, std::size_t last) const noexcept;
-    /// Writes all of them, as records without gaps.
+    /// Writes all of them, and zeros into gaps, but for those before the first and behind the last.
     void weave(const Record& record, std::span<const Component> components, const KernelSet& kernels,
-               std::size_t vertex, std::size_t count, bool non_temporal) const noexcept;
+               std::size_t vertex, std::size_t count, bool ends) const noexcept;
 
-    static constexpr std::size_t max_floats = 3072;
+    static constexpr std::size_t max_floats = 3392;
     static constexpr std::size_t max_vertices = 256;
     // For the whole units that kernels write, and so that planes begin at different places of the cache.
     static constexpr std::size_t spare = max_unit + line_floats;
-    static_assert(max_floats / max_values > spare + 2 * line_floats);
+    static_assert(max_floats / (max_values + 1) > spare + 2 * line_floats);
 
     std::size_t capacity_;
     std::size_t stride_;  // floats from one plane to the next
+    const float* zeros_;  // a plane of zeros, behind those of values
     alignas(64) float planes_[max_floats];
 };
 

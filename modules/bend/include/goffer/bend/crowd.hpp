@@ -107,9 +107,10 @@ struct Batch {
     std::size_t vertex_step = 0;
 
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
-    /// may hold data of the caller's. Set this where they do not. Stores past the cache can then write
-    /// records as whole cache lines, except for bodies with a shape, whose gaps stay untouched and cost the
-    /// same. Bytes before an instance's first output and behind its last one stay untouched in any case.
+    /// may hold data of the caller's. Set this where they do not: records of up to 64 bytes are then written
+    /// as whole cache lines, with zeros in the gaps, which takes less time than to keep them. (Records whose
+    /// outputs do not begin where lines can be cut keep their gaps all the same: align them as they are
+    /// large.) Bytes before an instance's first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
 };
 
@@ -171,7 +172,7 @@ struct CrowdResult {
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
 /// taken as at rest, and transforms that are not give outputs that are not. Does not allocate, lock or log;
-/// takes up to 68 KB of stack. Thread-safe where outputs do not overlap.
+/// takes up to 52 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
 /// split, the number of threads, an instance's neighbors or `stores`.

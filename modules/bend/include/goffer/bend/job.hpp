@@ -66,10 +66,8 @@ struct DeformJob {
     std::span<const Pose> previous_poses = {};  ///< as `poses`
     glm::mat4x3 previous_transform{1};          ///< as `transform`
 
-    /// As Batch::scratch_gaps, for batch_of(job). A job that is run alone is stored into the cache and keeps
-    /// its gaps.
-    bool scratch_gaps = false;
-    Isa isa = Isa::automatic;  ///< kernels to use; must run here
+    bool scratch_gaps = false;  ///< as Batch::scratch_gaps
+    Isa isa = Isa::automatic;   ///< kernels to use; must run here
 };
 
 /// Finds the first fault of `job`. A job without fault makes run() neither read nor write out of bounds, if
@@ -85,7 +83,7 @@ struct DeformResult {
 
 /// Deforms all vertices on the calling thread. `job` must validate, except for its poses, weight and
 /// transforms, which may hold any bits: a weight counts as the nearest in 0..1 (a NaN as 0), and transforms
-/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 68 KB of stack.
+/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 52 KB of stack.
 /// Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone. Processors of
