@@ -24,19 +24,6 @@ typedef struct Vertex {
     float position[3], normal[3];
 } Vertex;
 
-static void* read_file(const char* name, size_t* size) {
-    FILE* file = fopen(name, "rb");
-    long end = 0;
-    void* bytes = NULL;
-    if (file == NULL) return NULL;
-    if (fseek(file, 0, SEEK_END) == 0 && (end = ftell(file)) > 0 && (bytes = malloc((size_t)end)) != NULL) {
-        rewind(file);
-        *size = fread(bytes, 1, (size_t)end, file);
-    }
-    fclose(file);
-    return bytes;
-}
-
 /* Each worm bends its own way, and stands on its own spot. */
 static void pose_worms(Worm* worms, const goffer_body* body) {
     const double step = 1.5 * goffer_body_length(body);
@@ -105,17 +92,14 @@ static int run(const goffer_body* body, goffer_error* error) {
 }
 
 int main(int argc, char** argv) {
-    goffer_error error = {"not enough memory, or no file"};
-    size_t size = 0;
-    void* bytes = argc == 2 ? read_file(argv[1], &size) : NULL;
-    goffer_file* file =
-        bytes != NULL ? goffer_file_load(bytes, size, GOFFER_VERIFY_EVERYTHING, 1, &error) : NULL;
+    goffer_error error = {"not enough memory"};
+    goffer_file* file = NULL;
     int good = 0;
-    free(bytes);
     if (argc != 2) {
         fprintf(stderr, "usage: goffer_c_sample FILE.goffer\n");
         return 2;
     }
+    file = goffer_file_open(argv[1], GOFFER_VERIFY_EVERYTHING, &error);
     if (file != NULL) good = run(goffer_file_body(file, 0), &error);
     goffer_file_free(file);
     if (!good) fprintf(stderr, "goffer_c_sample: %s: %s\n", argv[1], error.text);

@@ -172,8 +172,9 @@ public:
         Hash hash = hats_;
         hash.add(crowd_.vertices());
         hash.add(crowd_.previous_positions());
-        std::printf("%u creatures, %zu files, %u frames; %u came and went\n", options_.creatures,
-                    options_.files.size(), options_.frames, next_ - options_.creatures);
+        std::printf("%u creatures of %zu file%s, %u frames; %u came and went\n", options_.creatures,
+                    options_.files.size(), options_.files.size() == 1 ? "" : "s", options_.frames,
+                    next_ - options_.creatures);
         const auto per_frame = [&](std::size_t sum) {
             return static_cast<double>(sum) / static_cast<double>(options_.frames);
         };

@@ -171,6 +171,15 @@ TEST_CASE("C: a body file") {
     CHECK(goffer_file_load(bytes.data(), bytes.size(), 7, 1, &error) == nullptr);
     CHECK(std::string(error.text).starts_with("verify: "));
     CHECK(goffer_file_load(nullptr, 5, GOFFER_VERIFY_LAYOUT, 0, &error) == nullptr);
+
+    goffer_file* opened = goffer_file_open(GOFFER_SOURCE_DIR "/tests/data/cylinder_v1.goffer",
+                                           GOFFER_VERIFY_EVERYTHING, &error);
+    REQUIRE(opened != nullptr);
+    CHECK(goffer_file_level_count(opened) == 2);
+    goffer_file_free(opened);
+    CHECK(goffer_file_open("none.goffer", GOFFER_VERIFY_EVERYTHING, &error) == nullptr);
+    CHECK(std::string(error.text) == "body file: there is none of that name");
+    CHECK(goffer_file_open(nullptr, GOFFER_VERIFY_EVERYTHING, &error) == nullptr);
 }
 
 TEST_CASE("C: what a shader reads is what C++ writes") {

@@ -138,6 +138,21 @@ TEST_CASE("a view of a member finds it in every struct, inherited, constant or a
     CHECK(strided(all, &Worm::ends).at(3) == own[3].ends.data());
 }
 
+TEST_CASE("a view of members of type bool has bytes") {
+    struct Entity {
+        float angle;
+        bool visible;
+    };
+    const Entity entities[] = {{0, true}, {1, false}, {2, true}};
+    const StridedView<std::uint8_t> visible = strided(std::span(entities), &Entity::visible);
+    CHECK(visible[0] == 1);
+    CHECK(visible[1] == 0);
+    CHECK(visible[2] == 1);
+    const Entity* const pages[] = {&entities[0]};
+    const StridedView<std::uint8_t> paged_visible = paged(pages, 4, 3, &Entity::visible);
+    CHECK(paged_visible[2] == 1);
+}
+
 TEST_CASE("a view of pages finds elements on every page, up to a last one that is not full") {
     for (const std::size_t page_size : {1u, 2u, 8u, 1024u}) {
         for (const std::size_t count : {1u, 7u, 8u, 9u, 17u}) {

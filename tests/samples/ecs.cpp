@@ -50,7 +50,7 @@ std::string line_of(const std::string& out, const std::string& begin) {
 TEST_CASE("ecs: worlds and threads draw the same, and frames do not allocate") {
     const Game game;
     const std::string plain = game.play("arrays", "--threads 1 " + three);
-    CHECK(line_of(plain, "300 creatures") == "300 creatures, 3 files, 40 frames; 245 came and went");
+    CHECK(line_of(plain, "300 creatures") == "300 creatures of 3 files, 40 frames; 245 came and went");
     const std::string drawn = line_of(plain, "creatures per frame:");
     CHECK(std::regex_match(
         drawn,

@@ -130,6 +130,8 @@ enum { GOFFER_VERIFY_EVERYTHING, GOFFER_VERIFY_CHECKSUM, GOFFER_VERIFY_LAYOUT };
  * at a multiple of 64 bytes, as a mapped file's do, and stay as they are until goffer_file_free(). */
 GOFFER_API goffer_file* goffer_file_load(const void* bytes, size_t size, int verify, int copy,
                                          goffer_error* error);
+/* Reads the file of that name. */
+GOFFER_API goffer_file* goffer_file_open(const char* name, int verify, goffer_error* error);
 /* Frees its bodies too. */
 GOFFER_API void goffer_file_free(goffer_file* file);
 

@@ -26,20 +26,33 @@ bend::Verify verify_of(int verify) {
     return ways[verify];
 }
 
+/// Throws what the fault says where nothing was loaded.
+goffer_file* handle_of(std::optional<bend::BodyFile> loaded, const bend::BodyFileFault& fault) {
+    if (!loaded) throw std::invalid_argument(bend::describe(fault).c_str());
+    auto file = std::make_unique<goffer_file>(goffer_file{std::move(*loaded), {}});
+    file->bodies.resize(file->file.levels.size());
+    for (std::size_t i = 0; i < file->bodies.size(); ++i) file->bodies[i].body = &file->file.levels[i].body;
+    return file.release();
+}
+
 }  // namespace
 
 goffer_file* goffer_file_load(const void* bytes, size_t size, int verify, int copy, goffer_error* error) {
-    return guarded(error, [&]() -> goffer_file* {
+    return guarded(error, [&] {
         const std::span all(static_cast<const std::byte*>(bytes), bytes != nullptr ? size : 0);
+        const auto load = copy != 0 ? bend::load_copy : bend::load;
         bend::BodyFileFault fault;
-        std::optional<bend::BodyFile> loaded =
-            (copy != 0 ? bend::load_copy : bend::load)(all, &fault, verify_of(verify));
-        if (!loaded) throw std::invalid_argument(bend::describe(fault).c_str());
-        auto file = std::make_unique<goffer_file>(goffer_file{std::move(*loaded), {}});
-        file->bodies.resize(file->file.levels.size());
-        for (std::size_t i = 0; i < file->bodies.size(); ++i)
-            file->bodies[i].body = &file->file.levels[i].body;
-        return file.release();
+        std::optional<bend::BodyFile> loaded = load(all, &fault, verify_of(verify));
+        return handle_of(std::move(loaded), fault);
+    });
+}
+
+goffer_file* goffer_file_open(const char* name, int verify, goffer_error* error) {
+    return guarded(error, [&] {
+        if (name == nullptr) throw std::invalid_argument("name: null");
+        bend::BodyFileFault fault;
+        std::optional<bend::BodyFile> loaded = bend::load_file(name, &fault, verify_of(verify));
+        return handle_of(std::move(loaded), fault);
     });
 }
 

@@ -56,10 +56,12 @@ struct StridedView {
 
 namespace detail {
 
-/// The type of a member, or of its elements where it is an array.
+/// The type of a member, or of its elements where it is an array. A bool is read as the byte that it is.
 template <class M>
 struct Element {
-    using Type = std::remove_const_t<M>;
+    static_assert(sizeof(bool) == 1);
+    using Type = std::conditional_t<std::is_same_v<std::remove_const_t<M>, bool>, std::uint8_t,
+                                    std::remove_const_t<M>>;
     static constexpr std::uint32_t count = 1;
 };
 template <class M, std::size_t N>
