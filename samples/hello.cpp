@@ -4,6 +4,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <cstdio>
+#include <exception>
 
 int main() try {
     using namespace goffer;

@@ -87,7 +87,7 @@ TEST_CASE("a socket goes where the vertex at its place goes") {
         for (std::size_t i = 0; i < sockets.size(); ++i) {
             REQUIRE(glm::length(glm::dvec3(frames[i][3]) - out.position(vertices[i])) < 2e-6 * size);
             REQUIRE(frames[i][3] == same[i][3]);
-            const glm::dmat3 a(glm::mat3(frames[i]));
+            const glm::dmat3 a{glm::mat3(frames[i])};
             const glm::dmat3 unit = glm::transpose(a) * a;
             for (int c = 0; c < 3; ++c)
                 for (int r = 0; r < 3; ++r) REQUIRE(std::fabs(unit[c][r] - (c == r)) < 2e-6);

@@ -142,6 +142,10 @@ TEST_CASE("C: instruction set and stores are the caller's choice") {
         goffer_crowd_run(crowd);
         CHECK(same_bits(expected, out));
     }
+    goffer_bounds box;
+    goffer_crowd_bounds(crowd, 0, &box);
+    const bend::Bounds same = bend::bounds(scalar);
+    CHECK(std::memcmp(&box, &same, sizeof box) == 0);
     goffer_crowd_set_isa(crowd, -1);
     CHECK(goffer_crowd_validate(crowd, &error) == 0);
     goffer_crowd_free(crowd);

@@ -13,6 +13,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -76,7 +78,7 @@ private:
 Output shaded(const bend::DeformJob& job) {
     const std::size_t count = job.body->vertex_count();
     const Attributes attributes(*job.body);
-    std::vector<bend::Coefficients> coefficients(job.body->region_count());
+    std::vector<bend::Coefficients> coefficients(job.body->region_count(), unset());
     bend::set_up(batch_of(job), coefficients, job.isa);
     shader::coefficients = coefficients.data();
     Output out(count);
@@ -175,13 +177,23 @@ TEST_CASE("set_up: every instance, whatever the masks say, and previous poses") 
     batch.poses = {.data = poses.data(), .count = instances, .stride = 3 * sizeof(bend::Pose)};
     batch.previous_poses = {.data = previous.data(), .count = instances, .stride = 3 * sizeof(bend::Pose)};
     batch.visible = strided(std::span(hidden));
-    std::vector<bend::Coefficients> now(3 * instances), before(3 * instances), one(3);
+    std::vector<float> weights(instances);
+    std::vector<glm::mat4x3> transforms(instances);
+    for (std::size_t i = 0; i < instances; ++i) {
+        weights[i] = i % 4 == 0 ? 0.0f : static_cast<float>(uniform(random, 0, 1));
+        transforms[i] = random_transform(random, 1);
+    }
+    batch.wrinkle_weights = strided(std::span(weights));
+    batch.transforms = batch.previous_transforms = strided(std::span(transforms));
+    std::vector<bend::Coefficients> now(3 * instances, unset()), before(3 * instances, unset()), one(3);
     bend::set_up(batch, now);
     bend::set_up_previous(batch, before);
     for (std::size_t i = 0; i < instances; ++i) {
         CAPTURE(i);
         const std::size_t element = instances - 1 - i;
         bend::DeformJob job{.body = &body, .poses = std::span(poses).subspan(3 * element, 3)};
+        job.wrinkle_weight = weights[element];
+        job.transform = transforms[element];
         bend::set_up(batch_of(job), one);
         REQUIRE(std::memcmp(one.data(), &now[3 * i], 3 * sizeof one[0]) == 0);
         job.poses = std::span(previous).subspan(3 * element, 3);

@@ -26,6 +26,11 @@ struct Expected {
     }
 };
 
+/// Takes the larger of two differences; NaN counts as the largest of all.
+inline void take_worst(double& worst, double value) {
+    worst = !(value <= worst) ? value : worst;
+}
+
 /// The largest differences; NaN counts as the largest of all.
 struct Worst {
     double position = 0;  // of L
@@ -37,25 +42,22 @@ struct Worst {
     Worst() = default;
     Worst(const Expected& expected, const Output& out, double length) {
         for (std::size_t i = 0; i < expected.positions.size(); ++i) {
-            take(position, glm::length(out.position(i) - expected.positions[i]) / length);
-            take(normal, angle_between(out.normal(i), expected.normals[i]));
-            take(tangent, angle_between(out.tangent(i), expected.tangents[i]));
-            take(unit, std::fabs(glm::length(out.normal(i)) - 1));
-            take(unit, std::fabs(glm::length(out.tangent(i)) - 1));
-            take(skew, std::fabs(glm::dot(out.normal(i), out.tangent(i))));
+            take_worst(position, glm::length(out.position(i) - expected.positions[i]) / length);
+            take_worst(normal, angle_between(out.normal(i), expected.normals[i]));
+            take_worst(tangent, angle_between(out.tangent(i), expected.tangents[i]));
+            take_worst(unit, std::fabs(glm::length(out.normal(i)) - 1));
+            take_worst(unit, std::fabs(glm::length(out.tangent(i)) - 1));
+            take_worst(skew, std::fabs(glm::dot(out.normal(i), out.tangent(i))));
         }
     }
 
     void add(const Worst& other) {
-        take(position, other.position);
-        take(normal, other.normal);
-        take(tangent, other.tangent);
-        take(unit, other.unit);
-        take(skew, other.skew);
+        take_worst(position, other.position);
+        take_worst(normal, other.normal);
+        take_worst(tangent, other.tangent);
+        take_worst(unit, other.unit);
+        take_worst(skew, other.skew);
     }
-
-private:
-    static void take(double& worst, double value) { worst = !(value <= worst) ? value : worst; }
 };
 
 }  // namespace goffer::test

@@ -4,8 +4,11 @@
 #include "support/bodies.hpp"
 #include "support/chains.hpp"
 
+#include <goffer/bend/kernel_input.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +27,13 @@ inline fit::BindOptions random_regions(Random& random, std::size_t count) {
     }
     for (fit::RegionOptions& region : options.regions) region.share /= sum;
     return options;
+}
+
+/// Coefficients of NaN: what set-up leaves shows.
+inline bend::Coefficients unset() {
+    bend::Coefficients k;
+    std::memset(&k, 0xff, sizeof k);
+    return k;
 }
 
 /// Within the regions' limits, and within what a chain of arcs can be bent by before float's error has grown

@@ -137,7 +137,7 @@ private:
         return result;
     }
 
-    /// What `part` may have left between its outputs: whatever is there.
+    /// What `part` may have left between its outputs: what was there, or zeros.
     void take_gaps(const Part& part, std::vector<float>& expected) const {
         if (part.first == part.last) return;
         for (std::size_t area = 0; area < areas_; ++area) {
@@ -151,7 +151,8 @@ private:
             const std::size_t begin = low + part.to * stride;
             const std::size_t next = part.to + part.last - part.first;
             const std::size_t end = part.ends ? high + (next - 1) * stride + 1 : low + next * stride;
-            if (stride != 0) std::copy_n(&memory_[0][begin], end - begin, &expected[begin]);
+            for (std::size_t i = begin; stride != 0 && i < end; ++i)
+                if (memory_[0][i] == 0) expected[i] = memory_[0][i];
         }
     }
 

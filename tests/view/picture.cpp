@@ -135,6 +135,21 @@ TEST_CASE("smooth shading hides the facets, and no shadow shows them") {
     CHECK(test::difference(test::render({flat}, small), b, 3) > 16 * test::difference(a, b, 3));
 }
 
+TEST_CASE("where two colors meet on one surface, they blend") {
+    test::Shape red = test::square({0, 0, 0}, 1), green = red;
+    red.triangles = {0, 1, 2};
+    green.triangles = {0, 2, 3};
+    red.color = {0.7f, 0.05f, 0.05f, 1};
+    green.color = {0.05f, 0.7f, 0.05f, 1};
+    const view::Picture picture = test::render({red, green}, small, from_above);
+    std::size_t blended = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+        const int r = picture.rgb[i], g = picture.rgb[i + 1], b = picture.rgb[i + 2];
+        blended += r > b + 30 && g > b + 30 && std::abs(r - g) < 100 ? 1 : 0;
+    }
+    CHECK(blended > 60);
+}
+
 TEST_CASE("few samples show what many do") {
     test::Shape board = test::square({0, 0, -1.2f}, 2.5f);
     board.color = {0.6f, 0.6f, 0.5f, 1};

@@ -8,6 +8,7 @@
 
 #include <goffer.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <new>

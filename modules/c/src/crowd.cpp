@@ -130,5 +130,5 @@ goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t pie
 
 void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result) {
     const bend::Batch& batch = crowd->batches[index];
-    bend::bounds(batch, {reinterpret_cast<bend::Bounds*>(result), batch.count});
+    bend::bounds(batch, {reinterpret_cast<bend::Bounds*>(result), batch.count}, crowd->isa);
 }

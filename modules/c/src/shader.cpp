@@ -5,7 +5,9 @@
 #include <goffer/gpu/source.hpp>
 #include <goffer/gpu/vertices.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 using namespace goffer;
 using namespace goffer::c;

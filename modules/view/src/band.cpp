@@ -7,12 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace goffer::view {
 namespace {
 
 constexpr int steps[] = {1, 2, 4};  // between the pixels that are smoothed over, pass after pass
-static_assert(steps[0] + steps[1] + steps[2] == Band::reach);
+static_assert(steps[0] + steps[1] + steps[2] + 1 == Band::reach);  // and a neighbor of the last
 constexpr float edge_cosine = 0.9f;  // of the angle between normals, below which there is an edge
 constexpr float edge_offset = 2;     // of a surface from its neighbor's plane, in pixels
 
@@ -73,6 +74,11 @@ float Band::off_plane(const Seen& of, const glm::vec3& position) const {
     return std::abs(glm::dot(of.normal, position - of.position)) / std::max(pixel, 1e-9f);
 }
 
+/// Whether a point with that normal is on the surface that was seen.
+bool Band::same_surface(const Seen& of, const glm::vec3& normal, const glm::vec3& position) const {
+    return glm::dot(of.normal, normal) >= edge_cosine && off_plane(of, position) <= edge_offset;
+}
+
 /// Light of the pixel and of those around it that show the same surface (an "a-trous" pass, Dammertz et al.
 /// 2010).
 Light Band::smoothed(int x, int y, int step) const {
@@ -110,8 +116,8 @@ bool Band::at_edge(int x, int y) const {
         if (!inside(x + step[0], y + step[1])) return false;
         const Seen& other = seen_[index(x + step[0], y + step[1])];
         if (own.solid != other.solid || own.ghosts != other.ghosts) return true;
-        return own.solid && (glm::dot(own.normal, other.normal) < edge_cosine ||
-                             off_plane(own, other.position) > edge_offset);
+        return own.solid &&
+               (own.hit.model != other.hit.model || !same_surface(own, other.normal, other.position));
     });
 }
 
@@ -119,14 +125,13 @@ bool Band::at_edge(int x, int y) const {
 Light Band::light_near(int x, int y, const Surface& surface, const glm::vec3& to_eye,
                        Sampler& sampler) const {
     const Seen* best = nullptr;
-    float least = 1 - edge_cosine + 1;
+    float least = std::numeric_limits<float>::infinity();
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
             if (!inside(x + dx, y + dy)) continue;
             const Seen& other = seen_[index(x + dx, y + dy)];
-            if (!other.solid) continue;
-            const float off =
-                1 - glm::dot(other.normal, surface.normal) + off_plane(other, surface.position) / edge_offset;
+            if (!other.solid || !same_surface(other, surface.normal, surface.position)) continue;
+            const float off = off_plane(other, surface.position) - glm::dot(other.normal, surface.normal);
             if (off < least) least = off, best = &other;
         }
     }

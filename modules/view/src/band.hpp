@@ -5,6 +5,9 @@
 
 #include <goffer/view/picture.hpp>
 
+#include <glm/vec3.hpp>
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +19,7 @@ namespace goffer::view {
 /// without a seam.
 class Band {
 public:
-    static constexpr int reach = 7;
+    static constexpr int reach = 8;
 
     /// Rows [first, last) of the picture, and `reach` more at both sides.
     Band(const Scene& scene, const View& view, const Settings& settings, int first, int last);
@@ -43,6 +46,7 @@ private:
     }
     [[nodiscard]] Seen look(int x, int y, std::vector<Hit>& hits) const;
     [[nodiscard]] float off_plane(const Seen& of, const glm::vec3& position) const;
+    [[nodiscard]] bool same_surface(const Seen& of, const glm::vec3& normal, const glm::vec3& position) const;
     [[nodiscard]] Light smoothed(int x, int y, int step) const;
     void smooth(int step);
     [[nodiscard]] bool at_edge(int x, int y) const;

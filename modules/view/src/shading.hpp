@@ -16,7 +16,7 @@ struct Light {
     float key = 1, sky = 1;
 };
 
-/// Light as some rays find it: for `rays` of each kind, a multiple of 1 / rays.
+/// Light as `rays` rays of each kind find it.
 [[nodiscard]] Light light_at(const Scene& scene, const View& view, const Surface& surface,
                              const glm::vec3& to_eye, Sampler& sampler, std::uint32_t rays);
 

@@ -56,7 +56,8 @@ struct StridedView {
 
 namespace detail {
 
-/// The type of a member, or of its elements where it is an array. A bool is read as the byte that it is.
+/// The type of a member, or of its elements where it is an array. A bool that is no array is read as the byte
+/// that it is.
 template <class M>
 struct Element {
     static_assert(sizeof(bool) == 1);

@@ -30,13 +30,6 @@ struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
         return first_of(_mm256_castps256_ps128(a), _mm256_castps256_ps128(b), _mm256_castps256_ps128(c),
                         _mm256_castps256_ps128(d));
     }
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
-        const __m256 low = _mm256_unpacklo_ps(a, b), high = _mm256_unpackhi_ps(a, b);
-        const __m256 rows[4] = {_mm256_shuffle_ps(low, c, 0x04), _mm256_shuffle_ps(low, c, 0x5e),
-                                _mm256_shuffle_ps(high, c, 0xa4), _mm256_shuffle_ps(high, c, 0xfe)};
-        visit_rows(rows, visit);
-    }
 
 private:
     /// Each register of `rows` holds two rows: those of lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.

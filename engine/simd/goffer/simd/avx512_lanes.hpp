@@ -53,13 +53,6 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         return first_of(_mm512_castps512_ps128(a), _mm512_castps512_ps128(b), _mm512_castps512_ps128(c),
                         _mm512_castps512_ps128(d));
     }
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
-        const __m512 low = _mm512_unpacklo_ps(a, b), high = _mm512_unpackhi_ps(a, b);
-        const __m512 rows[4] = {_mm512_shuffle_ps(low, c, 0x04), _mm512_shuffle_ps(low, c, 0x5e),
-                                _mm512_shuffle_ps(high, c, 0xa4), _mm512_shuffle_ps(high, c, 0xfe)};
-        visit_rows(rows, visit);
-    }
 
 private:
     /// Each register of `rows` holds four rows: those of lanes 0, 4, 8 and 12, of 1, 5, 9 and 13, and so on.

@@ -67,11 +67,6 @@ struct ScalarLanes {
     }
     /// The row of lane 0.
     static Row first_row(Vec a, Vec b, Vec c, Vec d) { return {{a, b, c, d}}; }
-    /// The same without d: the fourth value is unspecified.
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
-        visit(0, Row{{a, b, c, c}});
-    }
     static void store_row(float* to, const Row& row) { std::memcpy(to, row.values, sizeof row.values); }
     /// The same past the cache, to an address that is a multiple of 16 bytes.
     static void stream_row(float* to, const Row& row) { store_row(to, row); }

@@ -133,10 +133,6 @@ struct XsimdLanes {
     static Row first_row(Vec a, Vec b, Vec c, Vec d) {
         return xsimd::zip_lo(xsimd::zip_lo(a, c), xsimd::zip_lo(b, d));
     }
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, const Visit& visit) {
-        for_rows(a, b, c, c, visit);
-    }
     static Row mixed_row(const float* from, const float* to, float weight, float factor) {
         return Vec(factor) * (load(from) + Vec(weight) * (load(to) - load(from)));
     }

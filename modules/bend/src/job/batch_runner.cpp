@@ -221,7 +221,7 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, WriteMode::records, first, last,
                  [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
-                     const Record& record = plan_.records()[pass.rows[0].record];
+                     const Record& record = plan_.records()[pass.places[0].record];
                      const std::size_t vertex = members_[member].vertex + begin;
                      const std::size_t set = set_of(pass.pass);
                      const bool non_temporal = plan_.non_temporal();

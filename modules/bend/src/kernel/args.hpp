@@ -72,8 +72,8 @@ using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, f
 /// fenced by the caller; `to` must then begin a cache line.
 using Weave = void (*)(const float* const* planes, std::size_t lines, float* to, bool non_temporal);
 
-/// The most floats of a record that is woven.
-constexpr std::size_t max_woven = 16;
+/// The fewest and the most floats of a record that is woven.
+constexpr std::size_t min_woven = 3, max_woven = 16;
 
 /// Copies `count` floats. `non_temporal`: whole lines past the cache, to be fenced by the caller.
 using CopyLines = void (*)(const float* from, float* to, std::size_t count, bool non_temporal);

@@ -6,6 +6,7 @@
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
 
+#include <cstddef>
 #include <utility>
 
 namespace goffer::bend {
@@ -14,7 +15,7 @@ namespace goffer::bend {
 enum class RecordKernels : unsigned char {
     yes,
     /// Records are woven from the staging buffer, which takes up to a quarter longer: for instruction sets
-    /// that few run, since these kernels are half of the code.
+    /// that few run, since the kernels that write records are half of the code.
     no,
 };
 
@@ -42,7 +43,7 @@ constexpr void add_row_writers(KernelSet& set, std::integer_sequence<int, n...>)
 
 template <class L, std::size_t... n>
 constexpr void add_weaves(KernelSet& set, std::index_sequence<n...>) {
-    ((set.weave[n + 3] = &weave<L, static_cast<int>(n + 3)>), ...);
+    ((set.weave[n + min_woven] = &weave<L, static_cast<int>(n + min_woven)>), ...);
 }
 
 /// All kernels of an instruction set. Those that deform vertices use `L`, the others its single registers.
@@ -54,9 +55,9 @@ constexpr KernelSet kernel_set() {
     add_kernels<L, records, Squeeze::plain>(set);
     add_kernels<L, records, Squeeze::relative>(set);
     add_kernels<L, records, Squeeze::shaped>(set);
-    add_weaves<Single>(set, std::make_index_sequence<max_woven - 2>());
+    add_weaves<Single>(set, std::make_index_sequence<max_woven - min_woven + 1>());
     set.copy_lines = &copy_lines<Single>;
-    add_row_writers<Single>(set, std::integer_sequence<int, 3, 4, 6, 7, 9, 10, 13>());
+    add_row_writers<Single>(set, std::integer_sequence<int, 3, 4, 6, 7, 9, 10, 12, 13>());
     set.setup = &set_up<Single>;
     return set;
 }

@@ -3,6 +3,7 @@
 
 #include "kernel/args.hpp"
 
+#include <cstddef>
 #include <utility>
 
 /// Turns planes into records, in registers: N batches, one of each plane, become N batches of records.

@@ -119,7 +119,7 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
         pass.mode = set_planes(pass, batch) ? WriteMode::planes
-                    : set_rows(pass, batch) && fills_record(pass) &&
+                    : set_places(pass, batch) && fills_record(pass) &&
                             has_kernels(kernels, *batch.body->data(), pass.streams)
                         ? WriteMode::records
                         : WriteMode::staged;
@@ -139,11 +139,10 @@ void OutputPlan::stage_all() noexcept {
 /// Whether the pass' own kernels can write its record: it holds the values of the pass, in its order, and
 /// nothing else. All others are written from the stage.
 bool OutputPlan::fills_record(const PassPlan& pass) const noexcept {
-    if (has_tangents(pass)) return false;
-    const Record& record = records_[pass.rows[0].record];
-    const bool alone = !record.has_gaps() && record.first == pass.rows[0].first &&
+    const Record& record = records_[pass.places[0].record];
+    const bool alone = !record.has_gaps() && record.first == pass.places[0].first &&
                        record.floats == values_of(pass.streams) &&
-                       (!has_normals(pass) || pass.rows[1].first == record.first + 3);
+                       (!has_normals(pass) || pass.places[1].first == record.first + 3);
     return alone && (!non_temporal_ || record.to_line(0) != line_floats);
 }
 
@@ -186,17 +185,13 @@ void OutputPlan::find_records(bool scratch_gaps) noexcept {
     }
 }
 
-/// Finds where woven records begin, so that some of them begin cache lines; their first and last gaps are
-/// then not their own first and last floats. Records that are too long, or whose values would straddle two of
-/// these, are not woven.
+/// Finds where woven records begin, so that some of them begin cache lines: in the gap before a vertex's own
+/// first float, or, where values straddle two of them, in the vertex before it.
 void OutputPlan::set_woven(Record& record) const noexcept {
     const std::size_t floats = record.stride_floats();
-    record.woven = floats <= max_woven;
-    if (!record.has_gaps()) return;
-    const std::size_t step = std::gcd(floats, line_floats);
-    const std::size_t lead = (line_floats - floats_to_line<Record>(record.first)) % step;
-    record.woven &= lead + record.floats <= floats;
-    if (record.woven) record.lead = lead;
+    record.woven = floats >= min_woven && floats <= max_woven;
+    if (!record.woven || !record.has_gaps()) return;
+    record.lead = (line_floats - floats_to_line<Record>(record.first)) % std::gcd(floats, line_floats);
 }
 
 /// Sets pass.planes, if all values of the pass go to planes that kernels can write directly.
@@ -209,26 +204,27 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     return !non_temporal_ || side_by_side(planes.all());
 }
 
-/// Sets `rows`, if the components of the stream follow each other in records.
+/// Sets `place`, if the components of the stream follow each other in a record.
 template <std::size_t N>
-bool OutputPlan::set_rows(RowStream& rows, const Stream<N>& stream) const noexcept {
+bool OutputPlan::set_place(StreamPlace& place, const Stream<N>& stream) const noexcept {
     if (stream.empty() || stream.planar()) return false;
     for (std::size_t c = 1; c < N; ++c) {
         if (stream.component[c] != stream.component[0] + c) return false;
     }
-    rows.first = stream.component[0];
-    for (rows.record = 0; rows.record < record_count_; ++rows.record) {
-        for (const Component& component : components(records_[rows.record]))
-            if (component.first == rows.first) return true;
+    place.first = stream.component[0];
+    for (place.record = 0; place.record < record_count_; ++place.record) {
+        for (const Component& component : components(records_[place.record]))
+            if (component.first == place.first) return true;
     }
     return false;
 }
 
-bool OutputPlan::set_rows(PassPlan& pass, const Batch& batch) const noexcept {
-    if (pass.pass == Pass::packed) return set_rows(pass.rows[0], words_of(batch.packed));
-    return set_rows(pass.rows[0], positions_of(pass, batch)) &&
-           (!has_normals(pass) || set_rows(pass.rows[1], batch.normals)) &&
-           (!has_tangents(pass) || set_rows(pass.rows[2], batch.tangents));
+/// Tangents are woven from the stage alone.
+bool OutputPlan::set_places(PassPlan& pass, const Batch& batch) const noexcept {
+    if (has_tangents(pass)) return false;
+    if (pass.pass == Pass::packed) return set_place(pass.places[0], words_of(batch.packed));
+    return set_place(pass.places[0], positions_of(pass, batch)) &&
+           (!has_normals(pass) || set_place(pass.places[1], batch.normals));
 }
 
 std::size_t OutputPlan::peeled(std::size_t vertex) const noexcept {

@@ -43,8 +43,8 @@ struct Record {
     float* first;           ///< vertex 0's first value
     std::size_t stride;     ///< bytes
     std::size_t floats;     ///< from the first value to the end of the last
-    std::size_t lead;       ///< floats before `first` from which on all are written: gaps that may be
-    bool woven;             ///< all floats are written, as records of `stride`: it has no gaps that must stay
+    std::size_t lead;       ///< floats from the start of a woven record to `first`
+    bool woven;             ///< written whole, gaps included
     bool in_lines;          ///< woven, and goes past the cache
     WriteMode mode;         ///< that of the passes that write it
     std::size_t component;  ///< its components are [component, component_end)
@@ -61,17 +61,17 @@ struct Record {
 };
 
 /// A stream of a pass whose components follow each other.
-struct RowStream {
-    float* first = nullptr;  ///< row of vertex 0; null if the pass has no such stream
+struct StreamPlace {
+    float* first = nullptr;  ///< its first component of vertex 0; null if the pass has no such stream
     std::size_t record = 0;  ///< index of the record that it is a part of
 };
 
 struct PassPlan {
     Pass pass = Pass::current;
     StreamSet streams = StreamSet::positions;
-    std::size_t value = 0;    ///< index of its first value among those of all passes
-    PlaneOutput planes = {};  ///< for WriteMode::planes, from vertex 0 on
-    RowStream rows[3] = {};   ///< for WriteMode::records: positions or packed words, normals, tangents
+    std::size_t value = 0;       ///< index of its first value among those of all passes
+    PlaneOutput planes = {};     ///< for WriteMode::planes, from vertex 0 on
+    StreamPlace places[2] = {};  ///< for WriteMode::records: of positions or packed words, and of normals
     WriteMode mode = WriteMode::staged;
 };
 
@@ -105,8 +105,8 @@ private:
     void stage_all() noexcept;
     [[nodiscard]] bool set_planes(PassPlan& pass, const Batch& batch) const noexcept;
     template <std::size_t N>
-    [[nodiscard]] bool set_rows(RowStream& rows, const Stream<N>& stream) const noexcept;
-    [[nodiscard]] bool set_rows(PassPlan& pass, const Batch& batch) const noexcept;
+    [[nodiscard]] bool set_place(StreamPlace& place, const Stream<N>& stream) const noexcept;
+    [[nodiscard]] bool set_places(PassPlan& pass, const Batch& batch) const noexcept;
     [[nodiscard]] bool fills_record(const PassPlan& pass) const noexcept;
     [[nodiscard]] WriteMode mode_of(const Record& record) const noexcept;
 

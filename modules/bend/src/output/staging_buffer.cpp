@@ -83,21 +83,26 @@ void StagingBuffer::weave(const Record& record, std::span<const Component> compo
         peeled = record.to_line(vertex);
         if (peeled == line_floats) non_temporal = false, peeled = 0;
     }
-    // What lies before the first vertex may be another range's, and what lies behind the last one nobody's.
+    // The gap before the first vertex may belong to another range; the one behind an instance's last vertex
+    // must stay.
     if (record.lead > 0 && peeled == 0) peeled = line_floats / std::gcd(floats, line_floats);
     const bool keeps_last = ends && record.lead + record.floats < floats;
     const std::size_t most = count - (keeps_last ? 1 : 0);
     peeled = std::min(peeled, most);
     const float* planes[max_woven];
     std::fill_n(planes, floats, zeros_);
-    for (const Component& component : components)
-        planes[record.lead + static_cast<std::size_t>(component.first - record.first)] =
-            planes_ + component.value * stride_ + peeled;
+    for (const Component& component : components) {
+        const std::size_t place = record.lead + static_cast<std::size_t>(component.first - record.first);
+        const std::size_t first = component.value * stride_ + peeled;
+        // The last values of a vertex may lie in the next woven record.
+        planes[place % floats] = planes_ + (place < floats ? first : first - 1);
+    }
     const std::size_t lines = (most - peeled) / line_floats;
+    const std::size_t left = lines > 0 && record.lead + record.floats > floats ? 1 : 0;
     float* const to = record.first - record.lead + (vertex + peeled) * floats;
     kernels.weave[floats](planes, lines, to, non_temporal);
     write_values(record, components, vertex, 0, peeled);
-    write_values(record, components, vertex, peeled + lines * line_floats, count);
+    write_values(record, components, vertex, peeled + lines * line_floats - left, count);
 }
 
 }  // namespace goffer::bend

@@ -16,6 +16,8 @@ class StagingBuffer {
 public:
     /// Has a plane for each value of the plan.
     explicit StagingBuffer(const OutputPlan& plan) noexcept;
+    StagingBuffer(const StagingBuffer&) = delete;
+    StagingBuffer& operator=(const StagingBuffer&) = delete;
 
     /// The number of vertices that it holds: a multiple of a cache line.
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }

@@ -70,15 +70,15 @@ struct alignas(16) Coefficients {
     /// amplitude_slope[n] x^n is its derivative by sqrt(x).
     float amplitude[amplitude_terms];
     float amplitude_slope[amplitude_terms];
-    /// What follows is for squeezes that are relative to those at rest; 0 elsewhere. With u = (cos beta, sin
-    /// beta), the scales of a column at rest and in the pose, and its squeeze, are
+    /// What follows is for squeezes that are relative to those at rest; set_up() sets it to 0 elsewhere. With
+    /// u = (cos beta, sin beta), the scales of a column at rest and in the pose, and its squeeze, are
     /// - S_0 = 1 - s (kappa_0 + rest_curl . u),
     /// - S = S_0 - s (kappa_change + curl_change . u),
     /// - q = 1 - S / S_0 = (kappa_change + curl_change . u) s / S_0.
     float cos_direction, sin_direction;  ///< of theta
     float rest_curl[2];
     float curl_change[2];
-    float onset;         ///< > 0; 0 tells that squeezes are plain
+    float onset;         ///< > 0; after set_up(), 0 tells that squeezes are plain
     float kappa_change;  ///< kappa - kappa_0
 };
 

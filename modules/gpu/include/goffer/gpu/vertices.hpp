@@ -17,8 +17,8 @@ namespace goffer::gpu {
 /// Where the attributes of a vertex lie in its record, in bytes. Each is of floats, under the name that
 /// GofferVertex has for it.
 struct VertexLayout {
-    /// Of an attribute that the body does not have. Its place is then taken by what OpenGL has for an
-    /// attribute that is off: 0, 0, 0, 1.
+    /// For an attribute that the body lacks. The shader must then read 0, 0, 0, 1, as OpenGL gives for a
+    /// disabled attribute.
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
     std::size_t stride = 44;

@@ -46,7 +46,9 @@ struct Camera {
 struct Settings {
     int width = 1280;  ///< pixels, 1..16384
     int height = 960;  ///< pixels, 1..16384
-    int samples = 16;  ///< of a pixel with an edge in it, 1..16384; more are smoother and slower
+    /// Of a pixel with an edge in it, 1..16384. Every pixel sends an eighth as many rays to each light. More
+    /// are smoother and slower.
+    int samples = 16;
 };
 
 /// A picture in 8-bit sRGB: rows from top to bottom, 3 bytes a pixel.
@@ -59,7 +61,8 @@ struct Picture {
 /// Renders the models on a light background without a ground, lit by a key light from above the camera and by
 /// the sky, with soft shadows, so that wrinkles show. Both sides of a surface look the same. A ghost is
 /// translucent, casts no shadow, shows only its front, and fades where it is close in front of a solid, so
-/// that it hides nothing. Light is found by a few rays from every pixel, and smoothed over the surface. Runs
+/// that it hides nothing. Light is found by a few rays from every pixel, and smoothed over the surface;
+/// what is thinner than a pixel may be missed. Runs
 /// in parallel in the caller's oneTBB arena; the same input gives the same bytes on one machine, whatever the
 /// number of threads. Thread-safe.
 ///
