@@ -13,7 +13,8 @@ StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     stride_ = capacity_ + spare;
     float* const zeros = planes_ + plan.value_count() * stride_;
     zeros_ = zeros;
-    std::fill_n(zeros, capacity_, 0.0f);
+    const auto has_scratch_gaps = [](const Record& record) { return record.woven && record.has_gaps(); };
+    if (std::ranges::any_of(plan.records(), has_scratch_gaps)) std::fill_n(zeros, capacity_, 0.0f);
 }
 
 PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
