@@ -60,35 +60,34 @@ void bounds(benchmark::State& state, Fixture& fixture) {
     time_each(state, instances, [&](std::size_t i) { return bend::bounds(jobs[i]); });
 }
 
-void bounds_batch(benchmark::State& state, Fixture& fixture) {
+/// Sets ns_per_instance of `call(batch, result)`, for a batch of instances in poses of their own.
+template <class Result, class Call>
+void time_batch(benchmark::State& state, Fixture& fixture, const Call& call) {
     std::vector<bend::Pose> poses(instances);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i);
-    std::vector<bend::Bounds> result(instances);
+    std::vector<Result> result(instances);
     bend::Batch batch{.body = &fixture.body(vertices), .count = instances};
     batch.poses = strided(std::span(poses));
     const Task task{.batch = 4, .work = [&](std::size_t times) {
                         for (std::size_t i = 0; i < times; ++i) {
-                            bend::bounds(batch, result);
+                            call(batch, result);
                             benchmark::ClobberMemory();
                         }
                     }};
     state.counters["ns_per_instance"] = measure(state, task).nanoseconds / instances;
 }
 
+void bounds_batch(benchmark::State& state, Fixture& fixture) {
+    time_batch<bend::Bounds>(state, fixture, [](const bend::Batch& batch, std::span<bend::Bounds> result) {
+        bend::bounds(batch, result);
+    });
+}
+
 /// What a shader needs of an instance.
 void coefficients(benchmark::State& state, Fixture& fixture) {
-    std::vector<bend::Pose> poses(instances);
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i);
-    std::vector<bend::Coefficients> result(instances);
-    bend::Batch batch{.body = &fixture.body(vertices), .count = instances};
-    batch.poses = strided(std::span(poses));
-    const Task task{.batch = 4, .work = [&](std::size_t times) {
-                        for (std::size_t i = 0; i < times; ++i) {
-                            bend::set_up(batch, result);
-                            benchmark::ClobberMemory();
-                        }
-                    }};
-    state.counters["ns_per_instance"] = measure(state, task).nanoseconds / instances;
+    time_batch<bend::Coefficients>(
+        state, fixture,
+        [](const bend::Batch& batch, std::span<bend::Coefficients> result) { bend::set_up(batch, result); });
 }
 
 /// A crowd of instances without a vertex between them, in poses of their own, on `memory`.

@@ -57,13 +57,9 @@ struct Request {
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
-        const auto needs_picture = [&](bool given, const std::string& option) {
-            if (given && options.picture.file.empty())
-                throw UsageError(option + ": belongs to a picture; add --png FILE");
-        };
-        needs_picture(options.ghost, "--ghost");
-        needs_picture(!options.show.empty(), "--show");
-        needs_picture(options.camera.has_value(), "--camera");
+        check_wanted(options.picture, options.ghost, "--ghost");
+        check_wanted(options.picture, !options.show.empty(), "--show");
+        check_wanted(options.picture, options.camera.has_value(), "--camera");
         if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         check_places({{"MODEL", options.model}, {"--fit", options.fit}},

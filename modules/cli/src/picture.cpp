@@ -41,14 +41,14 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
 }
 
 [[noreturn]] void refuse_size(const std::string& text) {
-    throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to 16384");
+    throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to " +
+                     std::to_string(view::largest_side));
 }
 
 int read_side(const std::string& side, const std::string& text) {
-    constexpr int largest = 16384;
     int pixels = 0;
     const auto [end, error] = std::from_chars(side.data(), side.data() + side.size(), pixels);
-    if (error != std::errc() || end != side.data() + side.size() || pixels < 1 || pixels > largest)
+    if (error != std::errc() || end != side.data() + side.size() || pixels < 1 || pixels > view::largest_side)
         refuse_size(text);
     return pixels;
 }
@@ -60,8 +60,12 @@ void add_picture_words(CLI::App& command, PictureWords& words, const std::string
     command.add_option("--size", words.size, "Make the picture WIDTHxHEIGHT pixels [1280x960]");
 }
 
+void check_wanted(const PictureWords& words, bool given, const std::string& option) {
+    if (given && words.file.empty()) throw UsageError(option + ": belongs to a picture; add --png FILE");
+}
+
 view::Settings picture_settings(const PictureWords& words) {
-    if (words.size && words.file.empty()) throw UsageError("--size: belongs to a picture; add --png FILE");
+    check_wanted(words, words.size.has_value(), "--size");
     if (!words.file.empty()) check_picture_output(words.file);
     view::Settings settings;
     if (!words.size) return settings;

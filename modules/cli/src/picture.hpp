@@ -26,6 +26,9 @@ struct PictureWords {
 
 void add_picture_words(CLI::App& command, PictureWords& words, const std::string& of);
 
+/// Throws UsageError if `option`, which is about a picture, is given and no picture is wanted.
+void check_wanted(const PictureWords& words, bool given, const std::string& option);
+
 /// The size that is asked for, and the quality. Throws UsageError for a size that is none, for one without a
 /// picture, and for a file that is no PNG; io::Error for one that cannot be written.
 [[nodiscard]] view::Settings picture_settings(const PictureWords& words);

@@ -42,6 +42,7 @@ Band::Band(const Scene& scene, const View& view, const Settings& settings, int f
       bottom_(std::min(last + reach, settings.height)),
       rays_(static_cast<std::uint32_t>(std::max(settings.samples / 8, 1))),
       seen_(static_cast<std::size_t>(bottom_ - top_) * static_cast<std::size_t>(settings.width)),
+      lights_(seen_.size()),
       smooth_(seen_.size()) {}
 
 glm::vec2 Band::place_of(const glm::vec2& pixel) const {
@@ -49,22 +50,21 @@ glm::vec2 Band::place_of(const glm::vec2& pixel) const {
     return {2 * at.x - 1, 1 - 2 * at.y};
 }
 
-Band::Seen Band::look(int x, int y, std::vector<Hit>& hits) const {
-    Seen seen;
+void Band::look(int x, int y, std::vector<Hit>& hits) {
+    Seen& seen = seen_[index(x, y)];
     Ray ray = view_.ray(place_of(glm::vec2(x, y) + 0.5f));
     if (const auto hit = scene_.solid(ray)) {
         const Surface surface = scene_.surface(*hit, ray);
-        Sampler sampler(static_cast<std::uint32_t>(y * settings_.width + x), 0);
+        Sampler sampler(number_of(x, y), 0);
         seen.solid = true;
         seen.hit = *hit;
         seen.position = surface.position;
         seen.normal = surface.normal;
-        seen.light = light_at(scene_, view_, surface, -ray.direction, sampler, rays_);
+        lights_[index(x, y)] = light_at(scene_, view_, surface, -ray.direction, sampler, rays_);
         ray.length = hit->distance;
     }
     scene_.ghosts(ray, hits);
     seen.ghosts = static_cast<std::uint32_t>(hits.size());
-    return seen;
 }
 
 /// How far a point is from the plane of what was seen, in pixels there.
@@ -83,7 +83,7 @@ bool Band::same_surface(const Seen& of, const glm::vec3& normal, const glm::vec3
 /// 2010).
 Light Band::smoothed(int x, int y, int step) const {
     const Seen& own = seen_[index(x, y)];
-    if (!own.solid) return own.light;
+    if (!own.solid) return {};
     float sum = 0;
     Light light{0, 0};
     for (int dy = -step; dy <= step; dy += step) {
@@ -94,19 +94,20 @@ Light Band::smoothed(int x, int y, int step) const {
             const float off = off_plane(own, other.position) / static_cast<float>(step);
             const float alike = to_eighth(std::max(0.0f, glm::dot(own.normal, other.normal)));
             const float weight = (dx == 0 ? 2.0f : 1.0f) * (dy == 0 ? 2.0f : 1.0f) * alike / (1 + off * off);
-            light.key += weight * other.light.key;
-            light.sky += weight * other.light.sky;
+            const Light& its = lights_[index(x + dx, y + dy)];
+            light.key += weight * its.key;
+            light.sky += weight * its.sky;
             sum += weight;
         }
     }
-    return sum > 0 ? Light{light.key / sum, light.sky / sum} : own.light;
+    return sum > 0 ? Light{light.key / sum, light.sky / sum} : lights_[index(x, y)];
 }
 
 void Band::smooth(int step) {
     tbb::parallel_for(top_, bottom_, [&](int y) {
         for (int x = 0; x < settings_.width; ++x) smooth_[index(x, y)] = smoothed(x, y, step);
     });
-    for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i].light = smooth_[i];
+    lights_.swap(smooth_);
 }
 
 bool Band::at_edge(int x, int y) const {
@@ -124,7 +125,7 @@ bool Band::at_edge(int x, int y) const {
 /// The light of the pixel nearby that shows the same surface; where none does, new rays find it.
 Light Band::light_near(int x, int y, const Surface& surface, const glm::vec3& to_eye,
                        Sampler& sampler) const {
-    const Seen* best = nullptr;
+    const Light* best = nullptr;
     float least = std::numeric_limits<float>::infinity();
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
@@ -132,26 +133,29 @@ Light Band::light_near(int x, int y, const Surface& surface, const glm::vec3& to
             const Seen& other = seen_[index(x + dx, y + dy)];
             if (!other.solid || !same_surface(other, surface.normal, surface.position)) continue;
             const float off = off_plane(other, surface.position) - glm::dot(other.normal, surface.normal);
-            if (off < least) least = off, best = &other;
+            if (off < least) least = off, best = &lights_[index(x + dx, y + dy)];
         }
     }
-    return best != nullptr ? best->light : light_at(scene_, view_, surface, to_eye, sampler, rays_);
+    return best != nullptr ? *best : light_at(scene_, view_, surface, to_eye, sampler, rays_);
+}
+
+glm::vec3 Band::through_ghosts(const Ray& ray, const glm::vec3& color, std::vector<Hit>& hits) const {
+    scene_.ghosts(ray, hits);
+    return under_ghosts(scene_, view_, ray, hits, color);
 }
 
 /// What look() has found, in color.
 glm::vec3 Band::color_in_middle(int x, int y, std::vector<Hit>& hits) const {
     const Seen& seen = seen_[index(x, y)];
     const glm::vec2 place = place_of(glm::vec2(x, y) + 0.5f);
-    if (!seen.solid && seen.ghosts == 0) return background(place);
-    Ray ray = view_.ray(place);
     glm::vec3 color = background(place);
+    if (!seen.solid && seen.ghosts == 0) return color;
+    Ray ray = view_.ray(place);
     if (seen.solid) {
-        color = shade(view_, scene_.surface(seen.hit, ray), -ray.direction, seen.light);
+        color = shade(view_, scene_.surface(seen.hit, ray), -ray.direction, lights_[index(x, y)]);
         ray.length = seen.hit.distance;
     }
-    if (seen.ghosts == 0) return color;
-    scene_.ghosts(ray, hits);
-    return under_ghosts(scene_, view_, ray, hits, color);
+    return seen.ghosts == 0 ? color : through_ghosts(ray, color, hits);
 }
 
 /// The same of another place in the pixel.
@@ -165,16 +169,14 @@ glm::vec3 Band::color_at(int x, int y, const glm::vec2& within, Sampler& sampler
         color = shade(view_, surface, -ray.direction, light_near(x, y, surface, -ray.direction, sampler));
         ray.length = hit->distance;
     }
-    scene_.ghosts(ray, hits);
-    return under_ghosts(scene_, view_, ray, hits, color);
+    return through_ghosts(ray, color, hits);
 }
 
 glm::vec3 Band::color(int x, int y, std::vector<Hit>& hits) const {
     if (settings_.samples == 1 || !at_edge(x, y)) return color_in_middle(x, y, hits);
-    const auto pixel = static_cast<std::uint32_t>(y * settings_.width + x);
     glm::vec3 sum(0);
     for (int i = 0; i < settings_.samples; ++i) {
-        Sampler sampler(pixel, static_cast<std::uint32_t>(i));
+        Sampler sampler(number_of(x, y), static_cast<std::uint32_t>(i));
         const glm::vec2 within = sampler.next();
         sum += color_at(x, y, within, sampler, hits);
     }
@@ -184,14 +186,14 @@ glm::vec3 Band::color(int x, int y, std::vector<Hit>& hits) const {
 void Band::render(Picture& picture) {
     tbb::parallel_for(top_, bottom_, [&](int y) {
         std::vector<Hit> hits;
-        for (int x = 0; x < settings_.width; ++x) seen_[index(x, y)] = look(x, y, hits);
+        for (int x = 0; x < settings_.width; ++x) look(x, y, hits);
     });
     for (const int step : steps) smooth(step);
     tbb::parallel_for(first_, last_, [&](int y) {
         std::vector<Hit> hits;
         for (int x = 0; x < settings_.width; ++x) {
             const glm::vec3 light = color(x, y, hits);
-            const auto pixel = static_cast<std::uint32_t>(y * settings_.width + x);
+            const std::uint32_t pixel = number_of(x, y);
             const float dither = Sampler(pixel, 0).next().x;
             for (int c = 0; c < 3; ++c)
                 picture.rgb[std::size_t{3} * pixel + static_cast<std::size_t>(c)] = to_srgb(light[c], dither);

@@ -31,7 +31,6 @@ private:
     /// What is seen at the middle of a pixel.
     struct Seen {
         glm::vec3 position{0}, normal{0};
-        Light light;
         Hit hit{};
         std::uint32_t ghosts = 0;  ///< surfaces in front
         bool solid = false;
@@ -44,7 +43,11 @@ private:
     [[nodiscard]] bool inside(int x, int y) const {
         return x >= 0 && x < settings_.width && y >= top_ && y < bottom_;
     }
-    [[nodiscard]] Seen look(int x, int y, std::vector<Hit>& hits) const;
+    /// The pixel's place in the picture, counted row by row.
+    [[nodiscard]] std::uint32_t number_of(int x, int y) const {
+        return static_cast<std::uint32_t>(y * settings_.width + x);
+    }
+    void look(int x, int y, std::vector<Hit>& hits);
     [[nodiscard]] float off_plane(const Seen& of, const glm::vec3& position) const;
     [[nodiscard]] bool same_surface(const Seen& of, const glm::vec3& normal, const glm::vec3& position) const;
     [[nodiscard]] Light smoothed(int x, int y, int step) const;
@@ -52,6 +55,8 @@ private:
     [[nodiscard]] bool at_edge(int x, int y) const;
     [[nodiscard]] Light light_near(int x, int y, const Surface& surface, const glm::vec3& to_eye,
                                    Sampler& sampler) const;
+    [[nodiscard]] glm::vec3 through_ghosts(const Ray& ray, const glm::vec3& color,
+                                           std::vector<Hit>& hits) const;
     [[nodiscard]] glm::vec3 color_in_middle(int x, int y, std::vector<Hit>& hits) const;
     [[nodiscard]] glm::vec3 color_at(int x, int y, const glm::vec2& within, Sampler& sampler,
                                      std::vector<Hit>& hits) const;
@@ -65,7 +70,8 @@ private:
     int top_, bottom_;    // rows looked at
     std::uint32_t rays_;  // to each light
     std::vector<Seen> seen_;
-    std::vector<Light> smooth_;  // scratch
+    std::vector<Light> lights_;  // that reach what was seen
+    std::vector<Light> smooth_;  // those of the next pass
 };
 
 }  // namespace goffer::view

@@ -9,17 +9,17 @@
 namespace goffer::view {
 namespace {
 
-constexpr int largest = 16384;  // pixels along a side
 constexpr int band_rows = 256;  // what is held of a picture, beside its pixels
 
 void check(const Settings& settings) {
-    if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
+    if (settings.width < 1 || settings.height < 1 || settings.width > largest_side ||
+        settings.height > largest_side)
         throw Error("a picture cannot be " + std::to_string(settings.width) + " x " +
-                    std::to_string(settings.height) + " pixels; give 1 to " + std::to_string(largest) +
+                    std::to_string(settings.height) + " pixels; give 1 to " + std::to_string(largest_side) +
                     " each");
-    if (settings.samples < 1 || settings.samples > largest)
+    if (settings.samples < 1 || settings.samples > most_samples)
         throw Error("a pixel cannot have " + std::to_string(settings.samples) + " samples; give 1 to " +
-                    std::to_string(largest));
+                    std::to_string(most_samples));
 }
 
 }  // namespace

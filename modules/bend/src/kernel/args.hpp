@@ -116,7 +116,7 @@ using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::si
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
-    Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null below 3
+    Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null below min_woven
     CopyLines copy_lines;
     WriteRows write_rows[max_woven + 1];  ///< indexed by the floats of a row; null where there is none
     Setup setup;

@@ -179,14 +179,14 @@ void OutputPlan::find_records(bool scratch_gaps) noexcept {
         record.floats = offset(to - 1) + 1;
         // Components of one struct may end up in several records; each writes in the gaps of the others.
         const bool alone = !same_stride(to) && (from == 0 || components[from - 1].stride != first.stride);
-        record.woven = record.plane() || !record.has_gaps() || (scratch_gaps && alone);
-        if (record.woven && !record.plane()) set_woven(record);
-        record.in_lines = non_temporal_ && record.woven;
+        if (!record.has_gaps() || (scratch_gaps && alone)) set_woven(record);
+        record.in_lines = non_temporal_ && (record.plane() || record.woven);
     }
 }
 
-/// Finds where woven records begin, so that some of them begin cache lines: in the gap before a vertex's own
-/// first float, or, where values straddle two of them, in the vertex before it.
+/// Has a record woven, if there is a kernel for it. Finds where woven records begin, so that some of them
+/// begin cache lines: in the gap before a vertex's own first float, or, where values straddle two of them, in
+/// the vertex before it.
 void OutputPlan::set_woven(Record& record) const noexcept {
     const std::size_t floats = record.stride_floats();
     record.woven = floats >= min_woven && floats <= max_woven;

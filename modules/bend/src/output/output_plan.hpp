@@ -44,8 +44,8 @@ struct Record {
     std::size_t stride;     ///< bytes
     std::size_t floats;     ///< from the first value to the end of the last
     std::size_t lead;       ///< floats from the start of a woven record to `first`
-    bool woven;             ///< written whole, gaps included
-    bool in_lines;          ///< woven, and goes past the cache
+    bool woven;             ///< written whole, gaps included, by a kernel for its stride
+    bool in_lines;          ///< a plane, or woven, and goes past the cache
     WriteMode mode;         ///< that of the passes that write it
     std::size_t component;  ///< its components are [component, component_end)
     std::size_t component_end;

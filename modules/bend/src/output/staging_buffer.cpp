@@ -36,7 +36,7 @@ void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, Writ
         if (record.plane()) {
             kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
                                plan.non_temporal());
-        } else if (record.woven && kernels.weave[record.stride_floats()] != nullptr) {
+        } else if (record.woven) {
             weave(record, components, kernels, vertex, count, ends);
         } else {
             write_rows(record, components, kernels, vertex, count);

@@ -274,20 +274,15 @@ void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept 
 void bounds(const Batch& batch, std::span<Bounds> result, Isa isa) noexcept {
     assert(batch.body != nullptr && !batch.body->empty() && result.size() >= batch.count);
     const BodyData& body = *batch.body->data();
-    PosedGroup group(body, kernels(isa).setup);
     Coefficients k[setup_width];
-    for (std::size_t first = 0; first < batch.count; first += setup_width) {
-        const std::size_t count = std::min(setup_width, batch.count - first);
-        group.clear();
-        for (std::size_t i = first; i < first + count; ++i) {
-            group.add(batch, element_of(batch, i), Time::now);
-            result[i] = nowhere();
-        }
+    each_group(batch, body, kernels(isa).setup, Time::now, [&](PosedGroup& group, std::size_t first) {
+        const std::span<Bounds> boxes = result.subspan(first, group.count());
+        std::ranges::fill(boxes, nowhere());
         for (std::size_t r = 0; r < body.regions.size(); ++r) {
             group.set_up(r, k, 1);
-            for (std::size_t i = 0; i < count; ++i) take(result[first + i], body, r, k[i], group.squeeze(i));
+            for (std::size_t i = 0; i < boxes.size(); ++i) take(boxes[i], body, r, k[i], group.squeeze(i));
         }
-    }
+    });
 }
 
 }  // namespace goffer::bend

@@ -90,6 +90,20 @@ PoseState each_region(const BodyData& body, Setup setup, std::span<const Pose> p
     return state;
 }
 
+/// Calls visit(group, first) for all instances of a batch, up to setup_width at a time: those from `first`
+/// on.
+template <class Visit>
+void each_group(const Batch& batch, const BodyData& body, Setup setup, Time time,
+                const Visit& visit) noexcept {
+    PosedGroup group(body, setup);
+    for (std::size_t first = 0; first < batch.count; first += setup_width) {
+        group.clear();
+        for (std::size_t i = first; i < batch.count && i < first + setup_width; ++i)
+            group.add(batch, element_of(batch, i), time);
+        visit(group, first);
+    }
+}
+
 /// The poses of a job: its span, or the single pose.
 [[nodiscard]] inline std::span<const Pose> poses_of(const DeformJob& job) noexcept {
     return job.poses.empty() ? std::span<const Pose>(&job.pose, 1) : job.poses;

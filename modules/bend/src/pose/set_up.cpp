@@ -30,17 +30,13 @@ void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time ti
     const BodyData& body = *batch.body->data();
     const std::size_t regions = body.regions.size();
     assert(result.size() >= batch.count * regions);
-    PosedGroup group(body, kernels(isa).setup);
-    for (std::size_t first = 0; first < batch.count; first += setup_width) {
+    each_group(batch, body, kernels(isa).setup, time, [&](PosedGroup& group, std::size_t first) {
         Coefficients* const k = &result[first * regions];
-        group.clear();
-        for (std::size_t i = first; i < std::min(first + setup_width, batch.count); ++i)
-            group.add(batch, element_of(batch, i), time);
         for (std::size_t r = 0; r < regions; ++r) {
             group.set_up(r, k + r, regions);
             for (std::size_t i = 0; i < group.count(); ++i) set_unread(k[i * regions + r], group.squeeze(i));
         }
-    }
+    });
 }
 
 }  // namespace

@@ -42,12 +42,15 @@ struct Camera {
     float field_of_view = 0.5f;  ///< vertical, radians, 0.01..3
 };
 
+/// The most pixels along a side of a picture, and the most samples of a pixel.
+inline constexpr int largest_side = 16384, most_samples = 16384;
+
 /// The size and quality of a picture.
 struct Settings {
-    int width = 1280;  ///< pixels, 1..16384
-    int height = 960;  ///< pixels, 1..16384
-    /// Of a pixel with an edge in it, 1..16384. Every pixel sends an eighth as many rays to each light. More
-    /// are smoother and slower.
+    int width = 1280;  ///< pixels, 1..largest_side
+    int height = 960;  ///< pixels, 1..largest_side
+    /// Of a pixel with an edge in it, 1..most_samples. Every pixel sends an eighth as many rays to each
+    /// light. More are smoother and slower.
     int samples = 16;
 };
 
