@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "gl.hpp"
+#include "support/egl.hpp"
 
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/gpu/source.hpp>
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -91,45 +91,6 @@ std::string text_of(GlApi api) {
 void check(bool good, const std::string& what) {
     if (!good) throw std::runtime_error(what);
 }
-
-/// EGL's context, current while it lives.
-class Context {
-public:
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
-    Context(GlApi api, std::string& why) {
-        display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
-            why = "EGL has no display without a surface";
-            return;
-        }
-        const bool embedded = api == GlApi::embedded;
-        const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               api == GlApi::compute ? 4 : 3,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               3,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_NONE};
-        const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
-        eglBindAPI(embedded ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
-        context_ =
-            eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, embedded ? &es[0] : &core[0]);
-        if (context_ == EGL_NO_CONTEXT ||
-            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
-            why = "EGL makes no such context";
-    }
-    ~Context() {
-        if (display_ == EGL_NO_DISPLAY) return;
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-        eglTerminate(display_);
-    }
-
-private:
-    EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
-};
 
 std::string log_of(GLuint shader, bool program) {
     char log[4096] = "";
@@ -222,7 +183,8 @@ void set_texture(GlApi api, std::span<const float> rows) {
 
 class Deformer : public GlDeformer {
 public:
-    Deformer(GlApi api, std::string& why) : context_(api, why), api_(api) {
+    Deformer(GlApi api, std::string& why)
+        : context_(api == GlApi::embedded, api == GlApi::compute ? 4 : 3, why), api_(api) {
         if (why.empty()) program_ = linked(api);
     }
 
@@ -283,7 +245,7 @@ public:
     }
 
 private:
-    Context context_;
+    EglContext context_;
     GlApi api_;
     GLuint program_ = 0;
 };

@@ -237,6 +237,19 @@ void report_body(Report& report, const std::vector<Level>& levels, std::size_t b
     report.line("written", options.output.string() + ", " + std::to_string(bytes) + " bytes");
 }
 
+std::vector<std::byte> bytes_of(std::vector<Level>& levels, std::span<const bend::NamedSocket> sockets,
+                                const BindRequest& request) {
+    const BoundModel& finest = levels[0].model;
+    const std::vector<bend::DrawMaterial> materials = materials_of(levels);
+    const std::string notes = text_of(notes_of(finest, request));
+    std::vector<fit::BakeLevel> baked;
+    for (const Level& level : levels) {
+        const mesh::VertexArrays& rest = level.model.rest;
+        baked.push_back({&level.model.binding, {rest.triangles, rest.uvs, rest.vertex, level.parts}});
+    }
+    return in_file(finest.file, [&] { return fit::bake({baked, materials, sockets, notes}); });
+}
+
 void run_bake(const BakeOptions& options) {
     const BakeRequest request(options);
     Report report(options.json);
@@ -247,17 +260,8 @@ void run_bake(const BakeOptions& options) {
     for (std::size_t i = 0; i < options.levels.size(); ++i)
         levels[i + 1].model = bind_next(options.levels[i], request.bind, finest.binding);
 
-    const std::vector<bend::DrawMaterial> materials = materials_of(levels);
     const std::vector<bend::NamedSocket> sockets = sockets_on(finest, request.sockets);
-    const std::string notes = text_of(notes_of(finest, request.bind));
-    std::vector<fit::BakeLevel> baked;
-    for (const Level& level : levels) {
-        const mesh::VertexArrays& rest = level.model.rest;
-        baked.push_back({&level.model.binding, {rest.triangles, rest.uvs, rest.vertex, level.parts}});
-    }
-    const std::vector<std::byte> bytes = in_file(options.model, [&] {
-        return fit::bake({baked, materials, sockets, notes});
-    });
+    const std::vector<std::byte> bytes = bytes_of(levels, sockets, request.bind);
     report_model(report, options.model, finest.mesh,
                  fit::surface_area(finest.rest.positions, finest.rest.triangles));
     report_fit(report, finest.cylinder);
@@ -277,6 +281,12 @@ void run_bake(const BakeOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::byte> baked_bytes(BoundModel model, const BindRequest& request) {
+    std::vector<Level> levels(1);
+    levels[0].model = std::move(model);
+    return bytes_of(levels, {}, request);
+}
 
 void add_bake(CLI::App& app, Action& action) {
     const auto options = std::make_shared<BakeOptions>();

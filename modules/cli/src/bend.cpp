@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "body_file.hpp"
 #include "commands.hpp"
+#include "deformed.hpp"
 #include "local_area.hpp"
 #include "model.hpp"
 #include "picture.hpp"
@@ -77,22 +78,9 @@ struct Deformed {
     double microseconds = 0;
 };
 
-Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, const Request& request,
-                std::span<const bend::Pose> poses) {
+Deformed deform(const BoundModel& model, const Request& request, std::span<const bend::Pose> poses) {
     Deformed result;
-    const bend::Body& body = binding.body;
-    const std::size_t count = body.vertex_count();
-    result.records = rest;
-    result.records.normals.resize(count);
-    bend::DeformJob job;
-    job.body = &body;
-    job.poses = poses;
-    job.isa = request.isa;
-    job.positions = interleaved<3>(&result.records.positions.front().x, count);
-    job.normals = interleaved<3>(&result.records.normals.front().x, count);
-    if (body.has_tangents()) job.tangents = interleaved<4>(&result.records.tangents.front().x, count);
-    if (const bend::Fault fault = bend::validate(job); !fault.none())
-        throw InputError("cannot deform: " + std::string(bend::describe(fault)));
+    const bend::DeformJob job = job_into(result.records, model, poses, request.isa);
     tbb::task_arena arena(request.threads);
     std::vector<double> times(9);  // the first run also pays for memory that was never touched
     for (double& time : times) {
@@ -100,9 +88,7 @@ Deformed deform(const fit::Binding& binding, const mesh::VertexArrays& rest, con
                                        [&] { arena.execute([&] { bend::run_parallel(job); }); });
     }
     result.microseconds = 1e-3 * measure::median(times);
-    put_in_model_order(result.records.positions, binding);
-    put_in_model_order(result.records.normals, binding);
-    put_in_model_order(result.records.tangents, binding);
+    put_in_model_order(result.records, model.binding);
     return result;
 }
 
@@ -178,7 +164,7 @@ void run_bend(const BendOptions& options) {
     const bend::Body& body = model.binding.body;
     const std::vector<Target> targets = targets_on(body, request.pose);
     const std::vector<bend::Pose> poses = poses_of(targets);
-    const Deformed bent = deform(model.binding, model.rest, request, poses);
+    const Deformed bent = deform(model, request, poses);
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);

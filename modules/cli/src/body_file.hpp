@@ -5,6 +5,7 @@
 
 #include <goffer/bend/body_file.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -41,6 +42,10 @@ struct ModelFile {
 /// nothing to draw.
 [[nodiscard]] BoundModel bind_model(ModelFile model, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
+
+/// The body file of a model alone, which was bound with texture coordinates (BindRequest::with_uvs): what
+/// `goffer bake` writes where it is given nothing else.
+[[nodiscard]] std::vector<std::byte> baked_bytes(BoundModel model, const BindRequest& request);
 
 /// What `goffer bake` notes in a file about how it was made. Nothing in it can be relied on.
 struct Notes {

@@ -237,7 +237,11 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
     const Progress progress("reading " + file.string());
     if (request.words.level > 0)
         throw UsageError("--level: " + file.string() + " is a model, and has no levels; leave it out");
-    BoundModel model = read_model(file, request);
+    return bind_mesh(read_model(file, request), request, fit);
+}
+
+BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::filesystem::path& fit) {
+    const std::filesystem::path& file = model.file;
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
         const fit::Geometry geometry = geometry_of(model.rest);

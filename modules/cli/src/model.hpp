@@ -93,6 +93,10 @@ struct BoundModel {
 [[nodiscard]] BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                                     const std::filesystem::path& fit = {});
 
+/// The same of a model that read_model() returned, or that was made in memory.
+[[nodiscard]] BoundModel bind_mesh(BoundModel model, const BindRequest& request,
+                                   const std::filesystem::path& fit = {});
+
 /// Triangles [first, first + count) of all, as mesh::triangles() cuts the faces.
 struct TriangleRange {
     std::uint32_t first = 0;

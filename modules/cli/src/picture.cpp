@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -17,19 +18,6 @@
 
 namespace goffer::cli {
 namespace {
-
-view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from) {
-    const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
-    const glm::dmat3& e = body.axes();
-    const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
-    const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
-    const double azimuth = radians(from.azimuth), elevation = radians(from.elevation);
-    const glm::dvec3 level = std::cos(azimuth) * across + std::sin(azimuth) * e[2];
-    view::Camera camera;
-    camera.toward = glm::vec3(-std::cos(elevation) * level - std::sin(elevation) * toward);
-    camera.up = glm::vec3(std::cos(elevation) * toward - std::sin(elevation) * level);
-    return camera;
-}
 
 /// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
 /// material says whose texture is not at hand, is no color; such parts are `plain`.
@@ -64,16 +52,19 @@ void check_wanted(const PictureWords& words, bool given, const std::string& opti
     if (given && words.file.empty()) throw UsageError(option + ": belongs to a picture; add --png FILE");
 }
 
+view::Settings parse_size(const std::string& text) {
+    const std::size_t by = text.find('x');
+    if (by == std::string::npos) refuse_size(text);
+    view::Settings settings;
+    settings.width = read_side(text.substr(0, by), text);
+    settings.height = read_side(text.substr(by + 1), text);
+    return settings;
+}
+
 view::Settings picture_settings(const PictureWords& words) {
     check_wanted(words, words.size.has_value(), "--size");
     if (!words.file.empty()) check_picture_output(words.file);
-    view::Settings settings;
-    if (!words.size) return settings;
-    const std::size_t by = words.size->find('x');
-    if (by == std::string::npos) refuse_size(*words.size);
-    settings.width = read_side(words.size->substr(0, by), *words.size);
-    settings.height = read_side(words.size->substr(by + 1), *words.size);
-    return settings;
+    return words.size ? parse_size(*words.size) : view::Settings{};
 }
 
 Viewpoint parse_camera(const std::string& text) {
@@ -88,6 +79,29 @@ Viewpoint parse_camera(const std::string& text) {
         throw UsageError("--camera: '" + text +
                          "' is not an azimuth and an elevation of -90 to 90; give two angles in degrees");
     return {std::remainder(angles[0], 360.0), angles[1]};
+}
+
+glm::vec4 plain_color(std::size_t model) {
+    // Clay, moss, straw, slate, plum.
+    constexpr std::array<glm::vec3, 5> colors = {glm::vec3{0.72f, 0.33f, 0.20f},
+                                                 {0.30f, 0.48f, 0.24f},
+                                                 {0.74f, 0.53f, 0.17f},
+                                                 {0.24f, 0.40f, 0.56f},
+                                                 {0.50f, 0.24f, 0.42f}};
+    return {colors[model % colors.size()], 1};
+}
+
+view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from) {
+    const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
+    const glm::dmat3& e = body.axes();
+    const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
+    const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
+    const double azimuth = radians(from.azimuth), elevation = radians(from.elevation);
+    const glm::dvec3 level = std::cos(azimuth) * across + std::sin(azimuth) * e[2];
+    view::Camera camera;
+    camera.toward = glm::vec3(-std::cos(elevation) * level - std::sin(elevation) * toward);
+    camera.up = glm::vec3(std::cos(elevation) * toward - std::sin(elevation) * level);
+    return camera;
 }
 
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,

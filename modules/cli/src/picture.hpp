@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -29,6 +30,9 @@ void add_picture_words(CLI::App& command, PictureWords& words, const std::string
 /// Throws UsageError if `option`, which is about a picture, is given and no picture is wanted.
 void check_wanted(const PictureWords& words, bool given, const std::string& option);
 
+/// WIDTHxHEIGHT. Throws UsageError that names --size.
+[[nodiscard]] view::Settings parse_size(const std::string& text);
+
 /// The size that is asked for, and the quality. Throws UsageError for a size that is none, for one without a
 /// picture, and for a file that is no PNG; io::Error for one that cannot be written.
 [[nodiscard]] view::Settings picture_settings(const PictureWords& words);
@@ -43,6 +47,9 @@ struct Viewpoint {
 /// "side", "inner", "front" or "AZIMUTH,ELEVATION". Throws UsageError.
 [[nodiscard]] Viewpoint parse_camera(const std::string& text);
 
+/// The camera there, for a body in this pose.
+[[nodiscard]] view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from);
+
 /// What a picture of a bend needs. The caller owns all of it.
 struct BentModel {
     const bend::Body& body;
@@ -53,6 +60,9 @@ struct BentModel {
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
     bend::Pose pose;
 };
+
+/// The color of parts that have none of their own, of one model of several.
+[[nodiscard]] glm::vec4 plain_color(std::size_t model);
 
 /// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
 /// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts

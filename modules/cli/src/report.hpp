@@ -31,6 +31,8 @@ public:
     /// A warning: a line, and an entry of "warnings" in the JSON.
     void warn(const std::string& text);
 
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
     /// The JSON, to be filled in the order that it is to be printed in.
     nlohmann::ordered_json json;
 

@@ -55,8 +55,8 @@ std::vector<measure::CrowdGroup> groups_of(std::span<const BoundModel> models, s
     return groups;
 }
 
-[[noreturn]] void refuse(std::size_t instances, std::uint64_t bytes, const std::string& reason) {
-    throw InputError("--instances: a crowd of " + std::to_string(instances) + " takes " +
+[[noreturn]] void refuse(const CrowdPlan& plan, std::uint64_t bytes, const std::string& reason) {
+    throw InputError(plan.option + ": a crowd of " + std::to_string(plan.instances) + " takes " +
                      number(static_cast<double>(bytes) / 1e9) + " GB of memory" + reason +
                      "; use fewer or coarser models");
 }
@@ -68,12 +68,12 @@ Columns memory_for(std::span<const BoundModel> models, const CrowdPlan& plan) {
         vertices * plan.layout.footprint() * sizeof(float) +
         plan.instances * (sizeof(glm::mat4x3) + plan.poses.size() * sizeof(bend::Pose));
     if (const auto free = free_memory(); free && bytes > *free) {
-        refuse(plan.instances, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
+        refuse(plan, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
     }
     try {
         return {1, plan.layout.memory_floats(vertices)};
     } catch (const std::bad_alloc&) {
-        refuse(plan.instances, bytes, ", which cannot be had");
+        refuse(plan, bytes, ", which cannot be had");
     }
 }
 
@@ -119,6 +119,10 @@ void Crowd::add(const BoundModel& model, std::size_t index, std::size_t place) {
                         .phase = 0.11 * x + 0.17 * y + 0.12 * own,
                         .direction = 0.05 * x - 0.04 * y + 0.10 * own - yaw});
     transforms_.push_back(transform_to(model.binding.body, x, y, yaw));
+}
+
+void Crowd::set_farthest(std::span<const bend::Pose> poses) noexcept {
+    std::ranges::copy(poses.first(std::min(poses.size(), farthest_.size())), farthest_.begin());
 }
 
 void Crowd::set_poses(std::size_t frame) noexcept {

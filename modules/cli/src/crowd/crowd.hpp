@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace goffer::cli {
@@ -22,6 +23,7 @@ struct CrowdPlan {
     measure::StreamLayout layout;
     Isa isa = Isa::automatic;
     bend::Stores stores = bend::Stores::automatic;
+    std::string option = "--instances";  ///< that their number was given by
 };
 
 /// Where an instance stands: row 0 is in front.
@@ -40,6 +42,9 @@ public:
     Crowd(std::span<const BoundModel> models, const CrowdPlan& plan);
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
+
+    /// Sets how far it swings: as CrowdPlan::poses.
+    void set_farthest(std::span<const bend::Pose> poses) noexcept;
 
     /// Sets the poses of `frame`, which depend on nothing else. Does not allocate.
     void set_poses(std::size_t frame) noexcept;

@@ -12,7 +12,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -28,13 +27,6 @@ using namespace glm;
 
 constexpr std::size_t max_instances = 400;
 constexpr std::size_t max_triangles = 4'000'000;
-
-/// Parts without a color of their own, by model: clay, moss, straw, slate, plum.
-constexpr std::array<glm::vec3, 5> plain_colors = {glm::vec3{0.72f, 0.33f, 0.20f},
-                                                   {0.30f, 0.48f, 0.24f},
-                                                   {0.74f, 0.53f, 0.17f},
-                                                   {0.24f, 0.40f, 0.56f},
-                                                   {0.50f, 0.24f, 0.42f}};
 
 /// Not quite the same for any two neighbors.
 glm::vec4 tinted(const glm::vec4& color, std::size_t index) {
@@ -122,7 +114,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
         Vertices& own = vertices.emplace_back(vertices_of(crowd.scene().instance(i)));
         put_in_model_order(own.positions, model.binding);
         put_in_model_order(own.normals, model.binding);
-        const glm::vec4 plain(plain_colors[crowd.model(i) % plain_colors.size()], 1);
+        const glm::vec4 plain = plain_color(crowd.model(i));
         const view::Model all{
             .positions = own.positions, .triangles = model.rest.triangles, .normals = own.normals};
         for (view::Model& part : part_models(model.mesh, all, plain)) {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/loader.hpp"
+
+#include "body_file.hpp"
+#include "report.hpp"
+#include "suitability.hpp"
+
+#include <goffer/paper/base.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <numbers>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+/// The base model, as `goffer base` makes it.
+BoundModel base_model() {
+    const paper::BaseMesh base = paper::base_mesh(10, 1, 64, 161, true);
+    BoundModel model;
+    model.file = "base";
+    model.mesh.positions.assign(base.positions.begin(), base.positions.end());
+    model.mesh.corners = base.triangles;
+    model.mesh.faces.assign(base.triangles.size() / 3, 3);
+    model.mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(model.mesh.faces.size())});
+    model.rest = mesh::vertex_arrays(model.mesh);
+    return model;
+}
+
+std::vector<Target> rest_targets(const bend::Body& body) {
+    std::vector<Target> targets;
+    for (const bend::Pose& rest : body.rest_poses())
+        targets.push_back(
+            {degrees(static_cast<double>(rest.angle)), degrees(static_cast<double>(rest.direction)), rest});
+    return targets;
+}
+
+/// The regions of the first body file that has several.
+std::vector<fit::RegionOptions> regions_in(const std::vector<ModelFile>& files) {
+    for (const ModelFile& file : files) {
+        std::vector<fit::RegionOptions> regions = baked_regions(file);
+        if (!regions.empty()) return regions;
+    }
+    return {};
+}
+
+/// What the command `bend` would warn of, at a right angle or as far as the body bends.
+std::vector<std::string> warnings_of(const BoundModel& model, const BindRequest& request) {
+    Report report("");
+    for (const std::string& warning : model.mesh.warnings) report.warn(warning);
+    if (!model.baked) {
+        report_suitability(report, model);
+        const bend::Body& body = model.binding.body;
+        std::vector<double> angles;
+        for (std::size_t r = 0; r < body.region_count(); ++r)
+            angles.push_back(std::min(static_cast<double>(body.max_angle(r)), std::numbers::pi / 2));
+        warn_of_folds(report, request, model, angles);
+    }
+    return report.warnings();
+}
+
+}  // namespace
+
+Loaded load(const Wish& wish) {
+    std::vector<ModelFile> files;
+    for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
+    const PoseRequest pose(wish.pose, regions_in(files));
+    const BindRequest request(wish.bind, pose.regions);
+    Loaded loaded{.wish = wish, .models = {}, .targets = {}, .warnings = {}};
+    if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));
+    for (ModelFile& file : files) loaded.models.push_back(bind_model(std::move(file), request));
+    const bend::Body& body = loaded.models[0].binding.body;
+    loaded.targets = targets_on(body, pose);
+    if (wish.keep_rest && body.rest_pose().angle != 0) loaded.targets = rest_targets(body);
+    for (const BoundModel& model : loaded.models) {
+        for (const std::string& warning : warnings_of(model, request))
+            loaded.warnings.push_back(
+                (loaded.models.size() > 1 ? model.file.filename().string() + ": " : "") + warning);
+    }
+    return loaded;
+}
+
+Loader::Loader() : thread_([this] { work(); }) {}
+
+Loader::~Loader() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void Loader::ask(Wish wish) {
+    {
+        const std::lock_guard lock(mutex_);
+        next_ = std::make_unique<Wish>(std::move(wish));
+    }
+    wake_.notify_one();
+}
+
+Loader::Answer Loader::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(answer_, {});
+}
+
+bool Loader::answered() {
+    const std::lock_guard lock(mutex_);
+    return answer_.loaded != nullptr || !answer_.error.empty();
+}
+
+bool Loader::busy() {
+    const std::lock_guard lock(mutex_);
+    return working_ || next_ != nullptr;
+}
+
+void Loader::work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [&] { return stop_ || next_ != nullptr; });
+        if (stop_) return;
+        const std::unique_ptr<Wish> wish = std::move(next_);
+        working_ = true;
+        lock.unlock();
+        Answer answer;
+        try {
+            answer.loaded = std::make_unique<Loaded>(load(*wish));
+        } catch (const std::bad_alloc&) {
+            answer.error = "not enough memory for this; use a smaller mesh";
+        } catch (const std::exception& error) {
+            answer.error = error.what();
+        }
+        lock.lock();
+        answer_ = std::move(answer);
+        working_ = false;
+    }
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/panel.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+
+namespace goffer::cli {
+namespace {
+
+const ImVec4 warning_color{0.62f, 0.32f, 0, 1}, error_color{0.75f, 0.05f, 0.05f, 1},
+    quiet{0.35f, 0.35f, 0.35f, 1};
+constexpr int most_instances = 2000, most_regions = 8, most_folds = 64;
+
+void heading(const char* text) {
+    ImGui::Separator();
+    ImGui::TextColored(quiet, "%s", text);
+}
+
+void paragraph(const ImVec4& color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+}
+
+std::string milliseconds(double time) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), time < 10 ? "%.2f ms" : "%.0f ms", time);
+    return text.data();
+}
+
+/// A choice of words. Returns whether another was chosen.
+template <std::size_t N>
+bool choice(const char* label, std::string& value, const std::array<const char*, N>& words) {
+    bool changed = false;
+    if (!ImGui::BeginCombo(label, value.c_str())) return false;
+    for (const char* const word : words) {
+        if (ImGui::Selectable(word, value == word) && value != word) {
+            value = word;
+            changed = true;
+        }
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+/// A number of at least `least`, or `automatic`, which is below it. Returns whether it was let go at another
+/// value.
+bool slider_or_auto(const char* label, float& value, float automatic, float least, float most) {
+    ImGui::SliderFloat(label, &value, automatic, most, value < least ? "auto" : "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    if (value < least) value = automatic;
+    return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+void show_model(const Stage& stage, const Told& told) {
+    const BoundModel& model = stage.model();
+    ImGui::TextUnformatted(model.file.filename().string().c_str());
+    if (stage.loaded().models.size() > 1) {
+        ImGui::SameLine();
+        ImGui::TextColored(quiet, "and %zu more", stage.loaded().models.size() - 1);
+    }
+    ImGui::TextColored(quiet, "%zu vertices, %zu triangles%s", model.binding.body.vertex_count(),
+                       model.rest.triangles.size() / 3, model.growth ? ", refined" : "");
+    int folds = 0;
+    for (std::size_t r = 0; r < model.binding.regions.size(); ++r) folds += model.binding.folds(r);
+    if (told.busy) {
+        ImGui::TextColored(warning_color, "binding ..");
+        return;
+    }
+    ImGui::TextColored(quiet, "length / radius %.1f, %s", model.cylinder.length / model.cylinder.radius,
+                       counted(static_cast<std::size_t>(folds), "fold").c_str());
+}
+
+void show_opening(Controls& controls, Done& done) {
+    ImGui::PushItemWidth(-1);
+    done.open =
+        ImGui::InputTextWithHint("##open", "open: drop a file, or type its path", controls.path.data(),
+                                 controls.path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PopItemWidth();
+}
+
+void show_pose(Controls& controls, const Stage& stage, Done& done) {
+    heading("BEND");
+    const BoundModel& model = stage.model();
+    const bend::Body& body = model.binding.body;
+    const bool several = controls.regions.size() > 1;
+    for (std::size_t r = 0; r < controls.regions.size(); ++r) {
+        ImGui::PushID(static_cast<int>(r));
+        Bend& bend = controls.regions[r];
+        const auto limit = static_cast<float>(
+            r < body.region_count() ? degrees(static_cast<double>(body.max_angle(r))) : 90.0);
+        const std::string number = several ? " " + std::to_string(r + 1) : "";
+        ImGui::SliderFloat(("angle" + number).c_str(), &bend.angle, -limit, limit, "%.1f",
+                           ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderFloat(("direction" + number).c_str(), &bend.direction, -180, 180, "%.1f");
+        ImGui::PopID();
+    }
+    if (!model.baked) {
+        int regions = static_cast<int>(controls.regions.size());
+        if (ImGui::SliderInt("regions", &regions, 1, most_regions, "%d", ImGuiSliderFlags_AlwaysClamp) &&
+            regions != static_cast<int>(controls.regions.size())) {
+            // The same bend, in other pieces.
+            const float share = static_cast<float>(controls.regions.size()) / static_cast<float>(regions);
+            Bend each = controls.regions[0];
+            each.angle *= share;
+            controls.regions.assign(static_cast<std::size_t>(regions), each);
+            done.bind = true;
+        }
+    }
+    ImGui::Checkbox("animate", &controls.animated);
+    ImGui::SameLine();
+    if (ImGui::Button("straight")) {
+        for (Bend& bend : controls.regions) bend.angle = 0;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("at rest")) {
+        const std::vector<bend::Pose> rest = body.rest_poses();
+        for (std::size_t r = 0; r < std::min(rest.size(), controls.regions.size()); ++r)
+            controls.regions[r] = {static_cast<float>(degrees(static_cast<double>(rest[r].angle))),
+                                   static_cast<float>(degrees(static_cast<double>(rest[r].direction)))};
+    }
+}
+
+void show_folds(Controls& controls, const Stage& stage, Done& done) {
+    if (stage.model().baked) return;  // was bound when it was made
+    heading("FOLDS");
+    done.bind |= choice("profile", controls.profile, std::array{"even", "damped", "smooth"});
+    ImGui::SliderInt("folds", &controls.folds, 0, most_folds, controls.folds == 0 ? "auto" : "%d",
+                     ImGuiSliderFlags_AlwaysClamp);
+    done.bind |= ImGui::IsItemDeactivatedAfterEdit();
+    if (controls.folds == 0) done.bind |= slider_or_auto("fold length", controls.fold_length, 0, 0.05f, 2.5f);
+    if (controls.profile == "even") {
+        ImGui::SliderFloat("roundness", &controls.roundness, 0, 0.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        done.bind |= ImGui::IsItemDeactivatedAfterEdit();
+    }
+    done.bind |= choice("amplitude", controls.amplitude, std::array{"mesh", "paper", "area", "none"});
+    done.bind |= choice("shape", controls.shape, std::array{"auto", "cylinder"});
+    done.bind |= slider_or_auto("onset", controls.onset, -0.01f, 0, 0.2f);
+    done.bind |= choice("refine", controls.refine, std::array{"auto", "on", "off"});
+}
+
+void show_looks(Controls& controls, const Stage& stage, Done& done) {
+    heading("SHOW");
+    Show& show = controls.show;
+    ImGui::Checkbox("wireframe", &show.wireframe);
+    if (!stage.is_crowd()) {
+        const float second = 0.5f * ImGui::GetContentRegionAvail().x;
+        ImGui::SameLine(second);
+        ImGui::Checkbox("normals", &show.normals);
+        ImGui::Checkbox("area", &show.area);
+        ImGui::SameLine(second);
+        ImGui::Checkbox("rest shape", &show.rest);
+        if (!stage.model().baked) {
+            ImGui::Checkbox("base", &show.base);
+            ImGui::SameLine(second);
+            ImGui::Checkbox("frames", &show.frames);
+        }
+        if (show.area) ImGui::TextColored(quiet, "blue: smaller by half, red: larger by half");
+    }
+    if (ImGui::Button("look at all")) done.look = true;
+}
+
+void show_crowd(Controls& controls, const Stage& stage, const Told& told, Done& done) {
+    heading("CROWD");
+    ImGui::SliderInt("instances", &controls.instances, 0, most_instances,
+                     controls.instances == 0 ? "none" : "%d",
+                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    done.crowd |= ImGui::IsItemDeactivatedAfterEdit();
+    int deformer = static_cast<int>(controls.deformer);
+    ImGui::RadioButton("processor", &deformer, static_cast<int>(Deformer::processor));
+    ImGui::SameLine();
+    ImGui::RadioButton("shader", &deformer, static_cast<int>(Deformer::shader));
+    controls.deformer = static_cast<Deformer>(deformer);
+    ImGui::TextColored(quiet, "%zu vertices a frame", stage.vertices());
+    const FrameTimes& times = told.times;
+    const bool by_shader = controls.deformer == Deformer::shader;
+    const std::string work =
+        by_shader ? "set-up " + milliseconds(times.set_up) : "deform " + milliseconds(times.deform);
+    ImGui::TextUnformatted((work + ", upload " + milliseconds(times.upload)).c_str());
+    const std::string draw = told.draw ? "draw " + milliseconds(*told.draw) : "";
+    const std::string frame = told.moving ? "frame " + milliseconds(told.frame) : "";
+    ImGui::TextUnformatted((draw + (draw.empty() || frame.empty() ? "" : ", ") + frame).c_str());
+}
+
+void show_saving(const Told& told, Done& done) {
+    heading("SAVE");
+    done.save_model = ImGui::Button("model");
+    ImGui::SameLine();
+    done.save_picture = ImGui::Button("picture");
+    ImGui::SameLine();
+    done.save_body = ImGui::Button("body");
+    ImGui::SameLine();
+    done.copy = ImGui::Button("copy command");
+    if (!told.message.empty()) paragraph(told.failed ? error_color : quiet, told.message);
+}
+
+}  // namespace
+
+Done show_panel(Controls& controls, const Stage& stage, const Told& told, float width) {
+    Done done;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({width, ImGui::GetIO().DisplaySize.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                       ImGuiWindowFlags_NoBringToFrontOnFocus;
+    ImGui::Begin("goffer", nullptr, fixed);
+    ImGui::PushItemWidth(0.58f * width);
+    show_model(stage, told);
+    show_opening(controls, done);
+    show_pose(controls, stage, done);
+    show_folds(controls, stage, done);
+    show_looks(controls, stage, done);
+    show_crowd(controls, stage, told, done);
+    show_saving(told, done);
+    if (!stage.loaded().warnings.empty()) {
+        heading("WARNINGS");
+        for (const std::string& warning : stage.loaded().warnings) paragraph(warning_color, warning);
+    }
+    heading("KEYS AND MOUSE");
+    paragraph(
+        quiet,
+        "Drag: turn; with the right button: shift; wheel: zoom. Drag an orange end to bend. Arrows: angle "
+        "and direction, of the region whose number is pressed. Space: animate. W wireframe, N normals, A "
+        "area, B base, F frames, R rest shape, C crowd, D who deforms, L look at all. Ctrl+S, P, B: save "
+        "model, picture, body. F1: panel. Escape: quit.");
+    paragraph(quiet, told.device);
+    ImGui::PopItemWidth();
+    ImGui::End();
+    ImGui::PopStyleVar();
+    return done;
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/rig.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+#include <goffer/paper/base.hpp>
+#include <goffer/paper/shape.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace goffer::cli {
+namespace {
+
+constexpr std::uint32_t columns = 32, rows_of_region = 96, ring_step = 4, column_step = 4;
+constexpr glm::vec3 line_color{0.05f, 0.12f, 0.30f};
+
+/// A point of the base at rest, in model space.
+glm::dvec3 on_base(const fit::Cylinder& cylinder, double beta, double z, double rho) {
+    const glm::dvec3 e1 = cylinder.zero, e2 = glm::cross(cylinder.axis, cylinder.zero), e3 = cylinder.axis;
+    if (cylinder.rest_angle == 0)
+        return cylinder.origin + rho * (std::cos(beta) * e1 + std::sin(beta) * e2) + z * e3;
+    const double theta = cylinder.rest_direction, phi = cylinder.rest_angle * z / cylinder.length;
+    const glm::dvec3 toward = std::cos(theta) * e1 + std::sin(theta) * e2;
+    const glm::dvec3 across = glm::cross(e3, toward);
+    const double radius = fit::rest_radius(cylinder), left = radius - rho * std::cos(beta - theta);
+    return cylinder.origin + (radius - left * std::cos(phi)) * toward + left * std::sin(phi) * e3 +
+           rho * std::sin(beta - theta) * across;
+}
+
+}  // namespace
+
+std::optional<Rig> Rig::make(const BoundModel& model) {
+    if (model.baked) return std::nullopt;
+    const fit::Cylinder& cylinder = model.cylinder;
+    Rig rig;
+    std::vector<double> heights;
+    double start = 0;
+    for (const fit::RegionBinding& region : model.binding.regions) {
+        rig.borders_.push_back(heights.size());
+        for (std::uint32_t i = 0; i < rows_of_region; ++i)
+            heights.push_back(start + region.length * i / rows_of_region);
+        start += region.length;
+    }
+    rig.borders_.push_back(heights.size());
+    heights.push_back(cylinder.length);
+    rig.rows_ = heights.size();
+    const auto rows = static_cast<std::uint32_t>(rig.rows_);
+    const std::vector<std::uint32_t> triangles =
+        paper::base_mesh(cylinder.length, cylinder.radius, columns, rows).triangles;
+    std::optional<paper::Spline> radius;
+    if (!cylinder.radii.empty()) radius.emplace(cylinder.length, cylinder.radii);
+    std::vector<glm::vec3> positions;
+    positions.reserve(heights.size() * columns);
+    for (const double z : heights) {
+        for (std::uint32_t c = 0; c < columns; ++c) {
+            const double beta = 2 * std::numbers::pi * c / columns;
+            positions.emplace_back(on_base(cylinder, beta, z, radius ? (*radius)(z) : cylinder.radius));
+        }
+    }
+    try {
+        fit::Binding binding = fit::bind_level({positions, triangles}, model.binding);
+        rig.place_.resize(positions.size());
+        for (std::uint32_t i = 0; i < positions.size(); ++i)
+            rig.place_[binding.order.empty() ? i : binding.order[i]] = i;
+        rig.body_ = std::move(binding.body);
+    } catch (const fit::Error&) {
+        return std::nullopt;  // a body that is beyond all floats but just so
+    }
+    rig.bent_.resize(positions.size());
+    rig.frames_.resize(rig.borders_.size());
+    return rig;
+}
+
+void Rig::set(std::span<const bend::Pose> poses) {
+    bend::DeformJob job;
+    job.body = &body_;
+    job.poses = poses;
+    job.positions = interleaved<3>(&bent_.front().x, bent_.size());
+    bend::run(job);
+    const auto at = [&](std::size_t row, std::size_t column) {
+        return bent_[place_[row * columns + column % columns]];
+    };
+    lines_.clear();
+    const auto line = [&](const glm::vec3& from, const glm::vec3& to) {
+        lines_.push_back({from, line_color});
+        lines_.push_back({to, line_color});
+    };
+    for (std::size_t row = 0; row < rows_; row += ring_step) {
+        for (std::size_t c = 0; c < columns; ++c) line(at(row, c), at(row, c + 1));
+    }
+    for (std::size_t c = 0; c < columns; c += column_step) {
+        for (std::size_t row = 0; row + 1 < rows_; ++row) line(at(row, c), at(row + 1, c));
+    }
+    for (std::size_t i = 0; i < borders_.size(); ++i) {  // there is no wrinkle at a region's end
+        glm::vec3 center(0);
+        for (std::size_t c = 0; c < columns; ++c) center += at(borders_[i], c) / static_cast<float>(columns);
+        const glm::vec3 e1 = glm::normalize(at(borders_[i], 0) - center);
+        const glm::vec3 e2 = glm::normalize(at(borders_[i], columns / 4) - center);
+        frames_[i] = glm::mat4x3(e1, e2, glm::cross(e1, e2), center);
+    }
+}
+
+bend::Pose pose_toward(const glm::mat4x3& frame, const glm::vec3& target) {
+    const glm::vec3 away = glm::transpose(glm::mat3(frame[0], frame[1], frame[2])) * (target - frame[3]);
+    const float across = std::hypot(away.x, away.y);
+    if (!(across > 0)) return {};
+    return {2 * std::atan2(across, away.z), std::atan2(away.y, away.x)};
+}
+
+}  // namespace goffer::cli

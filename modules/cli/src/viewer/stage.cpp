@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/stage.hpp"
+
+#include "deformed.hpp"
+#include "local_area.hpp"
+#include "picture.hpp"
+
+#include <goffer/bend/bounds.hpp>
+#include <goffer/fit/normals.hpp>
+#include <goffer/measure/timer.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
+constexpr int wall_clock = 2;  // of measure::now(): any number of threads but one
+
+/// Where in the body a vertex of the model is.
+std::vector<std::uint32_t> places_of(const fit::Binding& binding) {
+    std::vector<std::uint32_t> places(binding.body.vertex_count());
+    for (std::uint32_t i = 0; i < places.size(); ++i)
+        places[binding.order.empty() ? i : binding.order[i]] = i;
+    return places;
+}
+
+/// Parts in the colors that pictures have.
+std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
+    view::Model all;
+    all.triangles = model.rest.triangles;
+    std::vector<draw::Part> parts;
+    for (const view::Model& part : part_models(model.mesh, all, plain_color(index))) {
+        const auto first = static_cast<std::uint32_t>(part.triangles.data() - all.triangles.data());
+        parts.push_back({first / 3, static_cast<std::uint32_t>(part.triangles.size() / 3), part.color});
+    }
+    return parts;
+}
+
+draw::Mesh mesh_of(const BoundModel& model, std::size_t index) {
+    const std::vector<std::uint32_t> places = places_of(model.binding);
+    std::vector<std::uint32_t> triangles = model.rest.triangles;
+    for (std::uint32_t& vertex : triangles) vertex = places[vertex];
+    return {model.binding.body, triangles, parts_of(model, index)};
+}
+
+/// Values in the model's order, put into the body's.
+template <class T>
+std::vector<T> in_body_order(std::span<const T> values, const fit::Binding& binding) {
+    std::vector<T> sorted(values.begin(), values.end());
+    for (std::size_t i = 0; i < binding.order.size(); ++i) sorted[i] = values[binding.order[i]];
+    return sorted;
+}
+
+std::vector<draw::Vertex> rest_vertices(const BoundModel& model) {
+    std::vector<draw::Vertex> vertices(model.binding.body.vertex_count());
+    bend::DeformJob job;
+    const std::vector<bend::Pose> poses = model.binding.body.rest_poses();
+    job.body = &model.binding.body;
+    job.poses = poses;
+    job.positions = interleaved<3>(&vertices.front().position.x, vertices.size(), sizeof(draw::Vertex));
+    job.normals = interleaved<3>(&vertices.front().normal.x, vertices.size(), sizeof(draw::Vertex));
+    bend::run(job);
+    return vertices;
+}
+
+bend::Bounds nothing() {
+    constexpr float most = std::numeric_limits<float>::max();
+    return {glm::vec3(most), glm::vec3(-most)};
+}
+
+bend::Bounds both(const bend::Bounds& one, const bend::Bounds& other) {
+    return {glm::min(one.low, other.low), glm::max(one.high, other.high)};
+}
+
+/// Milliseconds of `work`, by the clock on the wall.
+template <class Work>
+double timed(const Work& work) {
+    return 1e-6 * measure::nanoseconds_of(wall_clock, work);
+}
+
+}  // namespace
+
+Stage::Stage(std::unique_ptr<Loaded> loaded, std::size_t instances) : loaded_(std::move(loaded)) {
+    const BoundModel& first = model();
+    for (std::size_t i = 0; i < loaded_->models.size(); ++i)
+        meshes_.push_back(mesh_of(loaded_->models[i], i));
+    rest_.emplace(mesh_of(first, 0));
+    rest_->set_vertices(rest_vertices(first));
+    rig_ = Rig::make(first);
+    poses_ = first.binding.body.rest_poses();
+    vertices_.resize(first.binding.body.vertex_count());
+    batch_.body = &first.binding.body;
+    batch_.count = 1;
+    batch_.poses = {poses_.data(), 1};
+    batch_.positions = interleaved<3>(&vertices_.front().position.x, vertices_.size(), sizeof(draw::Vertex));
+    batch_.normals = interleaved<3>(&vertices_.front().normal.x, vertices_.size(), sizeof(draw::Vertex));
+    batch_.vertex_step = vertices_.size();
+    set_instances(instances);
+}
+
+void Stage::set_instances(std::size_t instances) {
+    crowd_.reset();
+    if (instances == 0) return;
+    CrowdPlan plan;
+    plan.instances = std::max(instances, loaded_->models.size());
+    plan.option = "--crowd";
+    plan.poses = poses_of(loaded_->targets);
+    plan.layout = measure::stream_layout("interleaved-positions+normals");
+    crowd_ = std::make_unique<Crowd>(loaded_->models, plan);
+}
+
+std::size_t Stage::vertices() const {
+    return crowd_ ? crowd_->scene().vertices() : vertices_.size();
+}
+
+std::span<const bend::Batch> Stage::batches() const {
+    return crowd_ ? crowd_->job().batches : std::span<const bend::Batch>(&batch_, 1);
+}
+
+void Stage::pose(std::span<const bend::Pose> poses, std::size_t frame) {
+    std::ranges::copy(poses.first(std::min(poses.size(), poses_.size())), poses_.begin());
+    if (crowd_) {
+        crowd_->set_farthest(poses_);
+        crowd_->set_poses(frame);
+    }
+    if (rig_ && !crowd_) rig_->set(poses_);
+}
+
+FrameTimes Stage::deform(Deformer how, const Show& show) {
+    FrameTimes times;
+    const bool overlay = !crowd_ && (show.normals || show.area);
+    if (how == Deformer::processor || overlay)
+        times.deform =
+            timed([&] { bend::run_parallel(crowd_ ? crowd_->job() : bend::CrowdJob{.batches = batches()}); });
+    for (std::size_t i = 0; i < batches().size(); ++i) {
+        const bend::Batch& batch = batches()[i];
+        if (how == Deformer::processor) {
+            times.upload += timed([&] { upload_vertices(i); });
+            continue;
+        }
+        coefficients_.resize(batch.count * batch.body->region_count());
+        times.set_up += timed([&] { bend::set_up(batch, coefficients_); });
+        times.upload += timed([&] { meshes_[i].set_coefficients(coefficients_); });
+    }
+    normals_.clear();
+    if (!crowd_ && show.normals) mark_normals();
+    if (!crowd_ && show.area) {
+        std::vector<glm::vec3> positions;
+        positions.reserve(vertices_.size());
+        for (const draw::Vertex& vertex : vertices_) positions.push_back(vertex.position);
+        put_in_model_order(positions, model().binding);
+        const std::vector<glm::vec4> colors = area_colors(model(), positions);
+        const std::vector<glm::vec3> opaque(colors.begin(), colors.end());
+        meshes_[0].set_colors(in_body_order(std::span(opaque), model().binding));
+    } else {
+        meshes_[0].set_colors({});
+    }
+    return times;
+}
+
+void Stage::upload_vertices(std::size_t group) {
+    const bend::Batch& batch = batches()[group];
+    // Records of positions and normals, one behind the other: what draw::Vertex is.
+    const auto* const first = reinterpret_cast<const draw::Vertex*>(batch.positions.component[0]);
+    meshes_[group].set_vertices({first, batch.count * batch.vertex_step});
+}
+
+void Stage::mark_normals() {
+    const auto length = static_cast<float>(0.08 * model().cylinder.radius);
+    normals_.reserve(2 * vertices_.size());
+    for (const draw::Vertex& vertex : vertices_) {
+        normals_.push_back({vertex.position, normal_color});
+        normals_.push_back({vertex.position + length * vertex.normal, normal_color});
+    }
+}
+
+void Stage::draw(draw::Renderer& renderer, const Show& show) {
+    draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr};
+    for (std::size_t i = 0; i < batches().size(); ++i) {
+        renderer.draw(meshes_[i], look);
+        look.first_instance += batches()[i].count;
+    }
+    if (crowd_) return;
+    renderer.draw_lines(normals_);
+    if (rig_ && show.base) renderer.draw_lines(rig_->lines());
+    if (rig_ && show.frames) {
+        constexpr std::array<glm::vec3, 3> colors{glm::vec3{0.6f, 0, 0}, {0, 0.35f, 0}, {0, 0.05f, 0.7f}};
+        const auto size = static_cast<float>(1.6 * model().cylinder.radius);
+        frame_marks_.clear();
+        for (const glm::mat4x3& frame : rig_->frames()) {
+            for (int axis = 0; axis < 3; ++axis) {
+                frame_marks_.push_back({frame[3], colors[static_cast<std::size_t>(axis)]});
+                frame_marks_.push_back(
+                    {frame[3] + size * frame[axis], colors[static_cast<std::size_t>(axis)]});
+            }
+        }
+        renderer.draw_lines(frame_marks_);
+    }
+    if (show.rest) renderer.draw(*rest_, {.opacity = 0.25f});
+}
+
+std::span<const glm::mat4x3> Stage::frames() const {
+    return rig_ && !crowd_ ? rig_->frames() : std::span<const glm::mat4x3>();
+}
+
+void Stage::look_from(draw::OrbitCamera& camera, float aspect) const {
+    bend::Bounds all = nothing();
+    std::vector<bend::Bounds> boxes;
+    for (const bend::Batch& batch : batches()) {
+        boxes.resize(batch.count);
+        bend::bounds(batch, boxes);
+        for (const bend::Bounds& box : boxes) all = both(all, box);
+    }
+    glm::vec3 toward(0.12f, 1.0f, -0.85f), up(0, 0, 1);
+    if (!crowd_) {
+        const view::Camera eye = camera_for(model().binding.body, loaded_->targets[0].pose, {0, 35});
+        toward = eye.toward;
+        up = eye.up;
+        for (const glm::vec3& position : model().rest.positions) all = both(all, {position, position});
+    }
+    camera = draw::OrbitCamera(toward, up);
+    camera.look_at((all.low + all.high) / 2.0f, 0.42f * glm::distance(all.low, all.high), aspect);
+}
+
+}  // namespace goffer::cli

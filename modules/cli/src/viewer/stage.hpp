@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "crowd/crowd.hpp"
+#include "viewer/loader.hpp"
+#include "viewer/rig.hpp"
+
+#include <goffer/bend/kernel_input.hpp>
+#include <goffer/draw/mesh.hpp>
+#include <goffer/draw/orbit_camera.hpp>
+#include <goffer/draw/renderer.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace goffer::cli {
+
+/// Who deforms what is seen.
+enum class Deformer : std::uint8_t { processor, shader };
+
+/// What is shown, and how.
+struct Show {
+    bool wireframe = false;
+    /// These are for one body alone.
+    bool normals = false, area = false, base = false, frames = false, rest = false;
+};
+
+/// Milliseconds of a frame.
+struct FrameTimes {
+    double set_up = 0;  ///< by the shader's way: coefficients; the kernels' own is in `deform`
+    double deform = 0;  ///< on the processor
+    double upload = 0;
+};
+
+/// Models that have been loaded, deformed and drawn: one body in a pose, or a crowd in motion. Needs the
+/// context that it was made in to be current.
+class Stage {
+public:
+    /// One body if `instances` is 0. Throws InputError for a crowd that memory does not hold.
+    Stage(std::unique_ptr<Loaded> loaded, std::size_t instances);
+
+    /// Makes the crowd anew, or shows one body again.
+    void set_instances(std::size_t instances);
+    [[nodiscard]] std::size_t instances() const { return crowd_ ? crowd_->instances() : 1; }
+    [[nodiscard]] bool is_crowd() const { return crowd_ != nullptr; }
+    [[nodiscard]] const Loaded& loaded() const { return *loaded_; }
+    /// The first model: that of the pose.
+    [[nodiscard]] const BoundModel& model() const { return loaded_->models[0]; }
+    [[nodiscard]] std::size_t vertices() const;
+
+    /// Poses the body: one for each of its regions; or has the crowd swing this far, in frame `frame`.
+    void pose(std::span<const bend::Pose> poses, std::size_t frame);
+    /// Deforms all instances at these poses and uploads them.
+    FrameTimes deform(Deformer how, const Show& show);
+    void draw(draw::Renderer& renderer, const Show& show);
+
+    /// Where regions begin, and the last one ends; none in a crowd.
+    [[nodiscard]] std::span<const glm::mat4x3> frames() const;
+    /// Moves the camera to see all.
+    void look_from(draw::OrbitCamera& camera, float aspect) const;
+
+private:
+    [[nodiscard]] std::span<const bend::Batch> batches() const;
+    void upload_vertices(std::size_t group);
+    void mark_normals();
+
+    std::unique_ptr<Loaded> loaded_;
+    std::vector<draw::Mesh> meshes_;  // of each model
+    std::optional<draw::Mesh> rest_;  // the first model at rest
+    std::optional<Rig> rig_;
+    std::vector<bend::Pose> poses_;
+    std::vector<draw::Vertex> vertices_;  // of one body
+    bend::Batch batch_;                   // it
+    std::unique_ptr<Crowd> crowd_;
+    std::vector<bend::Coefficients> coefficients_;
+    std::vector<draw::Mark> normals_, frame_marks_;
+};
+
+}  // namespace goffer::cli

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/viewer.hpp"
+
+#include "report.hpp"
+
+#include <goffer/measure/timer.hpp>
+
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+constexpr float panel_share = 330;  // in units of text
+constexpr float end_pixels = 14;    // of the discs that ends are dragged by
+constexpr glm::vec3 end_color{0.95f, 0.35f, 0.02f}, chosen_color{0.9f, 0.05f, 0.02f};
+constexpr double frames_per_swing = 120;
+constexpr double idle = 0.1;  // seconds between looks at what is being bound
+constexpr int settling = 3;   // frames that the panel takes
+
+double milliseconds(std::chrono::steady_clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+}  // namespace
+
+Viewer::Viewer(std::unique_ptr<Loaded> loaded, const ViewerPlan& plan)
+    : plan_(plan), window_("goffer", plan.size, plan.frames == 0), controls_(plan.controls) {
+    told_.device = renderer_.device();
+    set_stage(std::move(loaded));
+    stage_->pose(poses_of(controls_), 0);
+    look_at_all();
+}
+
+ViewerTimes Viewer::run() {
+    std::size_t drawn = 0;
+    while (window_.is_open() && (plan_.frames == 0 || drawn < plan_.frames)) {
+        wait();
+        frame();
+        ++drawn;
+        if (plan_.frames > 0) {
+            set_up_times_.push_back(told_.times.set_up);
+            deform_times_.push_back(told_.times.deform);
+            upload_times_.push_back(told_.times.upload);
+            if (told_.draw) draw_times_.push_back(*told_.draw);
+            frame_times_.push_back(told_.frame);
+        }
+    }
+    ViewerTimes times;
+    times.deformation = {measure::median(set_up_times_), measure::median(deform_times_),
+                         measure::median(upload_times_)};
+    if (!draw_times_.empty()) times.draw = measure::median(draw_times_);
+    times.frame = measure::median(frame_times_);
+    times.device = told_.device;
+    return times;
+}
+
+void Viewer::wait() {
+    if (moves() || redraws_ > 0) {
+        window_.poll(0);
+        redraws_ = std::max(redraws_ - 1, 0);
+        return;
+    }
+    while (window_.is_open() && !window_.poll(idle)) {
+        if (loader_.answered()) break;
+    }
+    redraws_ = settling;
+}
+
+void Viewer::frame() {
+    window_.begin_frame();
+    take_answer();
+    open(window_.take_files());
+    take_keys();
+    const Clock::time_point now = Clock::now();
+    told_.frame = milliseconds(now - std::exchange(last_, now));
+    told_.moving = moves();
+    told_.busy = loader_.busy();
+    if (panel_) act(show_panel(controls_, *stage_, told_, panel_width()));
+    take_mouse();
+    if (moves()) ++motion_;
+    stage_->pose(poses(), motion_);
+    told_.times = stage_->deform(controls_.deformer, controls_.show);
+    renderer_.begin(camera_, viewport());
+    stage_->draw(renderer_, controls_.show);
+    if (done_.save_picture) save(std::exchange(done_, {}));  // before ends are marked
+    std::vector<draw::Mark> ends;
+    const std::span<const glm::mat4x3> frames = stage_->frames();
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        ends.push_back({frames[i][3], i - 1 == region_ && frames.size() > 2 ? chosen_color : end_color});
+    renderer_.draw_points(ends, end_pixels * window_.scale() * window_.pixel_ratio());
+    renderer_.end();
+    told_.draw = renderer_.draw_milliseconds();
+    window_.end_frame();
+}
+
+void Viewer::set_stage(std::unique_ptr<Loaded> loaded) {
+    std::string name = loaded->models[0].file.filename().string();
+    stage_ = std::make_unique<Stage>(std::move(loaded), static_cast<std::size_t>(controls_.instances));
+    window_.set_title("goffer: " + name);
+    region_ = std::min(region_, controls_.regions.size() - 1);
+    dragged_.reset();
+}
+
+void Viewer::take_answer() {
+    Loader::Answer answer = loader_.take();
+    if (!answer.error.empty()) say(answer.error, true);
+    if (!answer.loaded) return;
+    const bool other = answer.loaded->wish.files != stage_->loaded().wish.files;
+    if (other) controls_.set(answer.loaded->targets);
+    if (answer.loaded->models[0].binding.body.region_count() != controls_.regions.size())
+        return;  // another number has been asked for since
+    try {
+        set_stage(std::move(answer.loaded));
+        stage_->pose(poses(), motion_);
+        if (other) look_at_all();
+    } catch (const std::exception& error) {
+        say(error.what(), true);
+    }
+    redraws_ = settling;
+}
+
+void Viewer::open(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    Wish wish = wish_of(controls_, stage_->loaded().wish);
+    wish.files = files;
+    wish.pose = {};
+    if (controls_.regions.size() == 1) {
+        wish.pose.angle = number(static_cast<double>(controls_.regions[0].angle));
+        wish.pose.direction = static_cast<double>(controls_.regions[0].direction);
+    }
+    wish.keep_rest = true;
+    wish.bind.level = 0;
+    wish.bind.axis = "auto";
+    wish.bind.choices.clear();  // were of the files of the command line
+    loader_.ask(std::move(wish));
+}
+
+void Viewer::turn_region(float angle, float direction) {
+    Bend& bend = controls_.regions[region_];
+    const float limit =
+        static_cast<float>(degrees(static_cast<double>(stage_->model().binding.body.max_angle(region_))));
+    bend.angle = std::clamp(bend.angle + angle, -limit, limit);
+    bend.direction = std::remainder(bend.direction + direction, 360.0f);
+}
+
+void Viewer::take_keys() {
+    for (const KeyPress& key : window_.take_keys()) press(key);
+}
+
+void Viewer::press(const KeyPress& key) {
+    const float step = key.shift ? 1 : 5;
+    redraws_ = settling;
+    if (key.control) {
+        Done done;
+        done.save_model = key.key == 'S';
+        done.save_picture = key.key == 'P';
+        done.save_body = key.key == 'B';
+        done.copy = key.key == 'C';
+        act(done);
+        if (key.key == 'Q') window_.close();
+        return;
+    }
+    Show& show = controls_.show;
+    const auto flip = [](bool& value) { value = !value; };
+    if (key.key >= '1' && key.key <= '9') {
+        region_ = std::min(static_cast<std::size_t>(key.key - '1'), controls_.regions.size() - 1);
+        return;
+    }
+    switch (key.key) {
+        case Window::up:
+            return turn_region(step, 0);
+        case Window::down:
+            return turn_region(-step, 0);
+        case Window::left:
+            return turn_region(0, -step);
+        case Window::right:
+            return turn_region(0, step);
+        case ' ':
+            return flip(controls_.animated);
+        case 'W':
+            return flip(show.wireframe);
+        case 'N':
+            return flip(show.normals);
+        case 'A':
+            return flip(show.area);
+        case 'B':
+            return flip(show.base);
+        case 'F':
+            return flip(show.frames);
+        case 'R':
+            return flip(show.rest);
+        case 'D':
+            controls_.deformer =
+                controls_.deformer == Deformer::shader ? Deformer::processor : Deformer::shader;
+            return;
+        case 'C': {
+            controls_.instances = controls_.instances == 0 ? 100 : 0;
+            Done done;
+            done.crowd = true;
+            return act(done);
+        }
+        case 'L':
+            return look_at_all();
+        case Window::f1:
+            return flip(panel_);
+        case Window::escape:
+            return window_.close();
+        default:
+            return;
+    }
+}
+
+void Viewer::act(const Done& done) {
+    try {
+        if (done.bind) loader_.ask(wish_of(controls_, stage_->loaded().wish));
+        if (done.open) {
+            open({controls_.path.data()});
+            controls_.path = {};
+        }
+        if (done.crowd) {
+            stage_->set_instances(static_cast<std::size_t>(controls_.instances));
+            look_at_all();
+        }
+        if (done.look) look_at_all();
+        if (done.copy) {
+            window_.copy_to_clipboard(command_of(controls_, stage_->loaded().wish, stage_->model()));
+            say("The command is in the clipboard.");
+        }
+    } catch (const std::exception& error) {
+        say(error.what(), true);
+    }
+    if (done.save_picture) done_.save_picture = true;
+    if (done.save_model || done.save_body) {
+        Done saved = done;
+        saved.save_picture = false;
+        save(saved);
+    }
+}
+
+void Viewer::save(const Done& done) {
+    try {
+        std::filesystem::path file;
+        const draw::Viewport part = viewport();
+        if (done.save_picture)
+            file = saver_.save_picture(stage_->model(), {part.x, part.y}, {part.width, part.height});
+        if (done.save_model) file = saver_.save_model(stage_->model(), poses());
+        if (done.save_body) file = saver_.save_body(wish_of(controls_, stage_->loaded().wish));
+        say("Saved " + file.string() + ".");
+    } catch (const std::exception& error) {
+        say(error.what(), true);
+    }
+}
+
+void Viewer::say(const std::string& message, bool failed) {
+    told_.message = message;
+    told_.failed = failed;
+    redraws_ = settling;
+}
+
+std::vector<bend::Pose> Viewer::poses() const {
+    std::vector<bend::Pose> poses = poses_of(controls_);
+    if (!stage_->is_crowd() && moves()) {
+        const double swing =
+            0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(motion_) / frames_per_swing);
+        for (bend::Pose& pose : poses) pose.angle *= static_cast<float>(swing);
+    }
+    return poses;
+}
+
+float Viewer::panel_width() const {
+    return panel_ ? std::min(panel_share * window_.scale(), 0.5f * window_.size().x) : 0;
+}
+
+draw::Viewport Viewer::viewport() const {
+    const glm::ivec2 pixels = window_.pixels();
+    const int panel = static_cast<int>(panel_width() * window_.pixel_ratio());
+    return {panel, 0, std::max(pixels.x - panel, 1), std::max(pixels.y, 1)};
+}
+
+glm::vec2 Viewer::mouse_place() const {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float width = std::max(window_.size().x - panel_width(), 1.0f), height = window_.size().y;
+    return {2 * (io.MousePos.x - panel_width()) / width - 1, 1 - 2 * io.MousePos.y / height};
+}
+
+std::optional<std::size_t> Viewer::end_under_mouse() const {
+    const std::span<const glm::mat4x3> frames = stage_->frames();
+    const float aspect = viewport().aspect();
+    const float reach = 1.5f * end_pixels * window_.scale() / window_.size().y;
+    for (std::size_t i = frames.size(); i-- > 1;) {
+        const glm::vec2 away = camera_.place(frames[i][3], aspect) - mouse_place();
+        if (glm::length(away * glm::vec2(aspect, 1)) < reach) return i - 1;
+    }
+    return std::nullopt;
+}
+
+/// Bends the region so that its end follows the mouse, in the plane through it that faces the eye.
+void Viewer::drag_end() {
+    const std::span<const glm::mat4x3> frames = stage_->frames();
+    if (*dragged_ + 1 >= frames.size()) return;
+    const draw::Ray ray = camera_.ray(mouse_place(), viewport().aspect());
+    const glm::vec3 forward = camera_.forward();
+    const float depth = glm::dot(frames[*dragged_ + 1][3] - ray.origin, forward);
+    const glm::vec3 target = ray.origin + ray.direction * (depth / glm::dot(ray.direction, forward));
+    const bend::Pose pose = pose_toward(frames[*dragged_], target);
+    controls_.regions[*dragged_] = {0, static_cast<float>(degrees(static_cast<double>(pose.direction)))};
+    const std::size_t chosen = std::exchange(region_, *dragged_);
+    turn_region(static_cast<float>(degrees(static_cast<double>(pose.angle))), 0);
+    region_ = frames.size() > 2 ? *dragged_ : chosen;
+}
+
+void Viewer::take_mouse() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool free = !io.WantCaptureMouse;
+    if (free && ImGui::IsMouseClicked(0)) {
+        if (!moves()) dragged_ = end_under_mouse();
+        turning_ = !dragged_ && !io.KeyShift;
+        shifting_ = !dragged_ && io.KeyShift;
+    }
+    if (free && (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) shifting_ = true;
+    if (!ImGui::IsMouseDown(0)) {
+        dragged_.reset();
+        turning_ = false;
+    }
+    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) shifting_ = false;
+    const float height = window_.size().y;
+    const glm::vec2 moved(io.MouseDelta.x / height, io.MouseDelta.y / height);
+    if (dragged_ && (moved.x != 0 || moved.y != 0)) {
+        drag_end();
+    } else if (turning_) {
+        camera_.orbit(-std::numbers::pi_v<float> * moved.x, std::numbers::pi_v<float> * moved.y);
+    } else if (shifting_) {
+        camera_.pan({2 * moved.x, -2 * moved.y});
+    }
+    if (free && io.MouseWheel != 0) camera_.zoom(std::pow(0.9f, io.MouseWheel));
+}
+
+void Viewer::look_at_all() {
+    stage_->look_from(camera_, viewport().aspect());
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/controls.hpp"
+#include "viewer/loader.hpp"
+#include "viewer/panel.hpp"
+#include "viewer/saving.hpp"
+#include "viewer/stage.hpp"
+#include "viewer/window.hpp"
+
+#include <goffer/draw/orbit_camera.hpp>
+#include <goffer/draw/renderer.hpp>
+
+#include <glm/vec2.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace goffer::cli {
+
+/// How the viewer begins.
+struct ViewerPlan {
+    glm::ivec2 size{1280, 720};
+    Controls controls;
+    std::size_t frames = 0;  ///< pictures to draw as fast as it can, in motion; 0: until it is closed
+};
+
+/// What a number of frames took: medians in milliseconds.
+struct ViewerTimes {
+    FrameTimes deformation;
+    std::optional<double> draw;
+    double frame = 0;
+    std::string device;
+};
+
+/// The window with a stage in it, the panel beside it, and what keys and the mouse do.
+class Viewer {
+public:
+    /// Throws InputError where there is no display.
+    Viewer(std::unique_ptr<Loaded> loaded, const ViewerPlan& plan);
+
+    /// Until the window is closed or the plan's frames are drawn.
+    ViewerTimes run();
+
+    [[nodiscard]] const Stage& stage() const { return *stage_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void wait();
+    void frame();
+    void take_answer();
+    void open(const std::vector<std::filesystem::path>& files);
+    void take_keys();
+    void take_mouse();
+    void press(const KeyPress& key);
+    void turn_region(float angle, float direction);
+    void act(const Done& done);
+    void drag_end();
+    void look_at_all();
+    void save(const Done& done);
+    void say(const std::string& message, bool failed = false);
+    void set_stage(std::unique_ptr<Loaded> loaded);
+    [[nodiscard]] bool moves() const { return plan_.frames > 0 || controls_.animated || stage_->is_crowd(); }
+    [[nodiscard]] std::vector<bend::Pose> poses() const;
+    [[nodiscard]] draw::Viewport viewport() const;
+    [[nodiscard]] float panel_width() const;
+    /// Where the mouse is in the picture, -1 to 1 from edge to edge.
+    [[nodiscard]] glm::vec2 mouse_place() const;
+    /// The region whose end is under the mouse.
+    [[nodiscard]] std::optional<std::size_t> end_under_mouse() const;
+
+    ViewerPlan plan_;
+    Window window_;
+    draw::Renderer renderer_;
+    Loader loader_;
+    Saver saver_;
+    Controls controls_;
+    std::unique_ptr<Stage> stage_;
+    draw::OrbitCamera camera_;
+    Told told_;
+    Done done_;
+    bool panel_ = true;
+    std::size_t region_ = 0;              // that keys turn
+    std::optional<std::size_t> dragged_;  // its end is on the mouse
+    bool turning_ = false, shifting_ = false;
+    std::size_t motion_ = 0;  // frames in motion
+    Clock::time_point last_ = Clock::now();
+    int redraws_ = 0;  // frames until it may wait
+    std::vector<double> set_up_times_, deform_times_, upload_times_, draw_times_, frame_times_;
+};
+
+}  // namespace goffer::cli

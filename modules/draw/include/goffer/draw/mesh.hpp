@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+
+/// A body's mesh in the memory of OpenGL. All functions here need the context that the mesh was made in to be
+/// current, destructors too.
+
+namespace goffer::bend {
+class Body;
+struct Coefficients;
+}  // namespace goffer::bend
+
+namespace goffer::draw {
+
+/// Thrown where OpenGL cannot do what is asked. what() is one line.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A vertex as the processor deforms it.
+struct Vertex {
+    glm::vec3 position, normal;
+};
+
+/// Triangles in one color.
+struct Part {
+    std::uint32_t first = 0, count = 0;    ///< triangles
+    glm::vec3 color{0.72f, 0.33f, 0.20f};  ///< linear
+};
+
+/// What is drawn of a body, and how its instances were deformed last. Move-only.
+class Mesh {
+public:
+    /// Uploads what never changes: the body's columns, and `triangles`, 3 vertices of the body each, every
+    /// one < body.vertex_count(). `parts` lie within them. `body` is not empty, and not needed afterward.
+    Mesh(const bend::Body& body, std::span<const std::uint32_t> triangles, std::span<const Part> parts);
+    Mesh(Mesh&&) noexcept;
+    Mesh& operator=(Mesh&&) noexcept;
+    ~Mesh();
+
+    /// Uploads instances that the processor has deformed, body.vertex_count() vertices each, one instance
+    /// behind the other. From then on they are drawn.
+    void set_vertices(std::span<const Vertex> vertices);
+
+    /// Uploads instances that the vertex shader is to deform: what bend::set_up() wrote, as many for each
+    /// instance as the body has regions. From then on they are drawn. Throws Error where they are more than a
+    /// texture holds.
+    void set_coefficients(std::span<const bend::Coefficients> coefficients);
+
+    /// Gives each vertex a color, linear, in place of its part's; none: takes the colors away.
+    void set_colors(std::span<const glm::vec3> colors);
+
+private:
+    friend class Renderer;
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace goffer::draw

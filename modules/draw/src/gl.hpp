@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <utility>
+
+/// Names of OpenGL that go when they go out of scope.
+
+namespace goffer::draw {
+
+template <auto Delete>
+class Name {
+public:
+    Name() = default;
+    explicit Name(GLuint name) : name_(name) {}
+    Name(Name&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Name& operator=(Name&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~Name() {
+        if (name_ != 0) Delete(name_);
+    }
+    operator GLuint() const { return name_; }
+
+private:
+    GLuint name_ = 0;
+};
+
+// OpenGL's own are pointers that are set when the program runs: they cannot be arguments of a template.
+inline void delete_buffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+inline void delete_vertex_array(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+inline void delete_texture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+inline void delete_query(GLuint name) {
+    glDeleteQueries(1, &name);
+}
+inline void delete_shader(GLuint name) {
+    glDeleteShader(name);
+}
+inline void delete_program(GLuint name) {
+    glDeleteProgram(name);
+}
+
+using Buffer = Name<delete_buffer>;
+using VertexArray = Name<delete_vertex_array>;
+using Texture = Name<delete_texture>;
+using Query = Name<delete_query>;
+using Shader = Name<delete_shader>;
+using ProgramName = Name<delete_program>;
+
+/// A new one, of the function that makes some.
+template <class Named, class Make>
+[[nodiscard]] Named made(Make make) {
+    GLuint name = 0;
+    make(1, &name);
+    return Named(name);
+}
+
+}  // namespace goffer::draw

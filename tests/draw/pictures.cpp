@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "support/bound_case.hpp"
+#include "support/egl.hpp"
+
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/kernel_input.hpp>
+#include <goffer/draw/renderer.hpp>
+
+#include <doctest/doctest.h>
+#include <epoxy/gl.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What OpenGL draws, looked at pixel by pixel.
+
+namespace goffer::test {
+namespace {
+
+constexpr int side = 240;
+
+struct Pixel {
+    std::uint8_t r, g, b, a;
+    bool operator==(const Pixel&) const = default;
+};
+
+int difference(const Pixel& one, const Pixel& other) {
+    return std::max({std::abs(one.r - other.r), std::abs(one.g - other.g), std::abs(one.b - other.b)});
+}
+
+/// Something to draw into, as large as a picture.
+class Target {
+public:
+    Target() {
+        std::array<GLuint, 2> buffers{};
+        glGenRenderbuffers(2, buffers.data());
+        glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, side, side);
+        glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, side, side);
+        GLuint frame = 0;
+        glGenFramebuffers(1, &frame);
+        glBindFramebuffer(GL_FRAMEBUFFER, frame);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+        REQUIRE(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+    }
+    [[nodiscard]] static std::vector<Pixel> pixels() {
+        std::vector<Pixel> pixels(std::size_t{side} * side);
+        glReadPixels(0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+        return pixels;
+    }
+};
+
+/// Runs `check` in a context, unless there is none.
+void in_context(bool embedded, const std::function<void(draw::Renderer&)>& check) {
+    std::string why;
+    const EglContext context(embedded, 3, why);
+    if (!why.empty()) {
+        MESSAGE("skipped: ", why);
+        return;
+    }
+    const Target target;
+    draw::Renderer renderer;
+    check(renderer);
+}
+
+/// A crowd of one body on a line, in poses of its own.
+struct Crowd {
+    static constexpr std::size_t instances = 3;
+
+    BoundCase bound;
+    std::vector<bend::Pose> poses;
+    std::vector<glm::mat4x3> transforms;
+    std::vector<draw::Vertex> vertices;
+    std::vector<bend::Coefficients> coefficients;
+    bend::Batch batch;
+
+    explicit Crowd(Random& random, std::size_t regions, bool bent_at_rest)
+        : bound(random_case(random, regions, bent_at_rest)) {
+        const bend::Body& body = bound.binding.body;
+        for (std::size_t i = 0; i < instances; ++i) {
+            for (const bend::Pose& pose : random_poses(random, body)) poses.push_back(pose);
+            glm::mat4x3 transform(1);
+            transform[3][0] = static_cast<float>(1.2 * static_cast<double>(i) * body.length());
+            transforms.push_back(transform);
+        }
+        vertices.resize(instances * body.vertex_count());
+        coefficients.resize(instances * body.region_count());
+        batch.body = &body;
+        batch.count = instances;
+        batch.poses = {.data = poses.data(),
+                       .count = instances,
+                       .stride = static_cast<std::uint32_t>(body.region_count() * sizeof(bend::Pose))};
+        batch.transforms = strided(std::span(transforms));
+        batch.positions = interleaved<3>(&vertices[0].position.x, vertices.size(), sizeof(draw::Vertex));
+        batch.normals = interleaved<3>(&vertices[0].normal.x, vertices.size(), sizeof(draw::Vertex));
+        batch.vertex_step = body.vertex_count();
+        bend::run({.batches = {&batch, 1}});
+        bend::set_up(batch, coefficients);
+    }
+
+    [[nodiscard]] draw::Mesh mesh() const {
+        std::vector<std::uint32_t> triangles = bound.test_mesh.triangles;
+        const std::vector<std::uint32_t>& order = bound.binding.order;
+        std::vector<std::uint32_t> place(bound.binding.body.vertex_count());
+        for (std::uint32_t i = 0; i < place.size(); ++i) place[order.empty() ? i : order[i]] = i;
+        for (std::uint32_t& vertex : triangles) vertex = place[vertex];
+        const draw::Part all{0, static_cast<std::uint32_t>(triangles.size() / 3)};
+        return {bound.binding.body, triangles, {&all, 1}};
+    }
+
+    [[nodiscard]] draw::OrbitCamera camera() const {
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (const draw::Vertex& vertex : vertices) {
+            low = glm::min(low, vertex.position);
+            high = glm::max(high, vertex.position);
+        }
+        draw::OrbitCamera camera({0.3f, 1, -0.5f}, {0, 0, 1});
+        camera.look_at((low + high) / 2.0f, 0.5f * glm::distance(low, high), 1);
+        return camera;
+    }
+};
+
+std::vector<Pixel> picture(draw::Renderer& renderer, const draw::OrbitCamera& camera, const draw::Mesh* mesh,
+                           const draw::Look& look = {}) {
+    renderer.begin(camera, {0, 0, side, side});
+    if (mesh != nullptr) renderer.draw(*mesh, look);
+    renderer.end();
+    return Target::pixels();
+}
+
+/// How many pixels differ by more than `most` of 255.
+std::size_t different(const std::vector<Pixel>& one, const std::vector<Pixel>& other, int most) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) count += difference(one[i], other[i]) > most ? 1 : 0;
+    return count;
+}
+
+/// Both ways to deform show one picture: the last bits of vertices move edges by less than a pixel.
+void same_picture(draw::Renderer& renderer) {
+    Random random(21);
+    for (std::size_t trial = 0; trial < 6; ++trial) {
+        CAPTURE(trial);
+        const Crowd crowd(random, 1 + trial % 3, trial % 2 == 1);
+        const draw::OrbitCamera camera = crowd.camera();
+        draw::Mesh mesh = crowd.mesh();
+        const std::vector<Pixel> backdrop = picture(renderer, camera, nullptr);
+        mesh.set_vertices(crowd.vertices);
+        const std::vector<Pixel> by_processor = picture(renderer, camera, &mesh, {.tinted = true});
+        mesh.set_coefficients(crowd.coefficients);
+        const std::vector<Pixel> by_shader = picture(renderer, camera, &mesh, {.tinted = true});
+        const std::size_t shown = different(by_processor, backdrop, 8);
+        CHECK(shown > 500);
+        CHECK(different(by_processor, by_shader, 3) <= shown / 200);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("pictures: OpenGL 3.3 draws the same, whoever deforms") {
+    in_context(false, same_picture);
+}
+
+TEST_CASE("pictures: OpenGL ES 3.0 draws the same, whoever deforms") {
+    in_context(true, same_picture);
+}
+
+TEST_CASE("pictures: edges, colors, tints and opacity show, and go again") {
+    in_context(false, [](draw::Renderer& renderer) {
+        Random random(22);
+        const Crowd crowd(random, 1, false);
+        const draw::OrbitCamera camera = crowd.camera();
+        draw::Mesh mesh = crowd.mesh();
+        mesh.set_vertices(crowd.vertices);
+        const std::vector<Pixel> backdrop = picture(renderer, camera, nullptr);
+        const std::vector<Pixel> plain = picture(renderer, camera, &mesh);
+        const std::size_t shown = different(plain, backdrop, 8);
+        const auto differs = [&](const draw::Look& look) {
+            return different(picture(renderer, camera, &mesh, look), plain, 8);
+        };
+        CHECK(differs({.wireframe = true}) > shown / 10);
+        CHECK(differs({.tinted = true}) > shown / 10);
+        CHECK(differs({.opacity = 0.2f}) > shown / 2);
+        const std::vector<glm::vec3> blue(crowd.bound.binding.body.vertex_count(), {0, 0, 1});
+        mesh.set_colors(blue);
+        const std::vector<Pixel> colored = picture(renderer, camera, &mesh);
+        std::size_t bluish = 0;
+        for (std::size_t i = 0; i < colored.size(); ++i) bluish += colored[i].b > colored[i].r + 60 ? 1 : 0;
+        CHECK(bluish > shown / 2);
+        mesh.set_colors({});
+        CHECK(picture(renderer, camera, &mesh) == plain);
+    });
+}
+
+TEST_CASE("pictures: lines are hidden behind what is in front, points are not") {
+    in_context(false, [](draw::Renderer& renderer) {
+        Random random(23);
+        const Crowd crowd(random, 1, false);
+        const draw::OrbitCamera camera = crowd.camera();
+        draw::Mesh mesh = crowd.mesh();
+        mesh.set_vertices(crowd.vertices);
+        const glm::vec3 middle = crowd.vertices[0].position;
+        const glm::vec3 behind = camera.eye() + 3.0f * (middle - camera.eye());
+        const glm::vec3 near = camera.eye() + 0.1f * (middle - camera.eye());
+        const glm::vec3 across = 0.001f * camera.right();
+        const auto greens = [&](const std::function<void()>& marks) {
+            renderer.begin(camera, {0, 0, side, side});
+            renderer.draw(mesh);
+            marks();
+            renderer.end();
+            return std::ranges::count_if(Target::pixels(),
+                                         [](const Pixel& pixel) { return pixel.g > 200 && pixel.r < 60; });
+        };
+        const auto line_at = [&](const glm::vec3& from) {
+            const std::array line{
+                draw::Mark{from, {0, 1, 0}},
+                draw::Mark{from + 100.0f * across * glm::distance(from, camera.eye()), {0, 1, 0}}};
+            return greens([&] { renderer.draw_lines(line); });
+        };
+        CHECK(line_at(near) > 3);
+        CHECK(line_at(behind) < line_at(near));
+        const std::array point{draw::Mark{behind, {0, 1, 0}}};
+        const auto dot = greens([&] { renderer.draw_points(point, 12); });
+        CHECK(dot > 30);
+        CHECK(dot < 150);
+    });
+}
+
+TEST_CASE("pictures: a mesh without instances, and no marks, are nothing to draw") {
+    in_context(false, [](draw::Renderer& renderer) {
+        Random random(24);
+        const Crowd crowd(random, 2, false);
+        const draw::Mesh mesh = crowd.mesh();
+        const draw::OrbitCamera camera = crowd.camera();
+        const std::vector<Pixel> backdrop = picture(renderer, camera, nullptr);
+        CHECK(picture(renderer, camera, &mesh) == backdrop);
+        renderer.begin(camera, {0, 0, side, side});
+        renderer.draw_lines({});
+        renderer.draw_points({}, 5);
+        renderer.end();
+        CHECK(Target::pixels() == backdrop);
+    });
+}
+
+}  // namespace goffer::test
