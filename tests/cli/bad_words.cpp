@@ -91,7 +91,7 @@ TEST_CASE("bad words: what does not go together") {
 TEST_CASE("bad words: no or another command, unknown options, too many words") {
     const Place place;
     refused(place.folder, 2, {},
-            {"give a command: base, inspect, refine, bend, bake, crowd; see goffer --help"});
+            {"give a command: base, inspect, refine, bend, bake, crowd, view; see goffer --help"});
     refused(place.folder, 2, {"fold", "base.ply"}, {"no command fold", "see goffer --help"});
     refused(place.folder, 2, {"bend"}, {"required"});
     refused(place.folder, 2, {"bent", "base.ply"}, {"no command bent; did you mean bend?"});
@@ -114,6 +114,16 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
     refused(place.folder, 2, {"inspect", "base.ply", "other.ply"}, {"other.ply"});
     place.refuse_bend({"--wave"}, {"--wave"});
 }
+
+#ifdef GOFFER_HAS_VIEWER
+TEST_CASE("bad words: of a viewer, before it looks for a display") {
+    const Place place;
+    refused(place.folder, 2, {"view", "--size", "10"}, {"--size: '10' is no size; give WIDTHxHEIGHT"});
+    refused(place.folder, 2, {"view", "--json", "out.json"}, {"--json: ", "add --frames N"});
+    refused(place.folder, 2, {"view", "--crowd", "-3"}, {"--crowd"});
+    refused(place.folder, 2, {"view", "--frames", "0"}, {"--frames"});
+}
+#endif
 
 TEST_CASE("bad words: endings") {
     const Place place;

@@ -6,7 +6,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <string>
 
 using namespace goffer::test;
 
@@ -106,4 +110,53 @@ TEST_CASE("pictures: a crowd's regions are put together as the model is") {
         return gray_of(folder / "out.png");
     };
     CHECK(differing(picture({"--regions", "0.5,0.5"}), picture({})) < 1e-3);
+}
+
+TEST_CASE("pictures: vertices have the colors that the file gives them, one by one and in a crowd") {
+    const Folder folder;
+    // A tube of 8 x 21 vertices, green below and blue above; and the same all in white, which says nothing.
+    const auto write = [&](const std::string& name, bool colored) {
+        std::ofstream file(folder / name);
+        for (int row = 0; row <= 20; ++row) {
+            for (int column = 0; column < 8; ++column) {
+                const double turn = column * std::numbers::pi / 4;
+                file << "v " << std::cos(turn) << ' ' << std::sin(turn) << ' ' << 0.5 * row
+                     << (!colored   ? " 1 1 1\n"
+                         : row < 10 ? " 0.1 0.7 0.1\n"
+                                    : " 0.1 0.1 0.7\n");
+            }
+        }
+        for (int row = 0; row < 20; ++row) {
+            for (int column = 0; column < 8; ++column) {
+                const int a = 8 * row + column + 1, b = 8 * row + (column + 1) % 8 + 1;
+                file << "f " << a << ' ' << b << ' ' << b + 8 << ' ' << a + 8 << '\n';
+            }
+        }
+    };
+    write("tube.obj", true);
+    write("white.obj", false);
+    const auto count = [&](int channel, int than) {
+        const Pixels pixels(folder / "out.png");
+        int found = 0;
+        for (std::size_t y = 0; y < pixels.height; ++y) {
+            for (std::size_t x = 0; x < pixels.width; ++x) {
+                const auto color = pixels.at(x, y);
+                const auto c = static_cast<std::size_t>(channel), t = static_cast<std::size_t>(than);
+                found += color[c] > color[t] + 40 ? 1 : 0;
+            }
+        }
+        return found;
+    };
+    constexpr int red = 0, green = 1, blue = 2;
+    well(folder, {"bend", "tube.obj", "-o", "out.obj", "--png", "out.png", "--size", "320x240"});
+    CHECK(count(green, red) > 1000);
+    CHECK(count(blue, red) > 1000);
+    CHECK(count(red, blue) == 0);
+    well(folder, {"crowd", "tube.obj", "--folds", "0", "--instances", "3", "--frames", "1", "--png",
+                  "out.png", "--size", "320x240"});
+    CHECK(count(green, red) > 500);
+    CHECK(count(blue, red) > 500);
+    CHECK(count(red, blue) == 0);
+    well(folder, {"bend", "white.obj", "-o", "out.obj", "--png", "out.png", "--size", "320x240"});
+    CHECK(count(red, blue) > 2000);  // clay
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gl.hpp"
+
 #include "support/egl.hpp"
 
 #include <goffer/bend/kernel_input.hpp>

@@ -178,8 +178,8 @@ void run_bend(const BendOptions& options) {
     if (const std::filesystem::path& png = options.picture.file; !png.empty()) {
         const Progress progress("rendering " + png.string());
         const bool show = !options.show.empty();
-        const std::vector<glm::vec4> colors =
-            show ? area_colors(model, bent.records.positions) : std::vector<glm::vec4>();
+        const std::vector<glm::vec4> colors = show ? area_colors(model, bent.records.positions)
+                                                   : vertex_colors(options.model, model.mesh, model.rest);
         write_picture(
             {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
             request.style, png, outputs);

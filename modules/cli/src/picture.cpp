@@ -19,13 +19,22 @@
 namespace goffer::cli {
 namespace {
 
+/// Neither so bright nor so dark that its wrinkles do not show.
+glm::vec4 dimmed(const glm::vec4& color) {
+    const float high = std::max({color.r, color.g, color.b, 1e-3f});
+    return {glm::max(glm::vec3(color) * std::min(1.0f, 0.75f / high), glm::vec3(0.06f)), 1.0f};
+}
+
 /// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
 /// material says whose texture is not at hand, is no color; such parts are `plain`.
 glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     const auto [low, high] = std::minmax({color.r, color.g, color.b});
-    if (high > 0.5f && high - low < 0.02f) return plain;
-    const glm::vec3 dimmed = glm::vec3(color) * std::min(1.0f, 0.75f / std::max(high, 1e-3f));
-    return {glm::max(dimmed, glm::vec3(0.06f)), 1.0f};
+    return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
+}
+
+float linear(float encoded) {
+    const float value = std::clamp(encoded, 0.0f, 1.0f);
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
 [[noreturn]] void refuse_size(const std::string& text) {
@@ -102,6 +111,22 @@ view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Vi
     camera.toward = glm::vec3(-std::cos(elevation) * level - std::sin(elevation) * toward);
     camera.up = glm::vec3(std::cos(elevation) * toward - std::sin(elevation) * level);
     return camera;
+}
+
+std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
+                                     const mesh::VertexArrays& rest) {
+    const auto white = [](const glm::vec4& color) { return color == glm::vec4(1, 1, 1, color.a); };
+    std::vector<glm::vec4> colors;
+    if (std::ranges::all_of(mesh.colors, white)) return colors;
+    const std::string ending = file.extension().string();
+    const bool encoded = ending != ".glb" && ending != ".gltf";
+    colors.reserve(rest.vertex.size());
+    for (const std::uint32_t vertex : rest.vertex) {
+        glm::vec4 color = mesh.colors[vertex];
+        for (int c = 0; encoded && c < 3; ++c) color[c] = linear(color[c]);
+        colors.push_back(dimmed(color));
+    }
+    return colors;
 }
 
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,

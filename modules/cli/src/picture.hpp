@@ -64,6 +64,12 @@ struct BentModel {
 /// The color of parts that have none of their own, of one model of several.
 [[nodiscard]] glm::vec4 plain_color(std::size_t model);
 
+/// The colors of vertices as pictures show them, linear RGBA, in place of materials' and in the order of
+/// `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB, which `file` tells. Empty where
+/// there are none, or all are white.
+[[nodiscard]] std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
+                                                   const mesh::VertexArrays& rest);
+
 /// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
 /// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts
 /// them, in their order. The models refer to the same memory.

@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <bit>
+#include <cstddef>
 #include <utility>
 
 /// Names of OpenGL that go when they go out of scope.
@@ -61,6 +63,11 @@ template <class Named, class Make>
     GLuint name = 0;
     make(1, &name);
     return Named(name);
+}
+
+/// A place in a buffer, as OpenGL's functions take it.
+[[nodiscard]] inline const void* at_byte(std::size_t offset) {
+    return std::bit_cast<const void*>(offset);
 }
 
 }  // namespace goffer::draw

@@ -30,7 +30,7 @@ void replace(GLenum target, std::span<const std::byte> bytes) {
 void attribute(GLuint location, GLint floats, std::size_t stride, std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                          reinterpret_cast<const void*>(offset));
+                          at_byte(offset));
 }
 
 void attribute_if_any(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {
@@ -131,10 +131,9 @@ void Mesh::Data::make_edges() {
         edges.push_back({std::min(one, other), std::max(one, other)});
     }
     std::ranges::sort(edges);
-    const auto twice = std::ranges::unique(edges);
-    edges.erase(twice.begin(), twice.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     edge_ends = static_cast<GLsizei>(2 * edges.size());
-    glBindVertexArray(0);  // whose binding of indices this would replace
+    glBindVertexArray(streams_array);  // without one a core profile takes no indices
     edge_indices = buffer_of(GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(edges)));
     triangles = {};
 }

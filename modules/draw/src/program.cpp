@@ -6,6 +6,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <string_view>
 
 namespace goffer::draw {
@@ -34,6 +35,11 @@ vec3 encoded(vec3 light) {
 }
 )";
 
+[[noreturn]] void refuse(const std::string& what, std::string log) {
+    std::ranges::replace(log, '\n', ' ');
+    throw Error("OpenGL's driver refuses " + what + ": " + log);
+}
+
 GLuint compiled(GLenum stage, const std::string& text) {
     const std::string version = epoxy_is_desktop_gl()
                                     ? "#version 330 core\n"
@@ -49,7 +55,7 @@ GLuint compiled(GLenum stage, const std::string& text) {
     char log[2048] = "";
     glGetShaderInfoLog(shader, sizeof log, nullptr, log);
     glDeleteShader(shader);
-    throw Error(std::string("OpenGL's driver refuses a shader: ") + log);
+    refuse("a shader", log);
 }
 
 }  // namespace
@@ -71,7 +77,10 @@ layout(location = 5) in vec4 shape;
 layout(location = 6) in vec4 tangent;
 uniform sampler2D coefficients;
 uniform int rows_per_instance;
-vec4 goffer_row(int row) { return texelFetch(coefficients, ivec2(row % 1024, row / 1024), 0); }
+vec4 goffer_row(int row) {
+    int width = textureSize(coefficients, 0).x;
+    return texelFetch(coefficients, ivec2(row % width, row / width), 0);
+}
 void main() {
     GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent);
     GofferBent bent = goffer_deform(vertex, gl_InstanceID * rows_per_instance);
@@ -80,7 +89,7 @@ void main() {
 )";
 }
 
-// The light of view::render, with half of the sky hidden everywhere in place of its shadows.
+// The light of view::render, without shadows: instead, less of the sky where a surface turns away.
 std::string surface_fragment() {
     return std::string(to_screen) + R"(
 uniform vec3 eye, right, up, forward, part_color;
@@ -89,9 +98,14 @@ in vec3 surface_position, surface_normal, surface_color;
 out vec4 pixel;
 void main() {
     vec3 to_eye = normalize(eye - surface_position);
+    vec3 face = cross(dFdx(surface_position), dFdy(surface_position));
     vec3 normal = normalize(surface_normal);
+    if (dot(face, to_eye) * dot(face, normal) < 0.0) normal = -normal;
     float cosine = dot(normal, to_eye);
-    if (cosine < 0.0) normal = -normal, cosine = -cosine;
+    if (cosine < 0.01) {  // interpolation has turned it away
+        normal = normalize(normal + (0.01 - cosine) * to_eye);
+        cosine = 0.01;
+    }
     vec3 key = normalize(-0.60 * right + 0.75 * up - 0.55 * forward);
     vec3 albedo = part_color * surface_color;
     vec3 sky = mix(vec3(0.16, 0.13, 0.12), vec3(0.34, 0.37, 0.42), 0.5 + 0.33 * dot(normal, up));
@@ -172,26 +186,41 @@ Program::Program(const std::string& vertex, const std::string& fragment) : name_
     glLinkProgram(name_);
     GLint good = 0;
     glGetProgramiv(name_, GL_LINK_STATUS, &good);
-    if (good != 0) return;
     char log[2048] = "";
-    glGetProgramInfoLog(name_, sizeof log, nullptr, log);
-    throw Error(std::string("OpenGL's driver refuses a program: ") + log);
+    if (good == 0) {
+        glGetProgramInfoLog(name_, sizeof log, nullptr, log);
+        refuse("a program", log);
+    }
+    GLint uniforms = 0;
+    glGetProgramiv(name_, GL_ACTIVE_UNIFORMS, &uniforms);
+    for (GLuint i = 0; i < static_cast<GLuint>(uniforms); ++i) {
+        GLint size = 0;
+        GLenum type = 0;
+        glGetActiveUniform(name_, i, sizeof log, nullptr, &size, &type, log);
+        locations_.emplace(log, glGetUniformLocation(name_, log));
+    }
+}
+
+/// -1, which OpenGL ignores, of what the program does not have.
+GLint Program::location(const char* uniform) const {
+    const auto found = locations_.find(std::string_view(uniform));
+    return found == locations_.end() ? -1 : found->second;
 }
 
 void Program::set(const char* uniform, int value) const {
-    glUniform1i(glGetUniformLocation(name_, uniform), value);
+    glUniform1i(location(uniform), value);
 }
 
 void Program::set(const char* uniform, float value) const {
-    glUniform1f(glGetUniformLocation(name_, uniform), value);
+    glUniform1f(location(uniform), value);
 }
 
 void Program::set(const char* uniform, const glm::vec3& value) const {
-    glUniform3fv(glGetUniformLocation(name_, uniform), 1, glm::value_ptr(value));
+    glUniform3fv(location(uniform), 1, glm::value_ptr(value));
 }
 
 void Program::set(const char* uniform, const glm::mat4& value) const {
-    glUniformMatrix4fv(glGetUniformLocation(name_, uniform), 1, GL_FALSE, glm::value_ptr(value));
+    glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
 }  // namespace goffer::draw

@@ -6,6 +6,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
+#include <map>
 #include <string>
 
 namespace goffer::draw {
@@ -47,7 +49,10 @@ public:
     void set(const char* uniform, const glm::mat4& value) const;
 
 private:
+    [[nodiscard]] GLint location(const char* uniform) const;
+
     ProgramName name_;
+    std::map<std::string, GLint, std::less<>> locations_;
 };
 
 }  // namespace goffer::draw

@@ -106,6 +106,9 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
                                 const view::Settings& settings, const std::filesystem::path& file,
                                 io::AtomicFiles& outputs) {
     const std::vector<std::size_t> chosen = choose(crowd, models);
+    std::vector<std::vector<glm::vec4>> colors;
+    for (const BoundModel& model : models)
+        colors.push_back(vertex_colors(model.file, model.mesh, model.rest));
     std::vector<Vertices> vertices;
     std::vector<view::Model> parts;
     vertices.reserve(chosen.size());
@@ -115,10 +118,12 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
         put_in_model_order(own.positions, model.binding);
         put_in_model_order(own.normals, model.binding);
         const glm::vec4 plain = plain_color(crowd.model(i));
-        const view::Model all{
-            .positions = own.positions, .triangles = model.rest.triangles, .normals = own.normals};
+        const view::Model all{.positions = own.positions,
+                              .triangles = model.rest.triangles,
+                              .normals = own.normals,
+                              .colors = colors[crowd.model(i)]};
         for (view::Model& part : part_models(model.mesh, all, plain)) {
-            part.color = tinted(part.color, i);
+            part.color = tinted(all.colors.empty() ? part.color : glm::vec4(1), i);
             parts.push_back(part);
         }
     }

@@ -31,14 +31,14 @@ struct ViewOptions {
     }
 };
 
-ViewerPlan plan_of(const ViewOptions& options, const Loaded& loaded) {
+ViewerPlan plan_of(const ViewOptions& options, const glm::ivec2& size, const Loaded& loaded) {
     ViewerPlan plan;
-    const view::Settings size = parse_size(options.size);
-    plan.size = {size.width, size.height};
+    plan.size = size;
     plan.frames = options.frames;
-    plan.controls.set(options.bind);
-    plan.controls.set(loaded.targets);
+    plan.controls.set_words(loaded.words);
+    plan.controls.set_poses(loaded);
     plan.controls.instances = options.crowd;
+    plan.controls.animated = options.crowd > 0;
     plan.controls.deformer = options.shader ? Deformer::shader : Deformer::processor;
     return plan;
 }
@@ -47,7 +47,7 @@ void report_times(Report& report, const ViewOptions& options, const Stage& stage
     nlohmann::ordered_json& json = report.json;
     json["instances"] = stage.instances();
     json["vertices_per_frame"] = stage.vertices();
-    json["frames"] = options.frames;
+    json["frames"] = times.frames;
     json["deformer"] = options.shader ? "shader" : "processor";
     json["device"] = times.device;
     json["ms"] = {{"set_up", times.deformation.set_up},
@@ -69,11 +69,12 @@ void report_times(Report& report, const ViewOptions& options, const Stage& stage
 void run_view(const ViewOptions& options) {
     if (!options.json.empty() && options.frames == 0)
         throw UsageError("--json: is a report of times; add --frames N");
+    const view::Settings size = parse_size(options.size);
     Window::check_display();
     Report report(options.json);
     const Wish wish{options.models, options.bind, options.pose, !options.pose_said()};
     auto loaded = std::make_unique<Loaded>(load(wish));
-    const ViewerPlan plan = plan_of(options, *loaded);
+    const ViewerPlan plan = plan_of(options, {size.width, size.height}, *loaded);
     Viewer viewer(std::move(loaded), plan);
     const ViewerTimes times = viewer.run();
     if (options.frames == 0) return;

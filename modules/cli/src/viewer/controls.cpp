@@ -1,18 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/controls.hpp"
 
+#include "viewer/saving.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
 
 namespace goffer::cli {
 namespace {
 
-/// "0.25,0.25,0.25,0.25"; empty for one region.
-std::string equal_shares(std::size_t regions) {
+/// "0.25,0.25,0.25,0.25"; empty for one region. The last makes up for the rounding of the others.
+std::string equal_shares(int regions) {
     std::string text;
-    for (std::size_t r = 0; regions > 1 && r < regions; ++r)
-        text += (r > 0 ? "," : "") + number(1 / static_cast<double>(regions));
-    return text;
+    double left = 1;
+    for (int r = 1; r < regions; ++r) {
+        const std::string share = number(1.0 / regions);
+        left -= std::stod(share);
+        text += share + ",";
+    }
+    return regions > 1 ? text + number(left) : text;
+}
+
+/// `count` regions that bend alike, together as far and that way as these do; angles add up as vectors.
+std::vector<Bend> shared_out(const std::vector<Bend>& regions, int count) {
+    double x = 0, y = 0;
+    for (const Bend& bend : regions) {
+        const double angle = static_cast<double>(bend.angle),
+                     theta = radians(static_cast<double>(bend.direction));
+        x += angle * std::cos(theta);
+        y += angle * std::sin(theta);
+    }
+    const Bend each{static_cast<float>(std::hypot(x, y) / count),
+                    static_cast<float>(degrees(std::atan2(y, x)))};
+    return std::vector<Bend>(static_cast<std::size_t>(count), each);
 }
 
 /// `value` of each region, with commas between them.
@@ -46,8 +70,7 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
-void Controls::set(const BindWords& said) {
-    const BindWords words = BindRequest(said).words;
+void Controls::set_words(const BindWords& words) {
     profile = words.profile;
     amplitude = words.amplitude;
     shape = words.shape;
@@ -55,14 +78,22 @@ void Controls::set(const BindWords& said) {
     roundness = static_cast<float>(words.roundness);
     if (words.fold_length) fold_length = static_cast<float>(*words.fold_length);
     if (words.onset) onset = static_cast<float>(*words.onset);
-    if (words.folds && words.folds->find(',') == std::string::npos) folds = std::atoi(words.folds->c_str());
+    if (!words.folds) return;
+    const bool list = words.folds->find(',') != std::string::npos;
+    if (list) folds_list = *words.folds;
+    if (!list) folds = std::stoi(*words.folds);
 }
 
-void Controls::set(const std::vector<Target>& targets) {
+void Controls::set_poses(const Loaded& loaded) {
+    const bend::Body& body = loaded.models[0].binding.body;
     regions.clear();
-    for (const Target& target : targets)
-        regions.push_back({static_cast<float>(degrees(static_cast<double>(target.pose.angle))),
-                           static_cast<float>(target.direction)});
+    for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
+        const float limit = body.max_angle(r),
+                    angle = std::clamp(loaded.targets[r].pose.angle, -limit, limit);
+        regions.push_back({static_cast<float>(degrees(static_cast<double>(angle))),
+                           static_cast<float>(std::remainder(loaded.targets[r].direction, 360.0))});
+    }
+    region_count = static_cast<int>(regions.size());
 }
 
 Wish wish_of(const Controls& controls, Wish wish) {
@@ -76,22 +107,27 @@ Wish wish_of(const Controls& controls, Wish wish) {
     words.folds.reset();
     words.fold_length.reset();
     words.onset.reset();
-    if (controls.folds > 0) words.folds = std::to_string(controls.folds);
+    if (!controls.folds_list.empty()) {
+        words.folds = controls.folds_list;
+    } else if (controls.folds >= 0) {
+        words.folds = std::to_string(controls.folds);
+    }
     if (controls.fold_length > 0) words.fold_length = static_cast<double>(controls.fold_length);
     if (controls.onset >= 0) words.onset = static_cast<double>(controls.onset);
-    const std::size_t regions = controls.regions.size();
-    const std::string shares = wish.pose.regions.value_or("");
-    const auto said = static_cast<std::size_t>(std::ranges::count(shares, ',')) + 1;
-    if (said != regions) wish.pose.regions = equal_shares(regions);
-    if (regions == 1) wish.pose.regions.reset();
+    const bool same = controls.region_count == static_cast<int>(controls.regions.size());
+    const std::vector<Bend> regions =
+        same ? controls.regions : shared_out(controls.regions, controls.region_count);
+    std::optional<std::string> shares = same ? wish.pose.regions : equal_shares(controls.region_count);
+    wish.pose = {};
     wish.keep_rest = false;
-    wish.pose.by.reset();
-    wish.pose.directions.reset();
-    wish.pose.angles.reset();
-    if (regions > 1) {
-        wish.pose.angles = list(controls.regions, angle_of);
+    wish.new_pose = !same;
+    if (shares && !shares->empty()) wish.pose.regions = std::move(shares);
+    if (regions.size() > 1) {
+        wish.pose.angles = list(regions, angle_of);
+        wish.pose.directions = list(regions, direction_of);
     } else {
-        wish.pose.angle = list(controls.regions, angle_of);
+        wish.pose.angle = list(regions, angle_of);
+        wish.pose.direction = static_cast<double>(regions[0].direction);
     }
     return wish;
 }
@@ -105,20 +141,31 @@ std::vector<bend::Pose> poses_of(const Controls& controls) {
 }
 
 std::string command_of(const Controls& controls, const Wish& wish, const BoundModel& model) {
+    if (wish.files.empty()) throw InputError("the base model has no file to bend; open a model");
     const Wish now = wish_of(controls, wish);
     const BindWords usual;
-    std::string text = "goffer bend " + quoted(model.file.string());
+    const bool crowd = controls.instances > 0;
+    std::string text = crowd ? "goffer view" : "goffer bend";
+    const auto add_file = [&](const std::filesystem::path& name) {
+        text += " " + quoted((name.string().starts_with('-') ? "./" : "") + name.string());
+    };
+    std::ranges::for_each(std::span(now.files).first(crowd ? now.files.size() : 1), add_file);
     const auto add = [&](const std::string& option, const std::string& value) {
-        text += " --" + option + " " + value;
+        text += " --";
+        text += option;
+        text += " ";
+        text += value;
     };
     const auto add_unless = [&](const std::string& option, const std::string& value,
                                 const std::string& except) {
         if (value != except) add(option, value);
     };
+    if (crowd) add("crowd", std::to_string(controls.instances));
     const bool several = controls.regions.size() > 1;
-    if (several && !model.baked) add("regions", *now.pose.regions);
+    if (several && !model.baked) add("regions", now.pose.regions.value_or(""));
     add(several ? "angles" : "angle", list(controls.regions, angle_of));
     add(several ? "directions" : "direction", list(controls.regions, direction_of));
+    if (now.bind.level > 0) add("level", std::to_string(now.bind.level));
     if (!model.baked) {
         const BindWords& words = now.bind;
         add_unless("profile", words.profile, usual.profile);
@@ -132,8 +179,10 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         add_unless("axis", words.axis, usual.axis);
         add_unless("rest", words.rest, usual.rest);
         add_unless("refine", words.refine, "auto");
+        if (words.load.allow_outside) text += " --allow-outside";
     }
-    return text + " -o " + quoted(model.file.stem().string() + "-bent.glb");
+    if (crowd) return text;
+    return text + " -o " + quoted(model.file.stem().string() + "-bent" + ending_of(model));
 }
 
 }  // namespace goffer::cli

@@ -20,10 +20,12 @@ struct Bend {
 
 /// All that the panel's controls are set to.
 struct Controls {
-    std::vector<Bend> regions{{90, 0}};  ///< one for each region
+    std::vector<Bend> regions{{90, 0}};  ///< one for each region of the body on stage
+    int region_count = 1;                ///< that it is to have
     bool animated = false;
-    /// Of these the words are made. 0 folds, a fold length of 0, an onset below 0: what suits the body.
-    int folds = 0;
+    /// Of these the words are made. Folds below 0, a fold length of 0, an onset below 0: what suits the body.
+    int folds = -1;
+    std::string folds_list;  ///< in place of `folds`, if not empty: one number for each region
     float fold_length = 0, onset = -0.01f, roundness = 0.25f;
     std::string profile = "even", amplitude = "mesh", shape = "auto", refine = "auto";
     int instances = 0;  ///< of a crowd; 0: one body
@@ -31,20 +33,21 @@ struct Controls {
     Show show;
     std::array<char, 4096> path{};  ///< of a file to open, as it is typed
 
-    /// Takes over what the words of the command line say.
-    void set(const BindWords& words);
-    /// What the body was bent to by the words of the command line.
-    void set(const std::vector<Target>& targets);
+    /// Takes over what words say, with those that --paper stands for.
+    void set_words(const BindWords& words);
+    /// Takes over the targets of what was loaded, as far as its body bends.
+    void set_poses(const Loaded& loaded);
 };
 
-/// `wish` with the words that these controls stand for. A body file was bound when it was made: its words
-/// stay.
+/// `wish` with the words that these controls stand for. If there are to be as many regions as there are, it
+/// keeps their shares; else all are as long, and together bend as these do.
 [[nodiscard]] Wish wish_of(const Controls& controls, Wish wish);
 
 /// Poses of the regions, in radians.
 [[nodiscard]] std::vector<bend::Pose> poses_of(const Controls& controls);
 
-/// The command that bends the model like this, to be typed in a shell.
+/// The command that bends the model like this, or shows the crowd, to be typed in a shell. Throws InputError
+/// for the base model, which has no file.
 [[nodiscard]] std::string command_of(const Controls& controls, const Wish& wish, const BoundModel& model);
 
 }  // namespace goffer::cli

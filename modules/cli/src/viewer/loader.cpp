@@ -69,12 +69,21 @@ Loaded load(const Wish& wish) {
     for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
     const PoseRequest pose(wish.pose, regions_in(files));
     const BindRequest request(wish.bind, pose.regions);
-    Loaded loaded{.wish = wish, .models = {}, .targets = {}, .warnings = {}};
+    Loaded loaded{.wish = wish, .models = {}, .words = request.words, .targets = {}, .warnings = {}};
     if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));
     for (ModelFile& file : files) loaded.models.push_back(bind_model(std::move(file), request));
     const bend::Body& body = loaded.models[0].binding.body;
     loaded.targets = targets_on(body, pose);
     if (wish.keep_rest && body.rest_pose().angle != 0) loaded.targets = rest_targets(body);
+    for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
+        const double asked = std::fabs(loaded.targets[r].angle),
+                     limit = degrees(static_cast<double>(body.max_angle(r)));
+        if (std::isfinite(asked) && asked > 1.0001 * limit) {
+            Report report("");
+            warn_of_angle(report, region_words(r, loaded.targets.size()), asked, limit, "clamped to it");
+            loaded.warnings.push_back(report.warnings()[0]);
+        }
+    }
     for (const BoundModel& model : loaded.models) {
         for (const std::string& warning : warnings_of(model, request))
             loaded.warnings.push_back(
@@ -83,7 +92,7 @@ Loaded load(const Wish& wish) {
     return loaded;
 }
 
-Loader::Loader() : thread_([this] { work(); }) {}
+Loader::Loader(std::function<void()> wake) : wake_window_(std::move(wake)), thread_([this] { work(); }) {}
 
 Loader::~Loader() {
     {
@@ -105,11 +114,6 @@ void Loader::ask(Wish wish) {
 Loader::Answer Loader::take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(answer_, {});
-}
-
-bool Loader::answered() {
-    const std::lock_guard lock(mutex_);
-    return answer_.loaded != nullptr || !answer_.error.empty();
 }
 
 bool Loader::busy() {
@@ -136,6 +140,7 @@ void Loader::work() {
         lock.lock();
         answer_ = std::move(answer);
         working_ = false;
+        wake_window_();
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -22,12 +23,14 @@ struct Wish {
     BindWords bind;
     PoseWords pose;
     bool keep_rest = false;  ///< a body that is bent in its file stays as it is, whatever `pose` says
+    bool new_pose = true;    ///< the body is to take the pose that these words say
 };
 
 /// What came of it.
 struct Loaded {
     Wish wish;
     std::vector<BoundModel> models;
+    BindWords words;                    ///< of the wish, with those that --paper stands for
     std::vector<Target> targets;        ///< of the first model, as the words ask for them
     std::vector<std::string> warnings;  ///< in one line each
 };
@@ -38,7 +41,8 @@ struct Loaded {
 /// Does so on a thread of its own, one wish after the other; of several that wait, the last alone.
 class Loader {
 public:
-    Loader();
+    /// Calls `wake`, on its own thread, whenever there is an answer.
+    explicit Loader(std::function<void()> wake);
     ~Loader();
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
@@ -51,8 +55,7 @@ public:
         std::string error;
     };
     [[nodiscard]] Answer take();
-    /// Whether there is something to take, and whether something is being worked on.
-    [[nodiscard]] bool answered();
+    /// Whether a wish is being worked on.
     [[nodiscard]] bool busy();
 
 private:
@@ -63,6 +66,7 @@ private:
     std::unique_ptr<Wish> next_;
     Answer answer_;
     bool working_ = false, stop_ = false;
+    std::function<void()> wake_window_;
     std::thread thread_;
 };
 

@@ -75,41 +75,48 @@ void show_model(const Stage& stage, const Told& told) {
                        counted(static_cast<std::size_t>(folds), "fold").c_str());
 }
 
-void show_opening(Controls& controls, Done& done) {
+void show_opening(Controls& controls, const Stage& stage, const Told& told, Done& done) {
     ImGui::PushItemWidth(-1);
-    done.open =
-        ImGui::InputTextWithHint("##open", "open: drop a file, or type its path", controls.path.data(),
-                                 controls.path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    done.open = ImGui::InputTextWithHint(
+        "##open", "open: drop a file, or type its path", controls.path.data(), controls.path.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::PopItemWidth();
+    // Always as high, so that nothing moves below.
+    ImGui::BeginChild("message", {0, 2 * ImGui::GetTextLineHeightWithSpacing()});
+    const std::size_t warnings = stage.loaded().warnings.size();
+    if (!told.message.empty()) {
+        paragraph(told.failed ? error_color : quiet, told.message);
+    } else if (warnings > 0) {
+        paragraph(warning_color, counted(warnings, "warning") + ": see below");
+    }
+    ImGui::EndChild();
 }
 
 void show_pose(Controls& controls, const Stage& stage, Done& done) {
     heading("BEND");
     const BoundModel& model = stage.model();
     const bend::Body& body = model.binding.body;
+    if (!model.baked) {
+        ImGui::SliderInt("regions", &controls.region_count, 1, most_regions, "%d",
+                         ImGuiSliderFlags_AlwaysClamp);
+        if (ImGui::IsItemDeactivatedAfterEdit()) {
+            controls.folds_list.clear();
+            done.bind = true;
+        }
+    } else {
+        ImGui::TextColored(quiet, "a body file: by the sliders alone");
+    }
     const bool several = controls.regions.size() > 1;
     for (std::size_t r = 0; r < controls.regions.size(); ++r) {
         ImGui::PushID(static_cast<int>(r));
         Bend& bend = controls.regions[r];
-        const auto limit = static_cast<float>(
-            r < body.region_count() ? degrees(static_cast<double>(body.max_angle(r))) : 90.0);
-        const std::string number = several ? " " + std::to_string(r + 1) : "";
-        ImGui::SliderFloat(("angle" + number).c_str(), &bend.angle, -limit, limit, "%.1f",
+        const auto limit = static_cast<float>(degrees(static_cast<double>(body.max_angle(r))));
+        const std::string which = several ? " " + std::to_string(r + 1) : "";
+        ImGui::SliderFloat(("angle" + which).c_str(), &bend.angle, -limit, limit, "%.1f",
                            ImGuiSliderFlags_AlwaysClamp);
-        ImGui::SliderFloat(("direction" + number).c_str(), &bend.direction, -180, 180, "%.1f");
+        ImGui::SliderFloat(("direction" + which).c_str(), &bend.direction, -180, 180, "%.1f",
+                           ImGuiSliderFlags_AlwaysClamp);
         ImGui::PopID();
-    }
-    if (!model.baked) {
-        int regions = static_cast<int>(controls.regions.size());
-        if (ImGui::SliderInt("regions", &regions, 1, most_regions, "%d", ImGuiSliderFlags_AlwaysClamp) &&
-            regions != static_cast<int>(controls.regions.size())) {
-            // The same bend, in other pieces.
-            const float share = static_cast<float>(controls.regions.size()) / static_cast<float>(regions);
-            Bend each = controls.regions[0];
-            each.angle *= share;
-            controls.regions.assign(static_cast<std::size_t>(regions), each);
-            done.bind = true;
-        }
     }
     ImGui::Checkbox("animate", &controls.animated);
     ImGui::SameLine();
@@ -119,7 +126,7 @@ void show_pose(Controls& controls, const Stage& stage, Done& done) {
     ImGui::SameLine();
     if (ImGui::Button("at rest")) {
         const std::vector<bend::Pose> rest = body.rest_poses();
-        for (std::size_t r = 0; r < std::min(rest.size(), controls.regions.size()); ++r)
+        for (std::size_t r = 0; r < controls.regions.size(); ++r)
             controls.regions[r] = {static_cast<float>(degrees(static_cast<double>(rest[r].angle))),
                                    static_cast<float>(degrees(static_cast<double>(rest[r].direction)))};
     }
@@ -129,10 +136,13 @@ void show_folds(Controls& controls, const Stage& stage, Done& done) {
     if (stage.model().baked) return;  // was bound when it was made
     heading("FOLDS");
     done.bind |= choice("profile", controls.profile, std::array{"even", "damped", "smooth"});
-    ImGui::SliderInt("folds", &controls.folds, 0, most_folds, controls.folds == 0 ? "auto" : "%d",
-                     ImGuiSliderFlags_AlwaysClamp);
+    const char* const said = controls.folds_list.empty() ? "auto" : controls.folds_list.c_str();
+    if (ImGui::SliderInt("folds", &controls.folds, -1, most_folds, controls.folds < 0 ? said : "%d",
+                         ImGuiSliderFlags_AlwaysClamp))
+        controls.folds_list.clear();
     done.bind |= ImGui::IsItemDeactivatedAfterEdit();
-    if (controls.folds == 0) done.bind |= slider_or_auto("fold length", controls.fold_length, 0, 0.05f, 2.5f);
+    if (controls.folds < 0 && controls.folds_list.empty())
+        done.bind |= slider_or_auto("fold length", controls.fold_length, 0, 0.05f, 2.5f);
     if (controls.profile == "even") {
         ImGui::SliderFloat("roundness", &controls.roundness, 0, 0.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
         done.bind |= ImGui::IsItemDeactivatedAfterEdit();
@@ -186,16 +196,48 @@ void show_crowd(Controls& controls, const Stage& stage, const Told& told, Done& 
     ImGui::TextUnformatted((draw + (draw.empty() || frame.empty() ? "" : ", ") + frame).c_str());
 }
 
-void show_saving(const Told& told, Done& done) {
+/// A button that is gray unless `enabled`.
+bool button(const char* label, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    return pressed;
+}
+
+void show_saving(const Stage& stage, Done& done) {
     heading("SAVE");
-    done.save_model = ImGui::Button("model");
+    const bool file = !stage.loaded().wish.files.empty();
+    done.save_model = button("model", true);
     ImGui::SameLine();
-    done.save_picture = ImGui::Button("picture");
+    done.save_picture = button("picture", true);
     ImGui::SameLine();
-    done.save_body = ImGui::Button("body");
+    done.save_body = button("body", file && !stage.model().baked);
     ImGui::SameLine();
-    done.copy = ImGui::Button("copy command");
-    if (!told.message.empty()) paragraph(told.failed ? error_color : quiet, told.message);
+    done.copy = button("copy command", file);
+}
+
+/// What keys and the mouse do, in two columns.
+void show_help() {
+    heading("KEYS AND MOUSE");
+    constexpr std::array<std::array<const char*, 2>, 13> lines{
+        {{"drag an orange end", "bend"},
+         {"drag beside the body", "turn the view"},
+         {"drag, right button", "shift it"},
+         {"wheel", "zoom"},
+         {"Ctrl + click a slider", "type its number"},
+         {"arrows", "angle, direction"},
+         {"1 to 9", "region for the arrows"},
+         {"Space, C, L", "animate, crowd, look at all"},
+         {"W, N, A", "wireframe, normals, area"},
+         {"B, F, R", "base, frames, rest shape"},
+         {"D", "deform: processor, shader"},
+         {"Ctrl + S, P, B, C", "save model, picture, body; copy"},
+         {"F1, Escape", "hide the panel, quit"}}};
+    for (const auto& [keys, effect] : lines) {
+        ImGui::TextColored(quiet, "%s", keys);
+        ImGui::SameLine(0.46f * ImGui::GetWindowWidth());
+        paragraph(quiet, effect);
+    }
 }
 
 }  // namespace
@@ -211,23 +253,17 @@ Done show_panel(Controls& controls, const Stage& stage, const Told& told, float 
     ImGui::Begin("goffer", nullptr, fixed);
     ImGui::PushItemWidth(0.58f * width);
     show_model(stage, told);
-    show_opening(controls, done);
+    show_opening(controls, stage, told, done);
     show_pose(controls, stage, done);
     show_folds(controls, stage, done);
     show_looks(controls, stage, done);
     show_crowd(controls, stage, told, done);
-    show_saving(told, done);
+    show_saving(stage, done);
     if (!stage.loaded().warnings.empty()) {
         heading("WARNINGS");
         for (const std::string& warning : stage.loaded().warnings) paragraph(warning_color, warning);
     }
-    heading("KEYS AND MOUSE");
-    paragraph(
-        quiet,
-        "Drag: turn; with the right button: shift; wheel: zoom. Drag an orange end to bend. Arrows: angle "
-        "and direction, of the region whose number is pressed. Space: animate. W wireframe, N normals, A "
-        "area, B base, F frames, R rest shape, C crowd, D who deforms, L look at all. Ctrl+S, P, B: save "
-        "model, picture, body. F1: panel. Escape: quit.");
+    show_help();
     paragraph(quiet, told.device);
     ImGui::PopItemWidth();
     ImGui::End();

@@ -69,7 +69,7 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
             rig.place_[binding.order.empty() ? i : binding.order[i]] = i;
         rig.body_ = std::move(binding.body);
     } catch (const fit::Error&) {
-        return std::nullopt;  // a body that is beyond all floats but just so
+        return std::nullopt;  // outside bend::WorkingRange
     }
     rig.bent_.resize(positions.size());
     rig.frames_.resize(rig.borders_.size());

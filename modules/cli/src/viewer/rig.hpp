@@ -18,7 +18,8 @@ namespace goffer::cli {
 /// The base of a body as lines, bent and wrinkled with it, and the frames in which its regions begin and end.
 class Rig {
 public:
-    /// Nothing for a body from a file, which does not tell what it was bound to.
+    /// Nothing for a body from a body file, which does not say what it was bound to, and where the base lies
+    /// outside bend::WorkingRange.
     [[nodiscard]] static std::optional<Rig> make(const BoundModel& model);
 
     /// Bends it.

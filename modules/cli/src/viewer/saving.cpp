@@ -15,43 +15,52 @@
 #include <cstddef>
 #include <cstdint>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace goffer::cli {
 
+std::string ending_of(const BoundModel& model) {
+    return mesh::can_save(model.file) ? model.file.extension().string() : ".glb";
+}
+
 std::filesystem::path Saver::name_for(const BoundModel& model, const std::string& tag,
                                       const std::string& ending) const {
     const std::string stem = model.file.stem().string() + tag;
-    for (int i = 1;; ++i) {
-        const std::filesystem::path name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ending;
+    std::filesystem::path name = stem + ending;
+    const auto taken = [&](const std::filesystem::path& at) {
         std::error_code error;
-        if (own_.contains(name) || !std::filesystem::exists(name, error)) return name;
+        const auto own = own_.find(at);
+        return own == own_.end() ? std::filesystem::exists(at, error) : own->second != model.file;
+    };
+    for (int i = 2; taken(name); ++i) {
+        std::string other = stem;
+        other += "-" + std::to_string(i) + ending;
+        name = std::move(other);
     }
+    return name;
 }
 
 std::filesystem::path Saver::save_model(const BoundModel& model, std::span<const bend::Pose> poses) {
-    const std::string own = model.file.extension().string();
-    const std::filesystem::path file =
-        name_for(model, "-bent", (mesh::can_save(model.file) ? own : std::string(".glb")));
+    std::filesystem::path file = name_for(model, "-bent", ending_of(model));
     mesh::VertexArrays records;
     bend::run_parallel(job_into(records, model, poses));
     put_in_model_order(records, model.binding);
     mesh::save(mesh::with_vertex_arrays(model.mesh, records), file);
-    own_.insert(file);
+    own_[file] = model.file;
     return file;
 }
 
 std::filesystem::path Saver::save_body(const Wish& wish) {
     if (wish.files.empty()) throw InputError("the base model has no file to bake; open a model");
-    const ModelFile source(wish.files[0], wish.bind.load.limits);
-    if (source.baked) throw InputError(source.file.string() + ": is a body file already");
+    refuse_body_file(wish.files[0]);
     BindRequest request(wish.bind, PoseRequest(wish.pose).regions);
     request.with_uvs = true;
-    BoundModel model = bind_model(source.file, request);
-    const std::filesystem::path file = name_for(model, "", ".goffer");
+    BoundModel model = bind_model(wish.files[0], request);
+    std::filesystem::path file = name_for(model, "", ".goffer");
     const std::vector<std::byte> bytes = baked_bytes(std::move(model), request);
     io::write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    own_.insert(file);
+    own_[file] = wish.files[0];
     return file;
 }
 
@@ -69,9 +78,9 @@ std::filesystem::path Saver::save_picture(const BoundModel& model, const glm::iv
         };
         std::swap_ranges(at(top), at(top + 1), at(bottom));
     }
-    const std::filesystem::path file = name_for(model, "-view", ".png");
+    std::filesystem::path file = name_for(model, "-view", ".png");
     view::save_png(picture, file);
-    own_.insert(file);
+    own_[file] = model.file;
     return file;
 }
 

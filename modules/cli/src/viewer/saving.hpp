@@ -6,13 +6,16 @@
 #include <glm/vec2.hpp>
 
 #include <filesystem>
-#include <set>
+#include <map>
 #include <span>
 #include <string>
 
 /// What the viewer saves, into the folder that it was called from.
 
 namespace goffer::cli {
+
+/// The ending that a bent model gets: its own, or .glb where save() does not know it.
+[[nodiscard]] std::string ending_of(const BoundModel& model);
 
 /// Names files after a model, and none that somebody else's file has.
 class Saver {
@@ -32,7 +35,8 @@ private:
     [[nodiscard]] std::filesystem::path name_for(const BoundModel& model, const std::string& tag,
                                                  const std::string& ending) const;
 
-    std::set<std::filesystem::path> own_;  // written by this one
+    std::map<std::filesystem::path, std::filesystem::path>
+        own_;  // files that were written, and of which model
 };
 
 }  // namespace goffer::cli

@@ -6,7 +6,6 @@
 #include "picture.hpp"
 
 #include <goffer/bend/bounds.hpp>
-#include <goffer/fit/normals.hpp>
 #include <goffer/measure/timer.hpp>
 
 #include <glm/common.hpp>
@@ -22,7 +21,7 @@ namespace goffer::cli {
 namespace {
 
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
-constexpr int wall_clock = 2;  // of measure::now(): any number of threads but one
+constexpr int wall_clock = 2;  // threads, for which measure::now() reads the clock on the wall
 
 /// Where in the body a vertex of the model is.
 std::vector<std::uint32_t> places_of(const fit::Binding& binding) {
@@ -44,19 +43,25 @@ std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
     return parts;
 }
 
+/// Colors in the model's order, put into the body's.
+std::vector<glm::vec3> in_body_order(const std::vector<glm::vec4>& colors, const fit::Binding& binding) {
+    std::vector<glm::vec3> sorted(colors.begin(), colors.end());
+    for (std::size_t i = 0; i < std::min(binding.order.size(), sorted.size()); ++i)
+        sorted[i] = glm::vec3(colors[binding.order[i]]);
+    return sorted;
+}
+
+std::vector<glm::vec3> own_colors(const BoundModel& model) {
+    return in_body_order(vertex_colors(model.file, model.mesh, model.rest), model.binding);
+}
+
 draw::Mesh mesh_of(const BoundModel& model, std::size_t index) {
     const std::vector<std::uint32_t> places = places_of(model.binding);
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
-    return {model.binding.body, triangles, parts_of(model, index)};
-}
-
-/// Values in the model's order, put into the body's.
-template <class T>
-std::vector<T> in_body_order(std::span<const T> values, const fit::Binding& binding) {
-    std::vector<T> sorted(values.begin(), values.end());
-    for (std::size_t i = 0; i < binding.order.size(); ++i) sorted[i] = values[binding.order[i]];
-    return sorted;
+    draw::Mesh mesh(model.binding.body, triangles, parts_of(model, index));
+    mesh.set_colors(own_colors(model));
+    return mesh;
 }
 
 std::vector<draw::Vertex> rest_vertices(const BoundModel& model) {
@@ -71,12 +76,12 @@ std::vector<draw::Vertex> rest_vertices(const BoundModel& model) {
     return vertices;
 }
 
-bend::Bounds nothing() {
+bend::Bounds empty_bounds() {
     constexpr float most = std::numeric_limits<float>::max();
     return {glm::vec3(most), glm::vec3(-most)};
 }
 
-bend::Bounds both(const bend::Bounds& one, const bend::Bounds& other) {
+bend::Bounds united(const bend::Bounds& one, const bend::Bounds& other) {
     return {glm::min(one.low, other.low), glm::max(one.high, other.high)};
 }
 
@@ -88,7 +93,7 @@ double timed(const Work& work) {
 
 }  // namespace
 
-Stage::Stage(std::unique_ptr<Loaded> loaded, std::size_t instances) : loaded_(std::move(loaded)) {
+Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
     const BoundModel& first = model();
     for (std::size_t i = 0; i < loaded_->models.size(); ++i)
         meshes_.push_back(mesh_of(loaded_->models[i], i));
@@ -99,11 +104,12 @@ Stage::Stage(std::unique_ptr<Loaded> loaded, std::size_t instances) : loaded_(st
     vertices_.resize(first.binding.body.vertex_count());
     batch_.body = &first.binding.body;
     batch_.count = 1;
-    batch_.poses = {poses_.data(), 1};
+    batch_.poses = {.data = poses_.data(),
+                    .count = 1,
+                    .stride = static_cast<std::uint32_t>(poses_.size() * sizeof(bend::Pose))};
     batch_.positions = interleaved<3>(&vertices_.front().position.x, vertices_.size(), sizeof(draw::Vertex));
     batch_.normals = interleaved<3>(&vertices_.front().normal.x, vertices_.size(), sizeof(draw::Vertex));
     batch_.vertex_step = vertices_.size();
-    set_instances(instances);
 }
 
 void Stage::set_instances(std::size_t instances) {
@@ -126,7 +132,7 @@ std::span<const bend::Batch> Stage::batches() const {
 }
 
 void Stage::pose(std::span<const bend::Pose> poses, std::size_t frame) {
-    std::ranges::copy(poses.first(std::min(poses.size(), poses_.size())), poses_.begin());
+    std::ranges::copy(poses, poses_.begin());
     if (crowd_) {
         crowd_->set_farthest(poses_);
         crowd_->set_poses(frame);
@@ -157,12 +163,11 @@ FrameTimes Stage::deform(Deformer how, const Show& show) {
         positions.reserve(vertices_.size());
         for (const draw::Vertex& vertex : vertices_) positions.push_back(vertex.position);
         put_in_model_order(positions, model().binding);
-        const std::vector<glm::vec4> colors = area_colors(model(), positions);
-        const std::vector<glm::vec3> opaque(colors.begin(), colors.end());
-        meshes_[0].set_colors(in_body_order(std::span(opaque), model().binding));
-    } else {
-        meshes_[0].set_colors({});
+        meshes_[0].set_colors(in_body_order(area_colors(model(), positions), model().binding));
+    } else if (area_shown_) {
+        meshes_[0].set_colors(own_colors(model()));
     }
+    area_shown_ = show.area && !crowd_;
     return times;
 }
 
@@ -211,23 +216,23 @@ std::span<const glm::mat4x3> Stage::frames() const {
     return rig_ && !crowd_ ? rig_->frames() : std::span<const glm::mat4x3>();
 }
 
-void Stage::look_from(draw::OrbitCamera& camera, float aspect) const {
-    bend::Bounds all = nothing();
+void Stage::show_all(draw::OrbitCamera& camera, float aspect) const {
+    bend::Bounds all = empty_bounds();
     std::vector<bend::Bounds> boxes;
     for (const bend::Batch& batch : batches()) {
         boxes.resize(batch.count);
         bend::bounds(batch, boxes);
-        for (const bend::Bounds& box : boxes) all = both(all, box);
+        for (const bend::Bounds& box : boxes) all = united(all, box);
     }
     glm::vec3 toward(0.12f, 1.0f, -0.85f), up(0, 0, 1);
     if (!crowd_) {
-        const view::Camera eye = camera_for(model().binding.body, loaded_->targets[0].pose, {0, 35});
+        const view::Camera eye = camera_for(model().binding.body, loaded_->targets[0].pose, {});
         toward = eye.toward;
         up = eye.up;
-        for (const glm::vec3& position : model().rest.positions) all = both(all, {position, position});
+        for (const glm::vec3& position : model().rest.positions) all = united(all, {position, position});
     }
     camera = draw::OrbitCamera(toward, up);
-    camera.look_at((all.low + all.high) / 2.0f, 0.42f * glm::distance(all.low, all.high), aspect);
+    camera.look_at((all.low + all.high) / 2.0f, 0.47f * glm::distance(all.low, all.high), aspect);
 }
 
 }  // namespace goffer::cli

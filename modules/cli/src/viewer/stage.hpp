@@ -22,7 +22,7 @@ namespace goffer::cli {
 /// Who deforms what is seen.
 enum class Deformer : std::uint8_t { processor, shader };
 
-/// What is shown, and how.
+/// What is shown besides the surface.
 struct Show {
     bool wireframe = false;
     /// These are for one body alone.
@@ -31,8 +31,8 @@ struct Show {
 
 /// Milliseconds of a frame.
 struct FrameTimes {
-    double set_up = 0;  ///< by the shader's way: coefficients; the kernels' own is in `deform`
-    double deform = 0;  ///< on the processor
+    double set_up = 0;  ///< making the shader's coefficients; 0 where the processor deforms
+    double deform = 0;  ///< on the processor, its set-up included
     double upload = 0;
 };
 
@@ -40,10 +40,11 @@ struct FrameTimes {
 /// context that it was made in to be current.
 class Stage {
 public:
-    /// One body if `instances` is 0. Throws InputError for a crowd that memory does not hold.
-    Stage(std::unique_ptr<Loaded> loaded, std::size_t instances);
+    /// One body, the first model.
+    explicit Stage(std::unique_ptr<Loaded> loaded);
 
-    /// Makes the crowd anew, or shows one body again.
+    /// Makes a crowd of so many, or shows one body again for 0, which it does too where it throws: InputError
+    /// for a crowd that memory does not hold.
     void set_instances(std::size_t instances);
     [[nodiscard]] std::size_t instances() const { return crowd_ ? crowd_->instances() : 1; }
     [[nodiscard]] bool is_crowd() const { return crowd_ != nullptr; }
@@ -52,16 +53,17 @@ public:
     [[nodiscard]] const BoundModel& model() const { return loaded_->models[0]; }
     [[nodiscard]] std::size_t vertices() const;
 
-    /// Poses the body: one for each of its regions; or has the crowd swing this far, in frame `frame`.
+    /// Poses the body, by one pose for each of its regions; or has the crowd swing this far, as it is in
+    /// frame `frame`.
     void pose(std::span<const bend::Pose> poses, std::size_t frame);
     /// Deforms all instances at these poses and uploads them.
     FrameTimes deform(Deformer how, const Show& show);
     void draw(draw::Renderer& renderer, const Show& show);
 
-    /// Where regions begin, and the last one ends; none in a crowd.
+    /// Where regions begin, and the last one ends; none in a crowd, nor of a body without a Rig.
     [[nodiscard]] std::span<const glm::mat4x3> frames() const;
-    /// Moves the camera to see all.
-    void look_from(draw::OrbitCamera& camera, float aspect) const;
+    /// Has the camera see all, from where pictures are taken.
+    void show_all(draw::OrbitCamera& camera, float aspect) const;
 
 private:
     [[nodiscard]] std::span<const bend::Batch> batches() const;
@@ -78,6 +80,7 @@ private:
     std::unique_ptr<Crowd> crowd_;
     std::vector<bend::Coefficients> coefficients_;
     std::vector<draw::Mark> normals_, frame_marks_;
+    bool area_shown_ = false;
 };
 
 }  // namespace goffer::cli

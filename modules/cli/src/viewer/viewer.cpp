@@ -18,12 +18,12 @@
 namespace goffer::cli {
 namespace {
 
-constexpr float panel_share = 330;  // in units of text
+constexpr float panel_units = 330;  // wide
 constexpr float end_pixels = 14;    // of the discs that ends are dragged by
 constexpr glm::vec3 end_color{0.95f, 0.35f, 0.02f}, chosen_color{0.9f, 0.05f, 0.02f};
 constexpr double frames_per_swing = 120;
-constexpr double idle = 0.1;  // seconds between looks at what is being bound
-constexpr int settling = 3;   // frames that the panel takes
+constexpr double longest_wait = 1;  // seconds
+constexpr int settling = 3;         // frames until the panel stands still
 
 double milliseconds(std::chrono::steady_clock::duration time) {
     return std::chrono::duration<double, std::milli>(time).count();
@@ -32,17 +32,25 @@ double milliseconds(std::chrono::steady_clock::duration time) {
 }  // namespace
 
 Viewer::Viewer(std::unique_ptr<Loaded> loaded, const ViewerPlan& plan)
-    : plan_(plan), window_("goffer", plan.size, plan.frames == 0), controls_(plan.controls) {
+    : plan_(plan),
+      window_("goffer", plan.size, plan.frames == 0),
+      loader_(Window::wake),
+      controls_(plan.controls),
+      asked_(loaded->wish) {
     told_.device = renderer_.device();
     set_stage(std::move(loaded));
-    stage_->pose(poses_of(controls_), 0);
-    look_at_all();
+    show_all();
+}
+
+Viewer::~Viewer() {
+    window_.hide();  // before it waits for what is being bound
 }
 
 ViewerTimes Viewer::run() {
     std::size_t drawn = 0;
     while (window_.is_open() && (plan_.frames == 0 || drawn < plan_.frames)) {
         wait();
+        if (window_.is_minimized()) continue;
         frame();
         ++drawn;
         if (plan_.frames > 0) {
@@ -54,6 +62,7 @@ ViewerTimes Viewer::run() {
         }
     }
     ViewerTimes times;
+    times.frames = drawn;
     times.deformation = {measure::median(set_up_times_), measure::median(deform_times_),
                          measure::median(upload_times_)};
     if (!draw_times_.empty()) times.draw = measure::median(draw_times_);
@@ -63,13 +72,14 @@ ViewerTimes Viewer::run() {
 }
 
 void Viewer::wait() {
-    if (moves() || redraws_ > 0) {
+    const bool rests = (!moves() && redraws_ == 0) || window_.is_minimized();
+    if (!rests) {
         window_.poll(0);
         redraws_ = std::max(redraws_ - 1, 0);
         return;
     }
-    while (window_.is_open() && !window_.poll(idle)) {
-        if (loader_.answered()) break;
+    const bool was_busy = told_.busy;
+    while (window_.is_open() && !window_.poll(longest_wait) && loader_.busy() == was_busy) {
     }
     redraws_ = settling;
 }
@@ -83,14 +93,34 @@ void Viewer::frame() {
     told_.frame = milliseconds(now - std::exchange(last_, now));
     told_.moving = moves();
     told_.busy = loader_.busy();
+    window_.set_title("goffer: " + stage_->model().file.filename().string() +
+                      (told_.busy ? " (binding ..)" : ""));
     if (panel_) act(show_panel(controls_, *stage_, told_, panel_width()));
     take_mouse();
     if (moves()) ++motion_;
+    try {
+        draw_picture();
+    } catch (const std::exception& error) {  // more than the GPU holds
+        if (controls_.deformer == Deformer::processor && !stage_->is_crowd()) throw;
+        controls_.deformer = Deformer::processor;
+        controls_.instances = 0;
+        set_instances();
+        say(error.what(), true);
+    }
+    window_.end_frame();
+}
+
+void Viewer::draw_picture() {
     stage_->pose(poses(), motion_);
     told_.times = stage_->deform(controls_.deformer, controls_.show);
     renderer_.begin(camera_, viewport());
     stage_->draw(renderer_, controls_.show);
-    if (done_.save_picture) save(std::exchange(done_, {}));  // before ends are marked
+    if (std::exchange(picture_wanted_, false)) {  // before ends are marked
+        const draw::Viewport part = viewport();
+        save([&] {
+            return saver_.save_picture(stage_->model(), {part.x, part.y}, {part.width, part.height});
+        });
+    }
     std::vector<draw::Mark> ends;
     const std::span<const glm::mat4x3> frames = stage_->frames();
     for (std::size_t i = 1; i < frames.size(); ++i)
@@ -98,55 +128,77 @@ void Viewer::frame() {
     renderer_.draw_points(ends, end_pixels * window_.scale() * window_.pixel_ratio());
     renderer_.end();
     told_.draw = renderer_.draw_milliseconds();
-    window_.end_frame();
 }
 
+/// Puts models on stage, and has the controls be about them.
 void Viewer::set_stage(std::unique_ptr<Loaded> loaded) {
-    std::string name = loaded->models[0].file.filename().string();
-    stage_ = std::make_unique<Stage>(std::move(loaded), static_cast<std::size_t>(controls_.instances));
-    window_.set_title("goffer: " + name);
+    const Wish& wish = loaded->wish;
+    const std::size_t regions = loaded->models[0].binding.body.region_count();
+    if (wish.new_pose || regions != controls_.regions.size()) controls_.set_poses(*loaded);
+    controls_.region_count = static_cast<int>(controls_.regions.size());
     region_ = std::min(region_, controls_.regions.size() - 1);
     dragged_.reset();
+    stage_ = std::make_unique<Stage>(std::move(loaded));
+    for (std::size_t r = 0; r < controls_.regions.size(); ++r) turn_region(r, 0, 0);  // as far as it can now
+    set_instances();
+    stage_->pose(poses(), motion_);
+}
+
+void Viewer::set_instances() {
+    try {
+        stage_->set_instances(static_cast<std::size_t>(controls_.instances));
+    } catch (const std::exception& error) {
+        controls_.instances = 0;
+        say(error.what(), true);
+    }
 }
 
 void Viewer::take_answer() {
     Loader::Answer answer = loader_.take();
-    if (!answer.error.empty()) say(answer.error, true);
+    if (!answer.error.empty()) {
+        asked_ = stage_->loaded().wish;
+        controls_.region_count = static_cast<int>(controls_.regions.size());
+        say(answer.error, true);
+    }
     if (!answer.loaded) return;
+    if (told_.failed) say("");
     const bool other = answer.loaded->wish.files != stage_->loaded().wish.files;
-    if (other) controls_.set(answer.loaded->targets);
-    if (answer.loaded->models[0].binding.body.region_count() != controls_.regions.size())
-        return;  // another number has been asked for since
-    try {
-        set_stage(std::move(answer.loaded));
-        stage_->pose(poses(), motion_);
-        if (other) look_at_all();
-    } catch (const std::exception& error) {
-        say(error.what(), true);
+    set_stage(std::move(answer.loaded));
+    if (other) {
+        controls_.path = {};
+        show_all();
     }
     redraws_ = settling;
 }
 
-void Viewer::open(const std::vector<std::filesystem::path>& files) {
-    if (files.empty()) return;
-    Wish wish = wish_of(controls_, stage_->loaded().wish);
-    wish.files = files;
-    wish.pose = {};
-    if (controls_.regions.size() == 1) {
-        wish.pose.angle = number(static_cast<double>(controls_.regions[0].angle));
-        wish.pose.direction = static_cast<double>(controls_.regions[0].direction);
-    }
-    wish.keep_rest = true;
-    wish.bind.level = 0;
-    wish.bind.axis = "auto";
-    wish.bind.choices.clear();  // were of the files of the command line
+void Viewer::ask(Wish wish) {
+    asked_ = wish;
     loader_.ask(std::move(wish));
 }
 
-void Viewer::turn_region(float angle, float direction) {
-    Bend& bend = controls_.regions[region_];
-    const float limit =
-        static_cast<float>(degrees(static_cast<double>(stage_->model().binding.body.max_angle(region_))));
+/// Binds with the words that the controls stand for.
+void Viewer::bind() {
+    ask(wish_of(controls_, asked_));
+}
+
+void Viewer::open(const std::vector<std::filesystem::path>& files) {
+    if (files.empty() || files[0].empty()) return;
+    Wish wish = wish_of(controls_, asked_);
+    wish.files = files;
+    wish.pose = {};
+    wish.keep_rest = true;
+    wish.new_pose = true;
+    wish.bind.level = 0;
+    wish.bind.axis = "auto";
+    if (wish.bind.folds && wish.bind.folds->find(',') != std::string::npos) wish.bind.folds.reset();
+    wish.bind.choices.clear();  // were of the files of the command line
+    ask(std::move(wish));
+}
+
+void Viewer::turn_region(std::size_t region, float angle, float direction) {
+    Bend& bend = controls_.regions[region];
+    const auto limit =
+        static_cast<float>(degrees(static_cast<double>(stage_->model().binding.body.max_angle(region))));
     bend.angle = std::clamp(bend.angle + angle, -limit, limit);
     bend.direction = std::remainder(bend.direction + direction, 360.0f);
 }
@@ -176,13 +228,13 @@ void Viewer::press(const KeyPress& key) {
     }
     switch (key.key) {
         case Window::up:
-            return turn_region(step, 0);
+            return turn_region(region_, step, 0);
         case Window::down:
-            return turn_region(-step, 0);
+            return turn_region(region_, -step, 0);
         case Window::left:
-            return turn_region(0, -step);
+            return turn_region(region_, 0, -step);
         case Window::right:
-            return turn_region(0, step);
+            return turn_region(region_, 0, step);
         case ' ':
             return flip(controls_.animated);
         case 'W':
@@ -208,7 +260,7 @@ void Viewer::press(const KeyPress& key) {
             return act(done);
         }
         case 'L':
-            return look_at_all();
+            return show_all();
         case Window::f1:
             return flip(panel_);
         case Window::escape:
@@ -219,41 +271,32 @@ void Viewer::press(const KeyPress& key) {
 }
 
 void Viewer::act(const Done& done) {
+    if (done.bind) bind();
+    if (done.open) {
+        open({std::u8string(controls_.path.begin(), std::ranges::find(controls_.path, 0))});
+    }
+    if (done.crowd) {
+        controls_.animated = controls_.instances > 0;
+        set_instances();
+        show_all();
+    }
+    if (done.look) show_all();
+    if (done.save_picture) picture_wanted_ = true;
+    if (done.save_model) save([&] { return saver_.save_model(stage_->model(), poses()); });
+    if (done.save_body) save([&] { return saver_.save_body(wish_of(controls_, stage_->loaded().wish)); });
+    if (!done.copy) return;
     try {
-        if (done.bind) loader_.ask(wish_of(controls_, stage_->loaded().wish));
-        if (done.open) {
-            open({controls_.path.data()});
-            controls_.path = {};
-        }
-        if (done.crowd) {
-            stage_->set_instances(static_cast<std::size_t>(controls_.instances));
-            look_at_all();
-        }
-        if (done.look) look_at_all();
-        if (done.copy) {
-            window_.copy_to_clipboard(command_of(controls_, stage_->loaded().wish, stage_->model()));
-            say("The command is in the clipboard.");
-        }
+        window_.copy_to_clipboard(command_of(controls_, stage_->loaded().wish, stage_->model()));
+        say("The command is in the clipboard.");
     } catch (const std::exception& error) {
         say(error.what(), true);
     }
-    if (done.save_picture) done_.save_picture = true;
-    if (done.save_model || done.save_body) {
-        Done saved = done;
-        saved.save_picture = false;
-        save(saved);
-    }
 }
 
-void Viewer::save(const Done& done) {
+template <class Save>
+void Viewer::save(const Save& write) {
     try {
-        std::filesystem::path file;
-        const draw::Viewport part = viewport();
-        if (done.save_picture)
-            file = saver_.save_picture(stage_->model(), {part.x, part.y}, {part.width, part.height});
-        if (done.save_model) file = saver_.save_model(stage_->model(), poses());
-        if (done.save_body) file = saver_.save_body(wish_of(controls_, stage_->loaded().wish));
-        say("Saved " + file.string() + ".");
+        say("Saved " + write().string() + ".");
     } catch (const std::exception& error) {
         say(error.what(), true);
     }
@@ -276,7 +319,7 @@ std::vector<bend::Pose> Viewer::poses() const {
 }
 
 float Viewer::panel_width() const {
-    return panel_ ? std::min(panel_share * window_.scale(), 0.5f * window_.size().x) : 0;
+    return panel_ ? std::min(panel_units * window_.scale(), 0.5f * window_.size().x) : 0;
 }
 
 draw::Viewport Viewer::viewport() const {
@@ -296,6 +339,7 @@ std::optional<std::size_t> Viewer::end_under_mouse() const {
     const float aspect = viewport().aspect();
     const float reach = 1.5f * end_pixels * window_.scale() / window_.size().y;
     for (std::size_t i = frames.size(); i-- > 1;) {
+        if (glm::dot(frames[i][3] - camera_.eye(), camera_.forward()) <= 0) continue;  // behind the eye
         const glm::vec2 away = camera_.place(frames[i][3], aspect) - mouse_place();
         if (glm::length(away * glm::vec2(aspect, 1)) < reach) return i - 1;
     }
@@ -311,10 +355,9 @@ void Viewer::drag_end() {
     const float depth = glm::dot(frames[*dragged_ + 1][3] - ray.origin, forward);
     const glm::vec3 target = ray.origin + ray.direction * (depth / glm::dot(ray.direction, forward));
     const bend::Pose pose = pose_toward(frames[*dragged_], target);
-    controls_.regions[*dragged_] = {0, static_cast<float>(degrees(static_cast<double>(pose.direction)))};
-    const std::size_t chosen = std::exchange(region_, *dragged_);
-    turn_region(static_cast<float>(degrees(static_cast<double>(pose.angle))), 0);
-    region_ = frames.size() > 2 ? *dragged_ : chosen;
+    region_ = *dragged_;
+    controls_.regions[region_] = {0, static_cast<float>(degrees(static_cast<double>(pose.direction)))};
+    turn_region(region_, static_cast<float>(degrees(static_cast<double>(pose.angle))), 0);
 }
 
 void Viewer::take_mouse() {
@@ -343,8 +386,8 @@ void Viewer::take_mouse() {
     if (free && io.MouseWheel != 0) camera_.zoom(std::pow(0.9f, io.MouseWheel));
 }
 
-void Viewer::look_at_all() {
-    stage_->look_from(camera_, viewport().aspect());
+void Viewer::show_all() {
+    stage_->show_all(camera_, viewport().aspect());
 }
 
 }  // namespace goffer::cli

@@ -35,6 +35,7 @@ struct ViewerTimes {
     std::optional<double> draw;
     double frame = 0;
     std::string device;
+    std::size_t frames = 0;  ///< that were drawn
 };
 
 /// The window with a stage in it, the panel beside it, and what keys and the mouse do.
@@ -42,6 +43,9 @@ class Viewer {
 public:
     /// Throws InputError where there is no display.
     Viewer(std::unique_ptr<Loaded> loaded, const ViewerPlan& plan);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
 
     /// Until the window is closed or the plan's frames are drawn.
     ViewerTimes run();
@@ -58,14 +62,19 @@ private:
     void take_keys();
     void take_mouse();
     void press(const KeyPress& key);
-    void turn_region(float angle, float direction);
+    void turn_region(std::size_t region, float angle, float direction);
+    void bind();
+    void ask(Wish wish);
+    void set_instances();
+    void draw_picture();
     void act(const Done& done);
     void drag_end();
-    void look_at_all();
-    void save(const Done& done);
+    void show_all();
+    template <class Save>
+    void save(const Save& write);
     void say(const std::string& message, bool failed = false);
     void set_stage(std::unique_ptr<Loaded> loaded);
-    [[nodiscard]] bool moves() const { return plan_.frames > 0 || controls_.animated || stage_->is_crowd(); }
+    [[nodiscard]] bool moves() const { return plan_.frames > 0 || controls_.animated; }
     [[nodiscard]] std::vector<bend::Pose> poses() const;
     [[nodiscard]] draw::Viewport viewport() const;
     [[nodiscard]] float panel_width() const;
@@ -81,9 +90,10 @@ private:
     Saver saver_;
     Controls controls_;
     std::unique_ptr<Stage> stage_;
+    Wish asked_;  // last; the stage's where that failed
     draw::OrbitCamera camera_;
     Told told_;
-    Done done_;
+    bool picture_wanted_ = false;
     bool panel_ = true;
     std::size_t region_ = 0;              // that keys turn
     std::optional<std::size_t> dragged_;  // its end is on the mouse

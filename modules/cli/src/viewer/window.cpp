@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace goffer::cli {
@@ -34,7 +35,7 @@ constexpr float text_size = 15;
                      "; 'goffer bend' and 'goffer crowd' write pictures without a display, by --png FILE");
 }
 
-/// GLFW, begun. It counts nothing: one at a time.
+/// GLFW, from its start to its end. It does not count: there may be one at a time.
 struct Library {
     Library() {
         if (glfwInit() == GLFW_FALSE) refuse();
@@ -44,7 +45,7 @@ struct Library {
     ~Library() { glfwTerminate(); }
 };
 
-/// A font that has been made to be read, where the usual places have one; else that of the panel.
+/// Loads a font that reads well, where one is in the usual places; else Dear ImGui's own.
 void load_font(float scale) {
     constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -70,15 +71,58 @@ struct Window::Data {
     float scale = 1;
     std::vector<KeyPress> keys;
     std::vector<std::filesystem::path> files;
+    bool happened = false;  // since the last poll
 
     static Data& of(GLFWwindow* window) { return *static_cast<Data*>(glfwGetWindowUserPointer(window)); }
 };
+
+namespace {
+
+void note(GLFWwindow* window) {
+    Window::Data::of(window).happened = true;
+}
+
+/// Arrows repeat while they are held; other keys do something once.
+bool repeats(int key) {
+    return key >= Window::right && key <= Window::up;
+}
+
+void note_key(GLFWwindow* window, int key, int, int action, int mods) noexcept {
+    note(window);
+    if (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(key)))
+        Window::Data::of(window).keys.push_back(
+            {key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+}
+
+void note_files(GLFWwindow* window, int count, const char** names) noexcept {
+    note(window);
+    for (int i = 0; i < count; ++i) {
+        const std::string_view name(names[i]);  // UTF-8, whatever the system
+        Window::Data::of(window).files.emplace_back(std::u8string(name.begin(), name.end()));
+    }
+}
+
+/// Before Dear ImGui sets its own, which call these.
+void set_callbacks(GLFWwindow* window) {
+    glfwSetKeyCallback(window, note_key);
+    glfwSetDropCallback(window, note_files);
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int, int, int) { note(from); });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* from, double, double) { note(from); });
+    glfwSetScrollCallback(window, [](GLFWwindow* from, double, double) { note(from); });
+    glfwSetCharCallback(window, [](GLFWwindow* from, unsigned) { note(from); });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int) { note(from); });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { note(from); });
+    glfwSetWindowRefreshCallback(window, note);
+    glfwSetWindowCloseCallback(window, note);
+}
+
+}  // namespace
 
 void Window::check_display() {
     const Library library;
 }
 
-Window::Window(const std::string& title, const glm::ivec2& size, bool wait)
+Window::Window(const std::string& title, const glm::ivec2& size, bool vsync)
     : data_(std::make_unique<Data>()) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -89,16 +133,9 @@ Window::Window(const std::string& title, const glm::ivec2& size, bool wait)
     window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (window == nullptr) refuse();
     glfwMakeContextCurrent(window);
-    glfwSwapInterval(wait ? 1 : 0);
+    glfwSwapInterval(vsync ? 1 : 0);
     glfwSetWindowUserPointer(window, data_.get());
-    glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int mods) {
-        if (action != GLFW_RELEASE)
-            Data::of(from).keys.push_back(
-                {key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
-    });
-    glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** names) {
-        for (int i = 0; i < count; ++i) Data::of(from).files.emplace_back(names[i]);
-    });
+    set_callbacks(window);
     float ratio = 1, ignored = 1;
     glfwGetWindowContentScale(window, &ratio, &ignored);
     data_->scale = std::clamp(ratio / pixel_ratio(), 1.0f, 4.0f);
@@ -109,6 +146,7 @@ Window::Window(const std::string& title, const glm::ivec2& size, bool wait)
     ImGui::GetStyle().FramePadding = {4, 2};
     ImGui::GetStyle().ItemSpacing = {8, 2};
     ImGui::GetStyle().Colors[ImGuiCol_FrameBg] = {1, 1, 1, 1};
+    ImGui::GetStyle().Colors[ImGuiCol_SliderGrab] = {0.58f, 0.76f, 0.99f, 1};  // numbers stand on it
     ImGui::GetStyle().FrameBorderSize = 1;
     ImGui::GetStyle().ScaleAllSizes(data_->scale);
     load_font(data_->scale);
@@ -127,6 +165,17 @@ bool Window::is_open() const {
     return glfwWindowShouldClose(data_->window) == GLFW_FALSE;
 }
 
+bool Window::is_minimized() const {
+    glm::ivec2 size(1);
+    glfwGetFramebufferSize(data_->window, &size.x, &size.y);
+    return size.x == 0 || size.y == 0;
+}
+
+void Window::hide() {
+    glfwHideWindow(data_->window);
+    glfwPollEvents();
+}
+
 void Window::close() {
     glfwSetWindowShouldClose(data_->window, GLFW_TRUE);
 }
@@ -140,13 +189,16 @@ void Window::copy_to_clipboard(const std::string& text) {
 }
 
 bool Window::poll(double seconds) {
-    const double begin = glfwGetTime();
     if (seconds > 0) {
         glfwWaitEventsTimeout(seconds);
     } else {
         glfwPollEvents();
     }
-    return glfwGetTime() - begin < 0.99 * seconds;
+    return std::exchange(data_->happened, false);
+}
+
+void Window::wake() {
+    glfwPostEmptyEvent();
 }
 
 void Window::begin_frame() {
@@ -176,7 +228,7 @@ std::vector<std::filesystem::path> Window::take_files() {
 glm::ivec2 Window::pixels() const {
     glm::ivec2 size(1);
     glfwGetFramebufferSize(data_->window, &size.x, &size.y);
-    return size;
+    return glm::max(size, 1);
 }
 
 glm::vec2 Window::size() const {

@@ -23,9 +23,9 @@ class Window {
 public:
     enum Key : int { escape = 256, right = 262, left = 263, down = 264, up = 265, f1 = 290 };
 
-    /// Throws InputError where there is no display, or none with OpenGL 3.3. `wait`: pictures wait for the
+    /// Throws InputError where there is no display, or none with OpenGL 3.3. `vsync`: frames wait for the
     /// display, which shows 60 or so a second.
-    Window(const std::string& title, const glm::ivec2& size, bool wait);
+    Window(const std::string& title, const glm::ivec2& size, bool vsync);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -34,12 +34,16 @@ public:
     static void check_display();
 
     [[nodiscard]] bool is_open() const;
+    [[nodiscard]] bool is_minimized() const;
+    void hide();
     void close();
     void set_title(const std::string& title);
     void copy_to_clipboard(const std::string& text);
 
-    /// Looks what has happened, and waits for something to, `seconds` at most. Returns whether something has.
+    /// Takes in events, for which it waits `seconds` at most. Returns whether there were any.
     bool poll(double seconds);
+    /// Ends such a wait, with an event. From any thread, while there is a window.
+    static void wake();
     /// Begins a frame of the panel.
     void begin_frame();
     /// Draws the panel over what is there, and shows the frame.
@@ -58,8 +62,9 @@ public:
     /// How large text and controls are: 1 on an ordinary display.
     [[nodiscard]] float scale() const;
 
+    struct Data;  // for window.cpp alone
+
 private:
-    struct Data;
     std::unique_ptr<Data> data_;
 };
 

@@ -55,7 +55,8 @@ public:
     /// texture holds.
     void set_coefficients(std::span<const bend::Coefficients> coefficients);
 
-    /// Gives each vertex a color, linear, in place of its part's; none: takes the colors away.
+    /// Gives each of body.vertex_count() vertices a color, linear, in place of its part's; none: takes the
+    /// colors away.
     void set_colors(std::span<const glm::vec3> colors);
 
 private:

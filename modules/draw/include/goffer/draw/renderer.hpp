@@ -36,7 +36,8 @@ struct Mark {
     glm::vec3 position, color;  ///< linear
 };
 
-/// Draws. Needs the context that it was made in to be current, its destructor too. Leaves the state of OpenGL
+/// Draws. Needs the context that it was made in to be current, its destructor too. Texture unit 0 must be
+/// active, and how pixels are unpacked and polygons filled as OpenGL begins with. Leaves the state of OpenGL
 /// changed. Move-only.
 class Renderer {
 public:
@@ -49,13 +50,13 @@ public:
     /// Begins a picture: clears the viewport to the background. What follows is drawn as `camera` sees it,
     /// lit from above the camera and by the sky, both sides of a surface alike.
     void begin(const OrbitCamera& camera, const Viewport& viewport);
-    /// Draws all instances of a mesh that has some.
-    void draw(const Mesh& mesh, const Look& look = {});
+    /// Draws all instances of a mesh, if it has been given some. Makes its edges when they are first wanted.
+    void draw(Mesh& mesh, const Look& look = {});
     /// Draws lines between marks 0 and 1, 2 and 3 and so on, hidden by what is in front.
     void draw_lines(std::span<const Mark> marks);
     /// Draws discs of `pixels` across, over everything.
     void draw_points(std::span<const Mark> marks, float pixels);
-    /// Ends the picture. Throws Error where OpenGL reports one.
+    /// Ends the picture. Throws Error where OpenGL has reported an error.
     void end();
 
     /// Milliseconds that the GPU took for a picture of some frames ago; nothing where it does not say.
