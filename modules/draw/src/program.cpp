@@ -100,7 +100,7 @@ void main() {
     vec3 to_eye = normalize(eye - surface_position);
     vec3 face = cross(dFdx(surface_position), dFdy(surface_position));
     vec3 normal = normalize(surface_normal);
-    if (dot(face, to_eye) * dot(face, normal) < 0.0) normal = -normal;
+    if ((dot(face, to_eye) < 0.0) != (dot(face, normal) < 0.0)) normal = -normal;
     float cosine = dot(normal, to_eye);
     if (cosine < 0.01) {  // interpolation has turned it away
         normal = normalize(normal + (0.01 - cosine) * to_eye);

@@ -35,16 +35,19 @@ public:
     }
     void start() {
         if (!runs_) return;
+        if (started_) stop();  // a picture that did not come to its end
         if (next_ >= queries_.size()) {
             GLuint64 nanoseconds = 0;
             glGetQueryObjectui64v(queries_[next_ % queries_.size()], GL_QUERY_RESULT, &nanoseconds);
             milliseconds_ = 1e-6 * static_cast<double>(nanoseconds);
         }
         glBeginQuery(GL_TIME_ELAPSED, queries_[next_ % queries_.size()]);
+        started_ = true;
     }
     void stop() {
         if (!runs_) return;
         glEndQuery(GL_TIME_ELAPSED);
+        started_ = false;
         ++next_;
     }
     [[nodiscard]] std::optional<double> milliseconds() const { return milliseconds_; }
@@ -52,7 +55,7 @@ public:
 private:
     std::array<Query, 3> queries_;
     std::size_t next_ = 0;
-    bool runs_ = false;
+    bool runs_ = false, started_ = false;
     std::optional<double> milliseconds_;
 };
 

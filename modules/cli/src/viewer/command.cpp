@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "picture.hpp"
-#include "progress.hpp"
 #include "report.hpp"
 #include "viewer/viewer.hpp"
 

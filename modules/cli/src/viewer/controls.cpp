@@ -76,12 +76,18 @@ void Controls::set_words(const BindWords& words) {
     shape = words.shape;
     refine = words.refine.empty() ? "on" : words.refine;
     roundness = static_cast<float>(words.roundness);
-    if (words.fold_length) fold_length = static_cast<float>(*words.fold_length);
-    if (words.onset) onset = static_cast<float>(*words.onset);
+    const Controls usual;
+    fold_length = words.fold_length ? static_cast<float>(*words.fold_length) : usual.fold_length;
+    onset = words.onset ? static_cast<float>(*words.onset) : usual.onset;
+    folds = usual.folds;
+    folds_list.clear();
     if (!words.folds) return;
-    const bool list = words.folds->find(',') != std::string::npos;
-    if (list) folds_list = *words.folds;
-    if (!list) folds = std::stoi(*words.folds);
+    const std::vector<double> numbers = read_numbers("--folds", *words.folds);
+    if (numbers.size() > 1) {
+        folds_list = *words.folds;
+    } else {
+        folds = static_cast<int>(numbers[0]);
+    }
 }
 
 void Controls::set_poses(const Loaded& loaded) {
@@ -93,7 +99,6 @@ void Controls::set_poses(const Loaded& loaded) {
         regions.push_back({static_cast<float>(degrees(static_cast<double>(angle))),
                            static_cast<float>(std::remainder(loaded.targets[r].direction, 360.0))});
     }
-    region_count = static_cast<int>(regions.size());
 }
 
 Wish wish_of(const Controls& controls, Wish wish) {

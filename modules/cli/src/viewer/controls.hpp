@@ -33,14 +33,15 @@ struct Controls {
     Show show;
     std::array<char, 4096> path{};  ///< of a file to open, as it is typed
 
-    /// Takes over what words say, with those that --paper stands for.
+    /// Takes over what words say, with those that --paper stands for: of a Loaded.
     void set_words(const BindWords& words);
-    /// Takes over the targets of what was loaded, as far as its body bends.
+    /// Takes over the targets of what was loaded, as far as its body bends. Leaves region_count alone.
     void set_poses(const Loaded& loaded);
 };
 
-/// `wish` with the words that these controls stand for. If there are to be as many regions as there are, it
-/// keeps their shares; else all are as long, and together bend as these do.
+/// `wish`, which is that of the models on stage, with the words that these controls stand for. If there are
+/// to be as many regions as there are, they keep their shares; else all are as long, and together bend as
+/// these do.
 [[nodiscard]] Wish wish_of(const Controls& controls, Wish wish);
 
 /// Poses of the regions, in radians.

@@ -113,7 +113,14 @@ void Loader::ask(Wish wish) {
 
 Loader::Answer Loader::take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(answer_, {});
+    Answer answer = std::exchange(answer_, {});
+    answer.last = !working_ && next_ == nullptr;
+    return answer;
+}
+
+bool Loader::answered() {
+    const std::lock_guard lock(mutex_);
+    return answer_.loaded != nullptr || !answer_.error.empty();
 }
 
 bool Loader::busy() {

@@ -53,9 +53,11 @@ public:
     struct Answer {
         std::unique_ptr<Loaded> loaded;
         std::string error;
+        bool last = true;  ///< nothing that was asked for later is still to come
     };
     [[nodiscard]] Answer take();
-    /// Whether a wish is being worked on.
+    /// Whether there is something to take, and whether a wish is being worked on.
+    [[nodiscard]] bool answered();
     [[nodiscard]] bool busy();
 
 private:

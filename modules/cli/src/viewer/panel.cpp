@@ -204,16 +204,16 @@ bool button(const char* label, bool enabled) {
     return pressed;
 }
 
-void show_saving(const Stage& stage, Done& done) {
+void show_saving(const Stage& stage, const Told& told, Done& done) {
     heading("SAVE");
     const bool file = !stage.loaded().wish.files.empty();
     done.save_model = button("model", true);
     ImGui::SameLine();
     done.save_picture = button("picture", true);
     ImGui::SameLine();
-    done.save_body = button("body", file && !stage.model().baked);
+    done.save_body = button("body", file && !told.busy && !stage.model().baked);
     ImGui::SameLine();
-    done.copy = button("copy command", file);
+    done.copy = button("copy command", file && !told.busy);
 }
 
 /// What keys and the mouse do, in two columns.
@@ -258,7 +258,7 @@ Done show_panel(Controls& controls, const Stage& stage, const Told& told, float 
     show_folds(controls, stage, done);
     show_looks(controls, stage, done);
     show_crowd(controls, stage, told, done);
-    show_saving(stage, done);
+    show_saving(stage, told, done);
     if (!stage.loaded().warnings.empty()) {
         heading("WARNINGS");
         for (const std::string& warning : stage.loaded().warnings) paragraph(warning_color, warning);

@@ -9,7 +9,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <numbers>
@@ -39,6 +38,7 @@ Viewer::Viewer(std::unique_ptr<Loaded> loaded, const ViewerPlan& plan)
       asked_(loaded->wish) {
     told_.device = renderer_.device();
     set_stage(std::move(loaded));
+    controls_.region_count = static_cast<int>(controls_.regions.size());
     show_all();
 }
 
@@ -74,12 +74,12 @@ ViewerTimes Viewer::run() {
 void Viewer::wait() {
     const bool rests = (!moves() && redraws_ == 0) || window_.is_minimized();
     if (!rests) {
-        window_.poll(0);
-        redraws_ = std::max(redraws_ - 1, 0);
+        redraws_ = window_.poll(0) ? settling : std::max(redraws_ - 1, 0);
         return;
     }
     const bool was_busy = told_.busy;
-    while (window_.is_open() && !window_.poll(longest_wait) && loader_.busy() == was_busy) {
+    while (window_.is_open() && !window_.poll(longest_wait) && !loader_.answered() &&
+           loader_.busy() == was_busy) {
     }
     redraws_ = settling;
 }
@@ -88,7 +88,7 @@ void Viewer::frame() {
     window_.begin_frame();
     take_answer();
     open(window_.take_files());
-    take_keys();
+    if (plan_.frames == 0) take_keys();
     const Clock::time_point now = Clock::now();
     told_.frame = milliseconds(now - std::exchange(last_, now));
     told_.moving = moves();
@@ -101,10 +101,12 @@ void Viewer::frame() {
     try {
         draw_picture();
     } catch (const std::exception& error) {  // more than the GPU holds
-        if (controls_.deformer == Deformer::processor && !stage_->is_crowd()) throw;
+        if (plan_.frames > 0 || (controls_.deformer == Deformer::processor && !stage_->is_crowd())) throw;
         controls_.deformer = Deformer::processor;
         controls_.instances = 0;
+        controls_.animated = false;
         set_instances();
+        show_all();
         say(error.what(), true);
     }
     window_.end_frame();
@@ -132,14 +134,15 @@ void Viewer::draw_picture() {
 
 /// Puts models on stage, and has the controls be about them.
 void Viewer::set_stage(std::unique_ptr<Loaded> loaded) {
-    const Wish& wish = loaded->wish;
-    const std::size_t regions = loaded->models[0].binding.body.region_count();
-    if (wish.new_pose || regions != controls_.regions.size()) controls_.set_poses(*loaded);
-    controls_.region_count = static_cast<int>(controls_.regions.size());
-    region_ = std::min(region_, controls_.regions.size() - 1);
+    auto stage = std::make_unique<Stage>(std::move(loaded));
+    stage_ = std::move(stage);
+    const Loaded& shown = stage_->loaded();
+    const std::size_t regions = stage_->model().binding.body.region_count();
+    if (shown.wish.new_pose || regions != controls_.regions.size()) controls_.set_poses(shown);
+    if (!shown.words.folds || shown.words.folds->find(',') == std::string::npos) controls_.folds_list.clear();
+    region_ = std::min(region_, regions - 1);
     dragged_.reset();
-    stage_ = std::make_unique<Stage>(std::move(loaded));
-    for (std::size_t r = 0; r < controls_.regions.size(); ++r) turn_region(r, 0, 0);  // as far as it can now
+    for (std::size_t r = 0; r < regions; ++r) turn_region(r, 0, 0);  // as far as it can now
     set_instances();
     stage_->pose(poses(), motion_);
 }
@@ -148,22 +151,31 @@ void Viewer::set_instances() {
     try {
         stage_->set_instances(static_cast<std::size_t>(controls_.instances));
     } catch (const std::exception& error) {
+        if (plan_.frames > 0) throw;
         controls_.instances = 0;
+        controls_.animated = false;
         say(error.what(), true);
     }
 }
 
 void Viewer::take_answer() {
     Loader::Answer answer = loader_.take();
-    if (!answer.error.empty()) {
-        asked_ = stage_->loaded().wish;
-        controls_.region_count = static_cast<int>(controls_.regions.size());
-        say(answer.error, true);
+    if (!answer.loaded && answer.error.empty()) return;
+    const bool other = answer.loaded && answer.loaded->wish.files != stage_->loaded().wish.files;
+    if (answer.loaded) {
+        try {
+            set_stage(std::move(answer.loaded));
+        } catch (const std::exception& error) {
+            answer.error = error.what();
+        }
     }
-    if (!answer.loaded) return;
+    if (answer.last) {
+        asked_ = stage_->loaded().wish;
+        if (!answer.error.empty()) controls_.set_words(stage_->loaded().words);
+        controls_.region_count = static_cast<int>(controls_.regions.size());
+    }
+    if (!answer.error.empty()) return say(answer.error, true);
     if (told_.failed) say("");
-    const bool other = answer.loaded->wish.files != stage_->loaded().wish.files;
-    set_stage(std::move(answer.loaded));
     if (other) {
         controls_.path = {};
         show_all();
@@ -174,16 +186,19 @@ void Viewer::take_answer() {
 void Viewer::ask(Wish wish) {
     asked_ = wish;
     loader_.ask(std::move(wish));
+    redraws_ = settling;
 }
 
 /// Binds with the words that the controls stand for.
 void Viewer::bind() {
-    ask(wish_of(controls_, asked_));
+    const Wish& now = stage_->loaded().wish;
+    if (asked_.files != now.files) return open(asked_.files);  // with the words that are chosen now
+    ask(wish_of(controls_, now));
 }
 
 void Viewer::open(const std::vector<std::filesystem::path>& files) {
     if (files.empty() || files[0].empty()) return;
-    Wish wish = wish_of(controls_, asked_);
+    Wish wish = wish_of(controls_, stage_->loaded().wish);
     wish.files = files;
     wish.pose = {};
     wish.keep_rest = true;

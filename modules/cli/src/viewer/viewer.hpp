@@ -90,7 +90,7 @@ private:
     Saver saver_;
     Controls controls_;
     std::unique_ptr<Stage> stage_;
-    Wish asked_;  // last; the stage's where that failed
+    Wish asked_;  // last; the stage's once nothing is to come
     draw::OrbitCamera camera_;
     Told told_;
     bool picture_wanted_ = false;
@@ -100,7 +100,7 @@ private:
     bool turning_ = false, shifting_ = false;
     std::size_t motion_ = 0;  // frames in motion
     Clock::time_point last_ = Clock::now();
-    int redraws_ = 0;  // frames until it may wait
+    int redraws_ = 3;  // frames until it may wait
     std::vector<double> set_up_times_, deform_times_, upload_times_, draw_times_, frame_times_;
 };
 

@@ -87,11 +87,18 @@ bool repeats(int key) {
     return key >= Window::right && key <= Window::up;
 }
 
-void note_key(GLFWwindow* window, int key, int, int action, int mods) noexcept {
+/// The letter or digit that is printed on the key, whatever the keyboard; else GLFW's number of its place.
+int printed(int key, int scancode) {
+    const char* const name = glfwGetKeyName(key, scancode);
+    if (name == nullptr || name[0] == 0 || name[1] != 0) return key;
+    return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0];
+}
+
+void note_key(GLFWwindow* window, int key, int scancode, int action, int mods) noexcept {
     note(window);
     if (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(key)))
         Window::Data::of(window).keys.push_back(
-            {key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+            {printed(key, scancode), (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
 }
 
 void note_files(GLFWwindow* window, int count, const char** names) noexcept {
@@ -168,7 +175,7 @@ bool Window::is_open() const {
 bool Window::is_minimized() const {
     glm::ivec2 size(1);
     glfwGetFramebufferSize(data_->window, &size.x, &size.y);
-    return size.x == 0 || size.y == 0;
+    return size.x == 0 || size.y == 0 || glfwGetWindowAttrib(data_->window, GLFW_ICONIFIED) == GLFW_TRUE;
 }
 
 void Window::hide() {
@@ -181,6 +188,8 @@ void Window::close() {
 }
 
 void Window::set_title(const std::string& title) {
+    if (title == title_) return;
+    title_ = title;
     glfwSetWindowTitle(data_->window, title.c_str());
 }
 

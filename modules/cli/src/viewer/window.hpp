@@ -40,7 +40,8 @@ public:
     void set_title(const std::string& title);
     void copy_to_clipboard(const std::string& text);
 
-    /// Takes in events, for which it waits `seconds` at most. Returns whether there were any.
+    /// Takes in events, for which it waits `seconds` at most. Returns whether there were any that may change
+    /// what is shown.
     bool poll(double seconds);
     /// Ends such a wait, with an event. From any thread, while there is a window.
     static void wake();
@@ -66,6 +67,7 @@ public:
 
 private:
     std::unique_ptr<Data> data_;
+    std::string title_;
 };
 
 }  // namespace goffer::cli

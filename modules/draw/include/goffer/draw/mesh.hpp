@@ -3,14 +3,13 @@
 
 #include <glm/vec3.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <stdexcept>
 
 /// A body's mesh in the memory of OpenGL. All functions here need the context that the mesh was made in to be
-/// current, destructors too.
+/// current, destructors too, texture unit 0 to be active, and pixels to be unpacked as OpenGL begins with.
 
 namespace goffer::bend {
 class Body;
