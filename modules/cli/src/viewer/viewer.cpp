@@ -384,11 +384,6 @@ void Viewer::take_mouse() {
         shifting_ = !dragged_ && io.KeyShift;
     }
     if (free && (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) shifting_ = true;
-    if (!ImGui::IsMouseDown(0)) {
-        dragged_.reset();
-        turning_ = false;
-    }
-    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) shifting_ = false;
     const float height = window_.size().y;
     const glm::vec2 moved(io.MouseDelta.x / height, io.MouseDelta.y / height);
     if (dragged_ && (moved.x != 0 || moved.y != 0)) {
@@ -398,6 +393,12 @@ void Viewer::take_mouse() {
     } else if (shifting_) {
         camera_.pan({2 * moved.x, -2 * moved.y});
     }
+    // Behind the last motion, which may come in the same frame as the release.
+    if (!ImGui::IsMouseDown(0)) {
+        dragged_.reset();
+        turning_ = false;
+    }
+    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) shifting_ = false;
     if (free && io.MouseWheel != 0) camera_.zoom(std::pow(0.9f, io.MouseWheel));
 }
 
