@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "memory.hpp"
+#include "model.hpp"
 #include "report.hpp"
 
 #include <goffer/io/atomic_file.hpp>
@@ -40,11 +41,7 @@ void run_base(const BaseOptions& options) {
     Report report(options.json);
     const paper::BaseMesh base =
         paper::base_mesh(options.length, options.radius, options.columns, options.rows, options.caps);
-    mesh::Mesh mesh;
-    mesh.positions.assign(base.positions.begin(), base.positions.end());
-    mesh.corners = base.triangles;
-    mesh.faces.assign(base.triangles.size() / 3, 3);
-    mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(mesh.faces.size())});
+    const mesh::Mesh mesh = mesh_of(base);
     io::AtomicFiles outputs;
     mesh::save(mesh, options.output, outputs);
 

@@ -171,6 +171,14 @@ std::vector<fit::RegionOptions> baked_regions(const ModelFile& model) {
     return regions;
 }
 
+std::vector<fit::RegionOptions> baked_regions(std::span<const ModelFile> models) {
+    for (const ModelFile& model : models) {
+        std::vector<fit::RegionOptions> regions = baked_regions(model);
+        if (!regions.empty()) return regions;
+    }
+    return {};
+}
+
 BoundModel bind_model(ModelFile model, const BindRequest& request, const std::filesystem::path& fit) {
     return model.baked ? baked_model(model.file, std::move(*model.baked), request)
                        : bind_model(model.file, request, fit);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct ModelFile {
 
 /// The regions of a body that was baked with several; none of any other file.
 [[nodiscard]] std::vector<fit::RegionOptions> baked_regions(const ModelFile& model);
+
+/// The regions of the first of `models` that has any: the others are to have as many.
+[[nodiscard]] std::vector<fit::RegionOptions> baked_regions(std::span<const ModelFile> models);
 
 /// bind_model() of a model, and the same of a body file, which is bound: throws UsageError if the words ask
 /// for what was decided when it was made, and an error that names the file if it has no such level, or

@@ -209,6 +209,22 @@ fit::Geometry geometry_of(const mesh::VertexArrays& arrays) {
     return {arrays.positions, arrays.triangles, arrays.normals, arrays.tangents};
 }
 
+mesh::Mesh mesh_of(const paper::BaseMesh& base) {
+    mesh::Mesh mesh;
+    mesh.positions.assign(base.positions.begin(), base.positions.end());
+    mesh.corners = base.triangles;
+    mesh.faces.assign(base.triangles.size() / 3, 3);
+    mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(mesh.faces.size())});
+    return mesh;
+}
+
+std::vector<std::uint32_t> places_of(const fit::Binding& binding) {
+    std::vector<std::uint32_t> places(binding.body.vertex_count());
+    for (std::uint32_t i = 0; i < places.size(); ++i)
+        places[binding.order.empty() ? i : binding.order[i]] = i;
+    return places;
+}
+
 std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh) {
     std::vector<TriangleRange> ranges;
     ranges.reserve(mesh.parts.size());

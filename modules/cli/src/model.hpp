@@ -7,6 +7,7 @@
 
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
+#include <goffer/paper/base.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -97,6 +98,9 @@ struct BoundModel {
 [[nodiscard]] BoundModel bind_mesh(BoundModel model, const BindRequest& request,
                                    const std::filesystem::path& fit = {});
 
+/// The base model as a mesh of one part.
+[[nodiscard]] mesh::Mesh mesh_of(const paper::BaseMesh& base);
+
 /// Triangles [first, first + count) of all, as mesh::triangles() cuts the faces.
 struct TriangleRange {
     std::uint32_t first = 0;
@@ -114,6 +118,9 @@ void put_in_model_order(std::vector<T>& values, const fit::Binding& binding) {
     for (std::size_t i = 0; i < binding.order.size(); ++i) sorted[binding.order[i]] = values[i];
     values = std::move(sorted);
 }
+
+/// The inverse of binding.order: where in the body a vertex of the model is.
+[[nodiscard]] std::vector<std::uint32_t> places_of(const fit::Binding& binding);
 
 /// Warns of folds that the mesh cannot carry, of those that are missing for want of rows, and of those that
 /// reach past the axis when regions are bent by `angles` (radians, >= 0; one per region). `where` begins each

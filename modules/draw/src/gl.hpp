@@ -70,4 +70,11 @@ template <class Named, class Make>
     return std::bit_cast<const void*>(offset);
 }
 
+/// Has the vertex array that is bound read an attribute from the buffer that is bound; both in bytes.
+inline void read_attribute(GLuint location, GLint floats, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                          at_byte(offset));
+}
+
 }  // namespace goffer::draw

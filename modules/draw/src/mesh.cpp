@@ -27,22 +27,16 @@ void replace(GLenum target, std::span<const std::byte> bytes) {
     glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
-void attribute(GLuint location, GLint floats, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                          at_byte(offset));
-}
-
-void attribute_if_any(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {
-    if (offset != gpu::VertexLayout::none) attribute(location, floats, layout.stride, offset);
+void read_if_any(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {
+    if (offset != gpu::VertexLayout::none) read_attribute(location, floats, layout.stride, offset);
 }
 
 void read_columns(const gpu::VertexLayout& layout) {
-    attribute(column, 4, layout.stride, layout.column);
-    attribute(wrinkle, 4, layout.stride, layout.wrinkle);
-    attribute(normal, 3, layout.stride, layout.normal);
-    attribute_if_any(shape, 4, layout, layout.shape);
-    attribute_if_any(tangent, 4, layout, layout.tangent);
+    read_attribute(column, 4, layout.stride, layout.column);
+    read_attribute(wrinkle, 4, layout.stride, layout.wrinkle);
+    read_attribute(normal, 3, layout.stride, layout.normal);
+    read_if_any(shape, 4, layout, layout.shape);
+    read_if_any(tangent, 4, layout, layout.tangent);
 }
 
 }  // namespace
@@ -114,7 +108,7 @@ void Mesh::set_colors(std::span<const glm::vec3> colors) {
         glBindVertexArray(array);
         glBindBuffer(GL_ARRAY_BUFFER, data_->colors);
         if (data_->colored) {
-            attribute(color, 3, sizeof(glm::vec3), 0);
+            read_attribute(color, 3, sizeof(glm::vec3), 0);
         } else {
             glDisableVertexAttribArray(color);
         }
@@ -141,8 +135,8 @@ void Mesh::Data::make_edges() {
 void Mesh::Data::point_at_instance(std::size_t index) const {
     const std::size_t first = index * vertex_count * sizeof(Vertex);
     glBindBuffer(GL_ARRAY_BUFFER, vertices);
-    attribute(position, 3, sizeof(Vertex), first + offsetof(Vertex, position));
-    attribute(normal, 3, sizeof(Vertex), first + offsetof(Vertex, normal));
+    read_attribute(position, 3, sizeof(Vertex), first + offsetof(Vertex, position));
+    read_attribute(normal, 3, sizeof(Vertex), first + offsetof(Vertex, normal));
 }
 
 }  // namespace goffer::draw

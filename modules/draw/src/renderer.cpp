@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 
 namespace goffer::draw {
 namespace {
@@ -21,8 +20,8 @@ void check_context() {
                     std::to_string(version % 10) + "; try a newer driver, or Mesa's in software");
 }
 
-/// How long pictures take, asked for when the answers have come. Desktops have it; of software renderers it
-/// is the time to take in the commands.
+/// How long pictures take, asked for when the answers have come. Only desktops' OpenGL says so, and that of
+/// software renderers tells the time to take in the commands, which is not asked for.
 class Stopwatch {
 public:
     Stopwatch() {
@@ -83,10 +82,8 @@ struct Renderer::Data {
 Renderer::Data::Data() {
     glBindVertexArray(marks_array);
     glBindBuffer(GL_ARRAY_BUFFER, marks_buffer);
-    glEnableVertexAttribArray(position);
-    glVertexAttribPointer(position, 3, GL_FLOAT, GL_FALSE, sizeof(Mark), at_byte(offsetof(Mark, position)));
-    glEnableVertexAttribArray(color);
-    glVertexAttribPointer(color, 3, GL_FLOAT, GL_FALSE, sizeof(Mark), at_byte(offsetof(Mark, color)));
+    read_attribute(position, 3, sizeof(Mark), offsetof(Mark, position));
+    read_attribute(color, 3, sizeof(Mark), offsetof(Mark, color));
 }
 
 Renderer::Renderer() {
@@ -150,9 +147,7 @@ void Renderer::Data::draw_pass(const Mesh::Data& mesh, const Look& look, bool ed
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges ? mesh.edge_indices : mesh.triangle_indices);
     // What an array that is switched off reads.
     glVertexAttrib3f(color, 1, 1, 1);
-    if (edges) {
-        program.set("part_color", glm::vec3(0));
-    }
+    if (edges) program.set("part_color", glm::vec3(0));
     if (by_shader) {
         program.set("rows_per_instance", static_cast<int>(mesh.regions * bend::coefficient_rows));
         glBindTexture(GL_TEXTURE_2D, mesh.coefficients);

@@ -47,15 +47,6 @@ bend::Stores parse_stores(const std::string& text) {
     return text == "streaming" ? bend::Stores::non_temporal : bend::Stores::automatic;
 }
 
-/// The regions of the first body file that has several: the other models are to have as many.
-std::vector<fit::RegionOptions> regions_in(std::span<const ModelFile> models) {
-    for (const ModelFile& model : models) {
-        std::vector<fit::RegionOptions> regions = baked_regions(model);
-        if (!regions.empty()) return regions;
-    }
-    return {};
-}
-
 /// Everything that can be refused by looking at the words alone, and at the regions of body files.
 struct CrowdRequest {
     PoseRequest pose;
@@ -195,7 +186,7 @@ void run_crowd(const CrowdOptions& options) {
     files.reserve(options.models.size());
     for (const std::filesystem::path& model : options.models)
         files.emplace_back(model, options.bind.load.limits);
-    const CrowdRequest request(options, regions_in(files));
+    const CrowdRequest request(options, baked_regions(files));
     Report report(options.json);
     const std::vector<BoundModel> models = bind_models(std::move(files), request.bind);
     auto progress = std::make_unique<Progress>("deforming " + counted(options.frames, "frame"));

@@ -17,7 +17,6 @@ namespace goffer::cli {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr double frames_per_swing = 120;
 constexpr double frames_per_turn = 600;
 constexpr double lag_per_length = 0.25;  // of the tip's swing behind the base's, in turns
 

@@ -26,6 +26,9 @@ struct CrowdPlan {
     std::string option = "--instances";  ///< that their number was given by
 };
 
+/// From straight to the farthest, and back.
+inline constexpr double frames_per_swing = 120;
+
 /// Where an instance stands: row 0 is in front.
 struct Spot {
     std::size_t column = 0;

@@ -17,15 +17,11 @@
 namespace goffer::cli {
 namespace {
 
-/// The base model, as `goffer base` makes it.
+/// The base model, as `goffer base --caps` makes it.
 BoundModel base_model() {
-    const paper::BaseMesh base = paper::base_mesh(10, 1, 64, 161, true);
     BoundModel model;
     model.file = "base";
-    model.mesh.positions.assign(base.positions.begin(), base.positions.end());
-    model.mesh.corners = base.triangles;
-    model.mesh.faces.assign(base.triangles.size() / 3, 3);
-    model.mesh.parts.push_back({"base", -1, 0, static_cast<std::uint32_t>(model.mesh.faces.size())});
+    model.mesh = mesh_of(paper::base_mesh(10, 1, 64, 161, true));
     model.rest = mesh::vertex_arrays(model.mesh);
     return model;
 }
@@ -36,15 +32,6 @@ std::vector<Target> rest_targets(const bend::Body& body) {
         targets.push_back(
             {degrees(static_cast<double>(rest.angle)), degrees(static_cast<double>(rest.direction)), rest});
     return targets;
-}
-
-/// The regions of the first body file that has several.
-std::vector<fit::RegionOptions> regions_in(const std::vector<ModelFile>& files) {
-    for (const ModelFile& file : files) {
-        std::vector<fit::RegionOptions> regions = baked_regions(file);
-        if (!regions.empty()) return regions;
-    }
-    return {};
 }
 
 /// What the command `bend` would warn of, at a right angle or as far as the body bends.
@@ -67,7 +54,7 @@ std::vector<std::string> warnings_of(const BoundModel& model, const BindRequest&
 Loaded load(const Wish& wish) {
     std::vector<ModelFile> files;
     for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
-    const PoseRequest pose(wish.pose, regions_in(files));
+    const PoseRequest pose(wish.pose, baked_regions(files));
     const BindRequest request(wish.bind, pose.regions);
     Loaded loaded{.wish = wish, .models = {}, .words = request.words, .targets = {}, .warnings = {}};
     if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));
@@ -78,6 +65,7 @@ Loaded load(const Wish& wish) {
     for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
         const double asked = std::fabs(loaded.targets[r].angle),
                      limit = degrees(static_cast<double>(body.max_angle(r)));
+        // The limit itself comes back from the panel as a rounded word.
         if (std::isfinite(asked) && asked > 1.0001 * limit) {
             Report report("");
             warn_of_angle(report, region_words(r, loaded.targets.size()), asked, limit, "clamped to it");

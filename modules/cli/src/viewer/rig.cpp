@@ -64,9 +64,7 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
     }
     try {
         fit::Binding binding = fit::bind_level({positions, triangles}, model.binding);
-        rig.place_.resize(positions.size());
-        for (std::uint32_t i = 0; i < positions.size(); ++i)
-            rig.place_[binding.order.empty() ? i : binding.order[i]] = i;
+        rig.place_ = places_of(binding);
         rig.body_ = std::move(binding.body);
     } catch (const fit::Error&) {
         return std::nullopt;  // outside bend::WorkingRange
@@ -76,26 +74,16 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
     return rig;
 }
 
+const glm::vec3& Rig::at(std::size_t row, std::size_t column) const {
+    return bent_[place_[row * columns + column % columns]];
+}
+
 void Rig::set(std::span<const bend::Pose> poses) {
     bend::DeformJob job;
     job.body = &body_;
     job.poses = poses;
     job.positions = interleaved<3>(&bent_.front().x, bent_.size());
     bend::run(job);
-    const auto at = [&](std::size_t row, std::size_t column) {
-        return bent_[place_[row * columns + column % columns]];
-    };
-    lines_.clear();
-    const auto line = [&](const glm::vec3& from, const glm::vec3& to) {
-        lines_.push_back({from, line_color});
-        lines_.push_back({to, line_color});
-    };
-    for (std::size_t row = 0; row < rows_; row += ring_step) {
-        for (std::size_t c = 0; c < columns; ++c) line(at(row, c), at(row, c + 1));
-    }
-    for (std::size_t c = 0; c < columns; c += column_step) {
-        for (std::size_t row = 0; row + 1 < rows_; ++row) line(at(row, c), at(row + 1, c));
-    }
     for (std::size_t i = 0; i < borders_.size(); ++i) {  // there is no wrinkle at a region's end
         glm::vec3 center(0);
         for (std::size_t c = 0; c < columns; ++c) center += at(borders_[i], c) / static_cast<float>(columns);
@@ -103,6 +91,21 @@ void Rig::set(std::span<const bend::Pose> poses) {
         const glm::vec3 e2 = glm::normalize(at(borders_[i], columns / 4) - center);
         frames_[i] = glm::mat4x3(e1, e2, glm::cross(e1, e2), center);
     }
+}
+
+std::vector<draw::Mark> Rig::lines() const {
+    std::vector<draw::Mark> lines;
+    const auto line = [&](const glm::vec3& from, const glm::vec3& to) {
+        lines.push_back({from, line_color});
+        lines.push_back({to, line_color});
+    };
+    for (std::size_t row = 0; row < rows_; row += ring_step) {
+        for (std::size_t c = 0; c < columns; ++c) line(at(row, c), at(row, c + 1));
+    }
+    for (std::size_t c = 0; c < columns; c += column_step) {
+        for (std::size_t row = 0; row + 1 < rows_; ++row) line(at(row, c), at(row + 1, c));
+    }
+    return lines;
 }
 
 bend::Pose pose_toward(const glm::mat4x3& frame, const glm::vec3& target) {

@@ -23,14 +23,6 @@ namespace {
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
 constexpr int wall_clock = 2;  // threads, for which measure::now() reads the clock on the wall
 
-/// Where in the body a vertex of the model is.
-std::vector<std::uint32_t> places_of(const fit::Binding& binding) {
-    std::vector<std::uint32_t> places(binding.body.vertex_count());
-    for (std::uint32_t i = 0; i < places.size(); ++i)
-        places[binding.order.empty() ? i : binding.order[i]] = i;
-    return places;
-}
-
 /// Parts in the colors that pictures have.
 std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
     view::Model all;
@@ -55,7 +47,7 @@ std::vector<glm::vec3> own_colors(const BoundModel& model) {
     return in_body_order(vertex_colors(model.file, model.mesh, model.rest), model.binding);
 }
 
-draw::Mesh mesh_of(const BoundModel& model, std::size_t index) {
+draw::Mesh drawn_mesh(const BoundModel& model, std::size_t index) {
     const std::vector<std::uint32_t> places = places_of(model.binding);
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
@@ -96,9 +88,7 @@ double timed(const Work& work) {
 Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
     const BoundModel& first = model();
     for (std::size_t i = 0; i < loaded_->models.size(); ++i)
-        meshes_.push_back(mesh_of(loaded_->models[i], i));
-    rest_.emplace(mesh_of(first, 0));
-    rest_->set_vertices(rest_vertices(first));
+        meshes_.push_back(drawn_mesh(loaded_->models[i], i));
     rig_ = Rig::make(first);
     poses_ = first.binding.body.rest_poses();
     vertices_.resize(first.binding.body.vertex_count());
@@ -209,7 +199,12 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
         }
         renderer.draw_lines(frame_marks_);
     }
-    if (show.rest) renderer.draw(*rest_, {.opacity = 0.25f});
+    if (!show.rest) return;
+    if (!rest_) {
+        rest_.emplace(drawn_mesh(model(), 0));
+        rest_->set_vertices(rest_vertices(model()));
+    }
+    renderer.draw(*rest_, {.opacity = 0.25f});
 }
 
 std::span<const glm::mat4x3> Stage::frames() const {

@@ -72,7 +72,7 @@ private:
 
     std::unique_ptr<Loaded> loaded_;
     std::vector<draw::Mesh> meshes_;  // of each model
-    std::optional<draw::Mesh> rest_;  // the first model at rest
+    std::optional<draw::Mesh> rest_;  // the first model at rest, once it is shown
     std::optional<Rig> rig_;
     std::vector<bend::Pose> poses_;
     std::vector<draw::Vertex> vertices_;  // of one body

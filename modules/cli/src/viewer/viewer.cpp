@@ -20,7 +20,6 @@ namespace {
 constexpr float panel_units = 330;  // wide
 constexpr float end_pixels = 14;    // of the discs that ends are dragged by
 constexpr glm::vec3 end_color{0.95f, 0.35f, 0.02f}, chosen_color{0.9f, 0.05f, 0.02f};
-constexpr double frames_per_swing = 120;
 constexpr double longest_wait = 1;  // seconds
 constexpr int settling = 3;         // frames until the panel stands still
 
@@ -134,8 +133,7 @@ void Viewer::draw_picture() {
 
 /// Puts models on stage, and has the controls be about them.
 void Viewer::set_stage(std::unique_ptr<Loaded> loaded) {
-    auto stage = std::make_unique<Stage>(std::move(loaded));
-    stage_ = std::move(stage);
+    stage_ = std::make_unique<Stage>(std::move(loaded));
     const Loaded& shown = stage_->loaded();
     const std::size_t regions = stage_->model().binding.body.region_count();
     if (shown.wish.new_pose || regions != controls_.regions.size()) controls_.set_poses(shown);
