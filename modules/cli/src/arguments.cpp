@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <charconv>
@@ -183,12 +182,6 @@ Isa parse_isa_option(const std::string& text) {
     if (!runs_here(*isa))
         throw InputError("--isa: this machine or this build has no " + text + "; choose one of " + known);
     return *isa;
-}
-
-int usable_threads(int asked) {
-    // oneTBB has no more than the machine's anyway, and would say so on standard error.
-    const int most = tbb::info::default_concurrency();
-    return asked == 0 ? most : std::min(asked, most);
 }
 
 fit::Cylinder read_fit(const std::filesystem::path& file) {

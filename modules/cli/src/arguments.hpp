@@ -60,9 +60,6 @@ using Action = std::function<void()>;
 /// A set that runs here; UsageError for an unknown name, InputError for one that this machine lacks.
 [[nodiscard]] Isa parse_isa_option(const std::string& text);
 
-/// `asked` threads, at most the machine's; 0 for all of them.
-[[nodiscard]] int usable_threads(int asked);
-
 /// The base cylinder in a report of `goffer inspect` (or its "fit" part alone), checked. Throws InputError.
 [[nodiscard]] fit::Cylinder read_fit(const std::filesystem::path& file);
 

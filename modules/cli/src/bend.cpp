@@ -9,6 +9,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "suitability.hpp"
+#include "threads.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/base.hpp>

@@ -30,4 +30,15 @@ void put_in_model_order(mesh::VertexArrays& records, const fit::Binding& binding
     put_in_model_order(records.tangents, binding);
 }
 
+mesh::Mesh bent_mesh(const BoundModel& model, std::span<const bend::Pose> poses) {
+    mesh::VertexArrays records;
+    bend::run_parallel(job_into(records, model, poses));
+    put_in_model_order(records, model.binding);
+    return mesh::with_vertex_arrays(model.mesh, records);
+}
+
+std::string ending_of(const BoundModel& model) {
+    return mesh::can_save(model.file) ? model.file.extension().string() : ".glb";
+}
+
 }  // namespace goffer::cli

@@ -6,6 +6,7 @@
 #include <goffer/bend/job.hpp>
 
 #include <span>
+#include <string>
 
 /// A model bent on the processor, as it is written to a file.
 
@@ -18,5 +19,11 @@ namespace goffer::cli {
 
 /// Puts what such a job has written into the model's order.
 void put_in_model_order(mesh::VertexArrays& records, const fit::Binding& binding);
+
+/// The model in these poses, as `goffer bend` writes it. Throws as job_into().
+[[nodiscard]] mesh::Mesh bent_mesh(const BoundModel& model, std::span<const bend::Pose> poses);
+
+/// The ending that its file gets: the model's own, or .glb where save() does not know it.
+[[nodiscard]] std::string ending_of(const BoundModel& model);
 
 }  // namespace goffer::cli

@@ -4,38 +4,14 @@
 #include "arguments.hpp"
 #include "model.hpp"
 
-#include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
-
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <system_error>
 #include <vector>
 
 namespace goffer::cli {
 namespace {
-
-/// Neither so bright nor so dark that its wrinkles do not show.
-glm::vec4 dimmed(const glm::vec4& color) {
-    const float high = std::max({color.r, color.g, color.b, 1e-3f});
-    return {glm::max(glm::vec3(color) * std::min(1.0f, 0.75f / high), glm::vec3(0.06f)), 1.0f};
-}
-
-/// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
-/// material says whose texture is not at hand, is no color; such parts are `plain`.
-glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
-    const auto [low, high] = std::minmax({color.r, color.g, color.b});
-    return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
-}
-
-float linear(float encoded) {
-    const float value = std::clamp(encoded, 0.0f, 1.0f);
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
 
 [[noreturn]] void refuse_size(const std::string& text) {
     throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to " +
@@ -90,58 +66,14 @@ Viewpoint parse_camera(const std::string& text) {
     return {std::remainder(angles[0], 360.0), angles[1]};
 }
 
-glm::vec4 plain_color(std::size_t model) {
-    // Clay, moss, straw, slate, plum.
-    constexpr std::array<glm::vec3, 5> colors = {glm::vec3{0.72f, 0.33f, 0.20f},
-                                                 {0.30f, 0.48f, 0.24f},
-                                                 {0.74f, 0.53f, 0.17f},
-                                                 {0.24f, 0.40f, 0.56f},
-                                                 {0.50f, 0.24f, 0.42f}};
-    return {colors[model % colors.size()], 1};
-}
-
-view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from) {
-    const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
-    const glm::dmat3& e = body.axes();
-    const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
-    const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];
-    const double azimuth = radians(from.azimuth), elevation = radians(from.elevation);
-    const glm::dvec3 level = std::cos(azimuth) * across + std::sin(azimuth) * e[2];
-    view::Camera camera;
-    camera.toward = glm::vec3(-std::cos(elevation) * level - std::sin(elevation) * toward);
-    camera.up = glm::vec3(std::cos(elevation) * toward - std::sin(elevation) * level);
-    return camera;
-}
-
-std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
-                                     const mesh::VertexArrays& rest) {
-    const auto white = [](const glm::vec4& color) { return color == glm::vec4(1, 1, 1, color.a); };
-    std::vector<glm::vec4> colors;
-    if (std::ranges::all_of(mesh.colors, white)) return colors;
-    const std::string ending = file.extension().string();
-    const bool encoded = ending != ".glb" && ending != ".gltf";
-    colors.reserve(rest.vertex.size());
-    for (const std::uint32_t vertex : rest.vertex) {
-        glm::vec4 color = mesh.colors[vertex];
-        for (int c = 0; encoded && c < 3; ++c) color[c] = linear(color[c]);
-        colors.push_back(dimmed(color));
-    }
-    return colors;
-}
-
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
                                      const glm::vec4& plain) {
-    const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
     std::vector<view::Model> models;
-    for (std::size_t p = 0; p < triangles.size(); ++p) {
-        const auto [first, count] = triangles[p];
-        if (count == 0) continue;
+    for (const PartLook& part : looks_of(mesh, plain)) {
         view::Model model = vertices;
-        model.triangles = vertices.triangles.subspan(3 * std::size_t{first}, 3 * std::size_t{count});
-        const std::int32_t material = mesh.parts[p].material;
-        model.color = material < 0
-                          ? plain
-                          : readable(mesh.materials[static_cast<std::size_t>(material)].base_color, plain);
+        model.triangles = vertices.triangles.subspan(3 * std::size_t{part.triangles.first},
+                                                     3 * std::size_t{part.triangles.count});
+        model.color = part.color;
         models.push_back(model);
     }
     return models;
@@ -163,7 +95,10 @@ void write_picture(const BentModel& model, const PictureStyle& style, const std:
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
-    const view::Camera camera = camera_for(model.body, model.pose, style.viewpoint);
+    const Sight sight = sight_of(model.body, model.pose, style.viewpoint);
+    view::Camera camera;
+    camera.toward = sight.toward;
+    camera.up = sight.up;
     view::save_png(view::render(models, camera, style.settings), file, outputs);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "looks.hpp"
+
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/pose.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -37,18 +39,8 @@ void check_wanted(const PictureWords& words, bool given, const std::string& opti
 /// picture, and for a file that is no PNG; io::Error for one that cannot be written.
 [[nodiscard]] view::Settings picture_settings(const PictureWords& words);
 
-/// Where a bent model is looked at from. At 0, 0 the eye looks across the plane that it bends in, and it lies
-/// from left to right, its squeezed side up. Degrees.
-struct Viewpoint {
-    double azimuth = 0;     ///< turns the eye about the picture's vertical, toward the tip's side
-    double elevation = 35;  ///< raises it, up to 90, where it looks at the squeezed side
-};
-
 /// "side", "inner", "front" or "AZIMUTH,ELEVATION". Throws UsageError.
 [[nodiscard]] Viewpoint parse_camera(const std::string& text);
-
-/// The camera there, for a body in this pose.
-[[nodiscard]] view::Camera camera_for(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from);
 
 /// What a picture of a bend needs. The caller owns all of it.
 struct BentModel {
@@ -60,15 +52,6 @@ struct BentModel {
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
     bend::Pose pose;
 };
-
-/// The color of parts that have none of their own, of one model of several.
-[[nodiscard]] glm::vec4 plain_color(std::size_t model);
-
-/// The colors of vertices as pictures show them, linear RGBA, in place of materials' and in the order of
-/// `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB, which `file` tells. Empty where
-/// there are none, or all are white.
-[[nodiscard]] std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
-                                                   const mesh::VertexArrays& rest);
 
 /// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
 /// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts

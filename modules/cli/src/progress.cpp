@@ -7,11 +7,17 @@
 
 #include <chrono>
 #include <cstdio>
+#include <system_error>
 
 namespace goffer::cli {
 
 Progress::Progress(const std::string& stage) : stage_(io::escaped(stage)) {
-    if (isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
+    if (isatty(STDERR_FILENO) == 0) return;
+    try {
+        thread_ = std::thread([this] { show(); });
+    } catch (const std::system_error&) {
+        // Where no thread is to be had, as in a browser, nothing is shown.
+    }
 }
 
 Progress::~Progress() {

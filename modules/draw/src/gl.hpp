@@ -1,15 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#ifdef __EMSCRIPTEN__
+#include <GLES3/gl3.h>
+#else
 #include <epoxy/gl.h>
+#endif
 
 #include <bit>
 #include <cstddef>
 #include <utility>
 
-/// Names of OpenGL that go when they go out of scope.
+/// OpenGL's functions, and its names that go when they go out of scope.
 
 namespace goffer::draw {
+
+/// Whether the context is one of OpenGL, not of ES or WebGL; and its version, 33 for 3.3.
+#ifdef __EMSCRIPTEN__
+inline bool is_desktop() {
+    return false;
+}
+inline int version() {
+    return 30;
+}
+inline void let_shaders_size_points() {}  // they may
+#else
+inline bool is_desktop() {
+    return epoxy_is_desktop_gl();
+}
+inline int version() {
+    return epoxy_gl_version();
+}
+inline void let_shaders_size_points() {
+    if (is_desktop()) glEnable(GL_PROGRAM_POINT_SIZE);
+}
+#endif
 
 template <auto Delete>
 class Name {

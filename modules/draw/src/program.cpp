@@ -41,7 +41,7 @@ vec3 encoded(vec3 light) {
 }
 
 GLuint compiled(GLenum stage, const std::string& text) {
-    const std::string version = epoxy_is_desktop_gl()
+    const std::string version = is_desktop()
                                     ? "#version 330 core\n"
                                     : "#version 300 es\nprecision highp float;\nprecision highp sampler2D;\n";
     const std::string whole = version + text;

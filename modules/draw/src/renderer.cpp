@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_data.hpp"
 #include "program.hpp"
+#include "stopwatch.hpp"
 
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/draw/renderer.hpp>
@@ -14,49 +15,11 @@ namespace goffer::draw {
 namespace {
 
 void check_context() {
-    const int version = epoxy_gl_version(), least = epoxy_is_desktop_gl() ? 33 : 30;
-    if (version < least)
-        throw Error("OpenGL 3.3 or ES 3.0 is needed, and this is " + std::to_string(version / 10) + "." +
-                    std::to_string(version % 10) + "; try a newer driver, or Mesa's in software");
+    const int found = version(), least = is_desktop() ? 33 : 30;
+    if (found < least)
+        throw Error("OpenGL 3.3 or ES 3.0 is needed, and this is " + std::to_string(found / 10) + "." +
+                    std::to_string(found % 10) + "; try a newer driver, or Mesa's in software");
 }
-
-/// How long pictures take, asked for when the answers have come. Only desktops' OpenGL says so, and that of
-/// software renderers tells the time to take in the commands, which is not asked for.
-class Stopwatch {
-public:
-    Stopwatch() {
-        const std::string device(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-        const bool software =
-            device.find("llvmpipe") != device.npos || device.find("softpipe") != device.npos;
-        if (!epoxy_is_desktop_gl() || software) return;
-        for (Query& query : queries_) query = made<Query>(glGenQueries);
-        runs_ = true;
-    }
-    void start() {
-        if (!runs_) return;
-        if (started_) stop();  // a picture that did not come to its end
-        if (next_ >= queries_.size()) {
-            GLuint64 nanoseconds = 0;
-            glGetQueryObjectui64v(queries_[next_ % queries_.size()], GL_QUERY_RESULT, &nanoseconds);
-            milliseconds_ = 1e-6 * static_cast<double>(nanoseconds);
-        }
-        glBeginQuery(GL_TIME_ELAPSED, queries_[next_ % queries_.size()]);
-        started_ = true;
-    }
-    void stop() {
-        if (!runs_) return;
-        glEndQuery(GL_TIME_ELAPSED);
-        started_ = false;
-        ++next_;
-    }
-    [[nodiscard]] std::optional<double> milliseconds() const { return milliseconds_; }
-
-private:
-    std::array<Query, 3> queries_;
-    std::size_t next_ = 0;
-    bool runs_ = false, started_ = false;
-    std::optional<double> milliseconds_;
-};
 
 }  // namespace
 
@@ -119,7 +82,7 @@ void Renderer::begin(const OrbitCamera& camera, const Viewport& viewport) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    if (epoxy_is_desktop_gl()) glEnable(GL_PROGRAM_POINT_SIZE);
+    let_shaders_size_points();
 }
 
 void Renderer::Data::draw_instances(const Program& program, const Mesh::Data& mesh, const Look& look,

@@ -9,6 +9,7 @@
 #include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "threads.hpp"
 
 #include <goffer/io/atomic_file.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "viewer/controls.hpp"
-#include "viewer/stage.hpp"
+#include "stage/controls.hpp"
+#include "stage/stage.hpp"
 
 #include <optional>
 #include <string>

@@ -20,10 +20,6 @@
 
 namespace goffer::cli {
 
-std::string ending_of(const BoundModel& model) {
-    return mesh::can_save(model.file) ? model.file.extension().string() : ".glb";
-}
-
 std::filesystem::path Saver::name_for(const BoundModel& model, const std::string& tag,
                                       const std::string& ending) const {
     const std::string stem = model.file.stem().string() + tag;
@@ -43,10 +39,7 @@ std::filesystem::path Saver::name_for(const BoundModel& model, const std::string
 
 std::filesystem::path Saver::save_model(const BoundModel& model, std::span<const bend::Pose> poses) {
     std::filesystem::path file = name_for(model, "-bent", ending_of(model));
-    mesh::VertexArrays records;
-    bend::run_parallel(job_into(records, model, poses));
-    put_in_model_order(records, model.binding);
-    mesh::save(mesh::with_vertex_arrays(model.mesh, records), file);
+    mesh::save(bent_mesh(model, poses), file);
     own_[file] = model.file;
     return file;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "viewer/loader.hpp"
+#include "stage/load.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -13,9 +13,6 @@
 /// What the viewer saves, into the folder that it was called from.
 
 namespace goffer::cli {
-
-/// The ending that a bent model gets: its own, or .glb where save() does not know it.
-[[nodiscard]] std::string ending_of(const BoundModel& model);
 
 /// Names files after a model, and none that somebody else's file has.
 class Saver {

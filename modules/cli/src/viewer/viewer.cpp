@@ -19,7 +19,6 @@ namespace {
 
 constexpr float panel_units = 330;  // wide
 constexpr float end_pixels = 14;    // of the discs that ends are dragged by
-constexpr glm::vec3 end_color{0.95f, 0.35f, 0.02f}, chosen_color{0.9f, 0.05f, 0.02f};
 constexpr double longest_wait = 1;  // seconds
 constexpr int settling = 3;         // frames until the panel stands still
 
@@ -122,11 +121,8 @@ void Viewer::draw_picture() {
             return saver_.save_picture(stage_->model(), {part.x, part.y}, {part.width, part.height});
         });
     }
-    std::vector<draw::Mark> ends;
-    const std::span<const glm::mat4x3> frames = stage_->frames();
-    for (std::size_t i = 1; i < frames.size(); ++i)
-        ends.push_back({frames[i][3], i - 1 == region_ && frames.size() > 2 ? chosen_color : end_color});
-    renderer_.draw_points(ends, end_pixels * window_.scale() * window_.pixel_ratio());
+    renderer_.draw_points(end_marks(stage_->frames(), region_),
+                          end_pixels * window_.scale() * window_.pixel_ratio());
     renderer_.end();
     told_.draw = renderer_.draw_milliseconds();
 }
@@ -134,13 +130,9 @@ void Viewer::draw_picture() {
 /// Puts models on stage, and has the controls be about them.
 void Viewer::set_stage(std::unique_ptr<Loaded> loaded) {
     stage_ = std::make_unique<Stage>(std::move(loaded));
-    const Loaded& shown = stage_->loaded();
-    const std::size_t regions = stage_->model().binding.body.region_count();
-    if (shown.wish.new_pose || regions != controls_.regions.size()) controls_.set_poses(shown);
-    if (!shown.words.folds || shown.words.folds->find(',') == std::string::npos) controls_.folds_list.clear();
-    region_ = std::min(region_, regions - 1);
+    controls_.take(stage_->loaded());
+    region_ = std::min(region_, controls_.regions.size() - 1);
     dragged_.reset();
-    for (std::size_t r = 0; r < regions; ++r) turn_region(r, 0, 0);  // as far as it can now
     set_instances();
     stage_->pose(poses(), motion_);
 }
@@ -209,11 +201,7 @@ void Viewer::open(const std::vector<std::filesystem::path>& files) {
 }
 
 void Viewer::turn_region(std::size_t region, float angle, float direction) {
-    Bend& bend = controls_.regions[region];
-    const auto limit =
-        static_cast<float>(degrees(static_cast<double>(stage_->model().binding.body.max_angle(region))));
-    bend.angle = std::clamp(bend.angle + angle, -limit, limit);
-    bend.direction = std::remainder(bend.direction + direction, 360.0f);
+    controls_.turn(region, {angle, direction}, stage_->model().binding.body.max_angle(region));
 }
 
 void Viewer::take_keys() {
@@ -322,13 +310,8 @@ void Viewer::say(const std::string& message, bool failed) {
 }
 
 std::vector<bend::Pose> Viewer::poses() const {
-    std::vector<bend::Pose> poses = poses_of(controls_);
-    if (!stage_->is_crowd() && moves()) {
-        const double swing =
-            0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(motion_) / frames_per_swing);
-        for (bend::Pose& pose : poses) pose.angle *= static_cast<float>(swing);
-    }
-    return poses;
+    const bool swings = !stage_->is_crowd() && moves();
+    return swings ? swung(poses_of(controls_), motion_) : poses_of(controls_);
 }
 
 float Viewer::panel_width() const {
@@ -341,36 +324,23 @@ draw::Viewport Viewer::viewport() const {
     return {panel, 0, std::max(pixels.x - panel, 1), std::max(pixels.y, 1)};
 }
 
-glm::vec2 Viewer::mouse_place() const {
+Pointer Viewer::mouse() const {
     const ImGuiIO& io = ImGui::GetIO();
     const float width = std::max(window_.size().x - panel_width(), 1.0f), height = window_.size().y;
-    return {2 * (io.MousePos.x - panel_width()) / width - 1, 1 - 2 * io.MousePos.y / height};
+    return {{2 * (io.MousePos.x - panel_width()) / width - 1, 1 - 2 * io.MousePos.y / height},
+            viewport().aspect()};
 }
 
 std::optional<std::size_t> Viewer::end_under_mouse() const {
-    const std::span<const glm::mat4x3> frames = stage_->frames();
-    const float aspect = viewport().aspect();
-    const float reach = 1.5f * end_pixels * window_.scale() / window_.size().y;
-    for (std::size_t i = frames.size(); i-- > 1;) {
-        if (glm::dot(frames[i][3] - camera_.eye(), camera_.forward()) <= 0) continue;  // behind the eye
-        const glm::vec2 away = camera_.place(frames[i][3], aspect) - mouse_place();
-        if (glm::length(away * glm::vec2(aspect, 1)) < reach) return i - 1;
-    }
-    return std::nullopt;
+    return end_at(stage_->frames(), camera_, mouse(), 1.5f * end_pixels * window_.scale() / window_.size().y);
 }
 
-/// Bends the region so that its end follows the mouse, in the plane through it that faces the eye.
+/// Bends the region so that its end follows the mouse.
 void Viewer::drag_end() {
-    const std::span<const glm::mat4x3> frames = stage_->frames();
-    if (*dragged_ + 1 >= frames.size()) return;
-    const draw::Ray ray = camera_.ray(mouse_place(), viewport().aspect());
-    const glm::vec3 forward = camera_.forward();
-    const float depth = glm::dot(frames[*dragged_ + 1][3] - ray.origin, forward);
-    const glm::vec3 target = ray.origin + ray.direction * (depth / glm::dot(ray.direction, forward));
-    const bend::Pose pose = pose_toward(frames[*dragged_], target);
+    if (*dragged_ + 1 >= stage_->frames().size()) return;
     region_ = *dragged_;
-    controls_.regions[region_] = {0, static_cast<float>(degrees(static_cast<double>(pose.direction)))};
-    turn_region(region_, static_cast<float>(degrees(static_cast<double>(pose.angle))), 0);
+    controls_.regions[region_] = bend_of(dragged_pose(stage_->frames(), region_, camera_, mouse()));
+    turn_region(region_, 0, 0);
 }
 
 void Viewer::take_mouse() {

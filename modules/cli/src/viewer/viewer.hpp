@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "viewer/controls.hpp"
+#include "stage/controls.hpp"
+#include "stage/dragging.hpp"
+#include "stage/stage.hpp"
 #include "viewer/loader.hpp"
 #include "viewer/panel.hpp"
 #include "viewer/saving.hpp"
-#include "viewer/stage.hpp"
 #include "viewer/window.hpp"
 
 #include <goffer/draw/orbit_camera.hpp>
@@ -78,8 +79,7 @@ private:
     [[nodiscard]] std::vector<bend::Pose> poses() const;
     [[nodiscard]] draw::Viewport viewport() const;
     [[nodiscard]] float panel_width() const;
-    /// Where the mouse is in the picture, -1 to 1 from edge to edge.
-    [[nodiscard]] glm::vec2 mouse_place() const;
+    [[nodiscard]] Pointer mouse() const;
     /// The region whose end is under the mouse.
     [[nodiscard]] std::optional<std::size_t> end_under_mouse() const;
 

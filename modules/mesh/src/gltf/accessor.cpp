@@ -88,7 +88,8 @@ Run run_of(const Document& document, const Value& owner, std::uint64_t component
                    std::to_string(bytes.size()) + " bytes of bufferViews[" +
                    std::to_string(owner["bufferView"].whole()) + "]; export the file again");
     }
-    return {bytes.data() + std::min<std::uint64_t>(offset, bytes.size()), stride, component, false};
+    return {bytes.data() + std::min<std::uint64_t>(offset, bytes.size()), static_cast<std::size_t>(stride),
+            component, false};
 }
 
 template <class T>

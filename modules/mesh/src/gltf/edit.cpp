@@ -98,8 +98,9 @@ std::vector<Kept> kept_ranges(const Document& document, const std::map<std::size
     for (std::size_t i = 0; i < document.count("bufferViews"); ++i) {
         if (replaced.contains(i)) continue;
         const Value view = document.root()["bufferViews"][i];
-        const std::size_t begin = view.whole_or("byteOffset", 0);
-        all.push_back({view["buffer"].whole(), begin, begin + view["byteLength"].whole()});
+        const auto begin = static_cast<std::size_t>(view.whole_or("byteOffset", 0)),
+                   length = static_cast<std::size_t>(view["byteLength"].whole());
+        all.push_back({static_cast<std::size_t>(view["buffer"].whole()), begin, begin + length});
     }
     std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) {
         return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);

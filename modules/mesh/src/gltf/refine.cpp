@@ -159,7 +159,8 @@ std::size_t SceneRefiner::refined(const BlockCut& cut, const Value& reference, K
         put_between(&values[width * a], &values[width * b], t, kind, width, out);
         out += width;
     }
-    return edit_.replace({reference.whole(), float_fields(values, width, bounds), bytes_of(values)});
+    return edit_.replace(
+        {static_cast<std::size_t>(reference.whole()), float_fields(values, width, bounds), bytes_of(values)});
 }
 
 void SceneRefiner::refine_attributes(const BlockCut& cut, const Value& was, Json& primitive) {
@@ -216,10 +217,10 @@ void SceneRefiner::put_skin(const std::vector<Influences>& all, std::size_t set,
                        std::ranges::all_of(who, [](auto joint) { return joint <= 255; });
     Json fields = {{"componentType", bytes ? u8_type : u16_type}, {"count", all.size()}};
     primitive["attributes"][joints_name(set)] =
-        edit_.replace({joints.whole(), std::move(fields),
+        edit_.replace({static_cast<std::size_t>(joints.whole()), std::move(fields),
                        bytes ? bytes_of(std::vector<std::uint8_t>(who.begin(), who.end())) : bytes_of(who)});
-    primitive["attributes"][weights_name(set)] =
-        edit_.replace({weights.whole(), float_fields(much, 4, false), bytes_of(much)});
+    primitive["attributes"][weights_name(set)] = edit_.replace(
+        {static_cast<std::size_t>(weights.whole()), float_fields(much, 4, false), bytes_of(much)});
 }
 
 void SceneRefiner::refine_indices(std::size_t block, const Part& part, const Value& was, Json& primitive) {

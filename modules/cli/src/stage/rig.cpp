@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/rig.hpp"
+#include "stage/rig.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/bind.hpp>
@@ -106,13 +106,6 @@ std::vector<draw::Mark> Rig::lines() const {
         for (std::size_t row = 0; row + 1 < rows_; ++row) line(at(row, c), at(row + 1, c));
     }
     return lines;
-}
-
-bend::Pose pose_toward(const glm::mat4x3& frame, const glm::vec3& target) {
-    const glm::vec3 away = glm::transpose(glm::mat3(frame[0], frame[1], frame[2])) * (target - frame[3]);
-    const float across = std::hypot(away.x, away.y);
-    if (!(across > 0)) return {};
-    return {2 * std::atan2(across, away.z), std::atan2(away.y, away.x)};
 }
 
 }  // namespace goffer::cli

@@ -43,8 +43,4 @@ private:
     std::vector<glm::mat4x3> frames_;
 };
 
-/// The pose that brings the end of a region, which begins in `frame`, to `target`, or as near as an arc of
-/// its length comes: an arc's chord leaves its beginning at half its angle.
-[[nodiscard]] bend::Pose pose_toward(const glm::mat4x3& frame, const glm::vec3& target);
-
 }  // namespace goffer::cli

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "viewer/loader.hpp"
-#include "viewer/stage.hpp"
+#include "stage/load.hpp"
+#include "stage/stage.hpp"
 
 #include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
-/// What is chosen in the viewer's panel: plain values, and the words of the command line that they stand for.
+/// What is chosen in the viewer's panel, or in the page of samples/web: plain values, and the words of the
+/// command line that they stand for.
 
 namespace goffer::cli {
 
@@ -37,6 +38,10 @@ struct Controls {
     void set_words(const BindWords& words);
     /// Takes over the targets of what was loaded, as far as its body bends. Leaves region_count alone.
     void set_poses(const Loaded& loaded);
+    /// Has them be about what was loaded: a new pose where that is wanted, else the same as far as it goes.
+    void take(const Loaded& loaded);
+    /// Turns a region on by so much, at most to `limit`, its body's largest angle in radians.
+    void turn(std::size_t region, const Bend& by, float limit);
 };
 
 /// `wish`, which is that of the models on stage, with the words that these controls stand for. If there are
@@ -44,8 +49,12 @@ struct Controls {
 /// these do.
 [[nodiscard]] Wish wish_of(const Controls& controls, Wish wish);
 
-/// Poses of the regions, in radians.
+/// Poses of the regions, in radians; and back.
 [[nodiscard]] std::vector<bend::Pose> poses_of(const Controls& controls);
+[[nodiscard]] Bend bend_of(const bend::Pose& pose);
+
+/// Poses on the way from straight to these and back, once in frames_per_swing.
+[[nodiscard]] std::vector<bend::Pose> swung(std::vector<bend::Pose> poses, std::size_t frame);
 
 /// The command that bends the model like this, or shows the crowd, to be typed in a shell. Throws InputError
 /// for the base model, which has no file.

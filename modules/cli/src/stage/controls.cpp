@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/controls.hpp"
+#include "stage/controls.hpp"
 
-#include "viewer/saving.hpp"
+#include "deformed.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -101,6 +102,20 @@ void Controls::set_poses(const Loaded& loaded) {
     }
 }
 
+void Controls::take(const Loaded& loaded) {
+    const bend::Body& body = loaded.models[0].binding.body;
+    if (loaded.wish.new_pose || body.region_count() != regions.size()) set_poses(loaded);
+    if (!loaded.words.folds || loaded.words.folds->find(',') == std::string::npos) folds_list.clear();
+    for (std::size_t r = 0; r < regions.size(); ++r) turn(r, {}, body.max_angle(r));
+}
+
+void Controls::turn(std::size_t region, const Bend& by, float limit) {
+    Bend& bend = regions[region];
+    const auto farthest = static_cast<float>(degrees(static_cast<double>(limit)));
+    bend.angle = std::clamp(bend.angle + by.angle, -farthest, farthest);
+    bend.direction = std::remainder(bend.direction + by.direction, 360.0f);
+}
+
 Wish wish_of(const Controls& controls, Wish wish) {
     BindWords& words = wish.bind;
     words.paper = false;
@@ -142,6 +157,18 @@ std::vector<bend::Pose> poses_of(const Controls& controls) {
     for (const Bend& bend : controls.regions)
         poses.push_back({static_cast<float>(radians(static_cast<double>(bend.angle))),
                          static_cast<float>(radians(static_cast<double>(bend.direction)))});
+    return poses;
+}
+
+Bend bend_of(const bend::Pose& pose) {
+    return {static_cast<float>(degrees(static_cast<double>(pose.angle))),
+            static_cast<float>(degrees(static_cast<double>(pose.direction)))};
+}
+
+std::vector<bend::Pose> swung(std::vector<bend::Pose> poses, std::size_t frame) {
+    const double swing =
+        0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(frame) / frames_per_swing);
+    for (bend::Pose& pose : poses) pose.angle *= static_cast<float>(swing);
     return poses;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "crowd/crowd.hpp"
-#include "viewer/loader.hpp"
-#include "viewer/rig.hpp"
+#include "stage/load.hpp"
+#include "stage/rig.hpp"
 
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/draw/mesh.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/stage.hpp"
+#include "stage/stage.hpp"
 
 #include "deformed.hpp"
 #include "local_area.hpp"
-#include "picture.hpp"
+#include "looks.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/measure/timer.hpp>
@@ -25,13 +25,9 @@ constexpr int wall_clock = 2;  // threads, for which measure::now() reads the cl
 
 /// Parts in the colors that pictures have.
 std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
-    view::Model all;
-    all.triangles = model.rest.triangles;
     std::vector<draw::Part> parts;
-    for (const view::Model& part : part_models(model.mesh, all, plain_color(index))) {
-        const auto first = static_cast<std::uint32_t>(part.triangles.data() - all.triangles.data());
-        parts.push_back({first / 3, static_cast<std::uint32_t>(part.triangles.size() / 3), part.color});
-    }
+    for (const PartLook& part : looks_of(model.mesh, plain_color(index)))
+        parts.push_back({part.triangles.first, part.triangles.count, part.color});
     return parts;
 }
 
@@ -221,9 +217,9 @@ void Stage::show_all(draw::OrbitCamera& camera, float aspect) const {
     }
     glm::vec3 toward(0.12f, 1.0f, -0.85f), up(0, 0, 1);
     if (!crowd_) {
-        const view::Camera eye = camera_for(model().binding.body, loaded_->targets[0].pose, {});
-        toward = eye.toward;
-        up = eye.up;
+        const Sight sight = sight_of(model().binding.body, loaded_->targets[0].pose, {});
+        toward = sight.toward;
+        up = sight.up;
         for (const glm::vec3& position : model().rest.positions) all = united(all, {position, position});
     }
     camera = draw::OrbitCamera(toward, up);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model.hpp"
+
+#include <goffer/bend/body.hpp>
+#include <goffer/bend/pose.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+/// How models look, and where they are looked at from, in pictures, in the window and in the page.
+
+namespace goffer::cli {
+
+/// Where a bent model is looked at from. At 0, 0 the eye looks across the plane that it bends in, and it lies
+/// from left to right, its squeezed side up. Degrees.
+struct Viewpoint {
+    double azimuth = 0;     ///< turns the eye about the picture's vertical, toward the tip's side
+    double elevation = 35;  ///< raises it, up to 90, where it looks at the squeezed side
+};
+
+/// Which way the eye looks, and what is up in the picture; model space.
+struct Sight {
+    glm::vec3 toward, up;
+};
+
+/// The sight from there of a body in this pose.
+[[nodiscard]] Sight sight_of(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from);
+
+/// The color of parts that have none of their own, of one model of several.
+[[nodiscard]] glm::vec4 plain_color(std::size_t model);
+
+/// The colors of vertices as pictures show them, linear RGBA, in place of materials' and in the order of
+/// `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB, which `file` tells. Empty where
+/// there are none, or all are white.
+[[nodiscard]] std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
+                                                   const mesh::VertexArrays& rest);
+
+/// A part of a mesh and its color, linear RGBA.
+struct PartLook {
+    TriangleRange triangles;
+    glm::vec4 color;
+};
+
+/// The parts of `mesh` that have triangles, in order, with their materials' colors; those without one are
+/// `plain`.
+[[nodiscard]] std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const glm::vec4& plain);
+
+}  // namespace goffer::cli

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
