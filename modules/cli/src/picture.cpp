@@ -19,10 +19,12 @@
 namespace goffer::cli {
 namespace {
 
+constexpr float brightest = 0.75f;
+
 /// Neither so bright nor so dark that its wrinkles do not show.
 glm::vec4 dimmed(const glm::vec4& color) {
     const float high = std::max({color.r, color.g, color.b, 1e-3f});
-    return {glm::max(glm::vec3(color) * std::min(1.0f, 0.75f / high), glm::vec3(0.06f)), 1.0f};
+    return {glm::max(glm::vec3(color) * std::min(1.0f, brightest / high), glm::vec3(0.06f)), 1.0f};
 }
 
 /// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
@@ -130,32 +132,37 @@ std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const me
 }
 
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
-                                     const glm::vec4& plain) {
+                                     const Textures& textures, const glm::vec4& plain) {
     const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
     std::vector<view::Model> models;
     for (std::size_t p = 0; p < triangles.size(); ++p) {
         const auto [first, count] = triangles[p];
         if (count == 0) continue;
-        view::Model model = vertices;
+        view::Model& model = models.emplace_back(vertices);
         model.triangles = vertices.triangles.subspan(3 * std::size_t{first}, 3 * std::size_t{count});
-        const std::int32_t material = mesh.parts[p].material;
-        model.color = material < 0
-                          ? plain
-                          : readable(mesh.materials[static_cast<std::size_t>(material)].base_color, plain);
-        models.push_back(model);
+        model.color = vertices.colors.empty() ? plain : glm::vec4(1);
+        if (mesh.parts[p].material < 0) continue;
+        const auto number = static_cast<std::size_t>(mesh.parts[p].material);
+        const mesh::Material& material = mesh.materials[number];
+        if (number < textures.of_material.size() && textures.of_material[number].image) {
+            model.texture = textures.of_material[number];
+            model.uvs = std::span(textures.uvs).subspan(3 * std::size_t{first}, 3 * std::size_t{count});
+            const float bright = vertices.colors.empty() ? brightest : 1;  // vertices' are dimmed already
+            model.color = glm::vec4(bright * glm::vec3(material.texture->factor), 1);
+        } else if (vertices.colors.empty()) {
+            model.color = readable(material.base_color, plain);
+        }
     }
     return models;
 }
 
 void write_picture(const BentModel& model, const PictureStyle& style, const std::filesystem::path& file,
                    io::AtomicFiles& outputs) {
-    const view::Model bent{
-        .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
-    std::vector<view::Model> models = part_models(model.mesh, bent, bent.color);
-    for (view::Model& part : models) {
-        part.colors = model.colors;
-        if (!model.colors.empty()) part.color = glm::vec4(1);
-    }
+    const view::Model bent{.positions = model.bent_positions,
+                           .triangles = model.rest.triangles,
+                           .normals = model.bent_normals,
+                           .colors = model.colors};
+    std::vector<view::Model> models = part_models(model.mesh, bent, model.textures, bent.color);
     if (style.ghost) {
         view::Model rest;
         rest.positions = model.rest.positions;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "textures.hpp"
+
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/pose.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -58,23 +60,25 @@ struct BentModel {
     std::span<const glm::vec3> bent_positions;
     std::span<const glm::vec3> bent_normals;
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
+    const Textures& textures;           ///< of the mesh, or none; with colors, these are multiplied
     bend::Pose pose;
 };
 
 /// The color of parts that have none of their own, of one model of several.
 [[nodiscard]] glm::vec4 plain_color(std::size_t model);
 
-/// The colors of vertices as pictures show them, linear RGBA, in place of materials' and in the order of
-/// `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB, which `file` tells. Empty where
-/// there are none, or all are white.
+/// The colors of vertices as pictures show them, linear RGBA, in place of materials' (a texture is multiplied
+/// by them) and in the order of `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB,
+/// which `file` tells. Empty where there are none, or all are white.
 [[nodiscard]] std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
                                                    const mesh::VertexArrays& rest);
 
-/// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
-/// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts
-/// them, in their order. The models refer to the same memory.
+/// One model per part of `mesh`, since each part has its material's color or texture; parts without either
+/// are `plain`. `vertices` has the positions and normals, and the colors if there are any; its triangles are
+/// those of all faces, as mesh::triangles() cuts them, in their order. `textures` are those of `mesh`, or
+/// none. The models refer to the same memory, and to that of `textures`.
 [[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
-                                                   const glm::vec4& plain);
+                                                   const Textures& textures, const glm::vec4& plain);
 
 /// How to draw it.
 struct PictureStyle {

@@ -103,8 +103,8 @@ std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> 
 }  // namespace
 
 std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
-                                const view::Settings& settings, const std::filesystem::path& file,
-                                io::AtomicFiles& outputs) {
+                                std::span<const Textures> textures, const view::Settings& settings,
+                                const std::filesystem::path& file, io::AtomicFiles& outputs) {
     const std::vector<std::size_t> chosen = choose(crowd, models);
     std::vector<std::vector<glm::vec4>> colors;
     for (const BoundModel& model : models)
@@ -122,8 +122,8 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
                               .triangles = model.rest.triangles,
                               .normals = own.normals,
                               .colors = colors[crowd.model(i)]};
-        for (view::Model& part : part_models(model.mesh, all, plain)) {
-            part.color = tinted(all.colors.empty() ? part.color : glm::vec4(1), i);
+        for (view::Model& part : part_models(model.mesh, all, textures[crowd.model(i)], plain)) {
+            part.color = tinted(part.color, i);
             parts.push_back(part);
         }
     }

@@ -23,16 +23,49 @@ namespace {
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
 constexpr int wall_clock = 2;  // threads, for which measure::now() reads the clock on the wall
 
-/// Parts in the colors that pictures have.
-std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
+draw::Wrap drawn(view::Wrap wrap) {
+    switch (wrap) {
+        case view::Wrap::clamp:
+            return draw::Wrap::clamp;
+        case view::Wrap::mirror:
+            return draw::Wrap::mirror;
+        case view::Wrap::repeat:
+            break;
+    }
+    return draw::Wrap::repeat;
+}
+
+draw::Texture drawn(const view::Texture& texture) {
+    const view::Image& image = texture.image->levels()[0];
+    return {image.width,           image.height,          image.rgba,
+            drawn(texture.wrap_u), drawn(texture.wrap_v), texture.nearest};
+}
+
+/// Parts in the colors and with the textures that pictures have, and these textures.
+struct Parts {
+    std::vector<draw::Part> parts;
+    std::vector<draw::Texture> textures;
+};
+
+Parts parts_of(const BoundModel& model, const Textures& textures, std::size_t index) {
     view::Model all;
     all.triangles = model.rest.triangles;
-    std::vector<draw::Part> parts;
-    for (const view::Model& part : part_models(model.mesh, all, plain_color(index))) {
+    Parts out;
+    for (const view::Model& part : part_models(model.mesh, all, textures, plain_color(index))) {
         const auto first = static_cast<std::uint32_t>(part.triangles.data() - all.triangles.data());
-        parts.push_back({first / 3, static_cast<std::uint32_t>(part.triangles.size() / 3), part.color});
+        out.parts.push_back(
+            {first / 3, static_cast<std::uint32_t>(part.triangles.size() / 3), glm::vec3(part.color)});
+        if (!part.texture.image) continue;
+        const draw::Texture texture = drawn(part.texture);
+        const auto same = [&](const draw::Texture& other) {
+            return other.rgba.data() == texture.rgba.data() && other.wrap_u == texture.wrap_u &&
+                   other.wrap_v == texture.wrap_v && other.nearest == texture.nearest;
+        };
+        const auto known = std::ranges::find_if(out.textures, same);
+        out.parts.back().texture = static_cast<std::size_t>(known - out.textures.begin());
+        if (known == out.textures.end()) out.textures.push_back(texture);
     }
-    return parts;
+    return out;
 }
 
 /// Colors in the model's order, put into the body's.
@@ -47,11 +80,14 @@ std::vector<glm::vec3> own_colors(const BoundModel& model) {
     return in_body_order(vertex_colors(model.file, model.mesh, model.rest), model.binding);
 }
 
-draw::Mesh drawn_mesh(const BoundModel& model, std::size_t index) {
+draw::Mesh drawn_mesh(const BoundModel& model, const Textures& textures, std::size_t index) {
     const std::vector<std::uint32_t> places = places_of(model.binding);
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
-    draw::Mesh mesh(model.binding.body, triangles, parts_of(model, index));
+    const Parts parts = parts_of(model, textures, index);
+    const draw::Skin skin{parts.textures,
+                          parts.textures.empty() ? std::span<const glm::vec2>() : textures.uvs};
+    draw::Mesh mesh(model.binding.body, triangles, parts.parts, skin);
     mesh.set_colors(own_colors(model));
     return mesh;
 }
@@ -88,7 +124,8 @@ double timed(const Work& work) {
 Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
     const BoundModel& first = model();
     for (std::size_t i = 0; i < loaded_->models.size(); ++i)
-        meshes_.push_back(drawn_mesh(loaded_->models[i], i));
+        meshes_.push_back(drawn_mesh(loaded_->models[i], loaded_->textures[i], i));
+    loaded_->textures.clear();  // they are where they are drawn from
     rig_ = Rig::make(first);
     poses_ = first.binding.body.rest_poses();
     vertices_.resize(first.binding.body.vertex_count());
@@ -178,7 +215,7 @@ void Stage::mark_normals() {
 }
 
 void Stage::draw(draw::Renderer& renderer, const Show& show) {
-    draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr};
+    draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr, .textured = !area_shown_};
     for (std::size_t i = 0; i < batches().size(); ++i) {
         renderer.draw(meshes_[i], look);
         look.first_instance += batches()[i].count;
@@ -201,7 +238,7 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
     }
     if (!show.rest) return;
     if (!rest_) {
-        rest_.emplace(drawn_mesh(model(), 0));
+        rest_.emplace(drawn_mesh(model(), {}, 0));
         rest_->set_vertices(rest_vertices(model()));
     }
     renderer.draw(*rest_, {.opacity = 0.25f});
