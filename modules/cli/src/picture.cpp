@@ -148,7 +148,7 @@ std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& 
             model.texture = textures.of_material[number];
             model.uvs = std::span(textures.uvs).subspan(3 * std::size_t{first}, 3 * std::size_t{count});
             const float bright = vertices.colors.empty() ? brightest : 1;  // vertices' are dimmed already
-            model.color = glm::vec4(bright * glm::vec3(material.texture->factor), 1);
+            model.color = glm::vec4(bright * glm::clamp(glm::vec3(material.texture->factor), 0.0f, 1.0f), 1);
         } else if (vertices.colors.empty()) {
             model.color = readable(material.base_color, plain);
         }

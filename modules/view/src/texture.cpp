@@ -109,6 +109,7 @@ float brought_near(float value, Wrap wrap) {
 
 /// The pixel, of `count`, that stands in the place of one up to two images away.
 int wrapped(int index, int count, Wrap wrap) {
+    if (index >= 0 && index < count) return index;
     if (wrap == Wrap::clamp) return std::clamp(index, 0, count - 1);
     const int period = wrap == Wrap::mirror ? 2 * count : count;
     const int within = ((index % period) + period) % period;
@@ -118,20 +119,25 @@ int wrapped(int index, int count, Wrap wrap) {
 /// Blends the four pixels about a place, or takes the one there.
 glm::vec3 sample(const Image& image, const Texture& texture, const glm::vec2& uv, bool nearest) {
     // Rows count from the top, and v from the bottom.
-    const float x = brought_near(uv.x, texture.wrap_u) * static_cast<float>(image.width),
-                y = static_cast<float>(image.height) * (1 - brought_near(uv.y, texture.wrap_v));
-    const auto color = [&](int column, int row) {
-        const std::uint8_t* in = texel(image, wrapped(column, image.width, texture.wrap_u),
-                                       wrapped(row, image.height, texture.wrap_v));
+    const glm::vec2 place(brought_near(uv.x, texture.wrap_u) * static_cast<float>(image.width),
+                          (1 - brought_near(uv.y, texture.wrap_v)) * static_cast<float>(image.height));
+    const glm::vec2 first = glm::floor(nearest ? place : place - 0.5f), share = place - 0.5f - first;
+    const auto column = [&](int further) {
+        return wrapped(static_cast<int>(first.x) + further, image.width, texture.wrap_u);
+    };
+    const auto row = [&](int further) {
+        return wrapped(static_cast<int>(first.y) + further, image.height, texture.wrap_v);
+    };
+    const auto color = [&](int x, int y) {
+        const std::uint8_t* in = texel(image, x, y);
         const MipMap& mip_map = *texture.image;
         return glm::vec3(mip_map.linear(in[0]), mip_map.linear(in[1]), mip_map.linear(in[2]));
     };
-    if (nearest) return color(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
-    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
-    const int column = static_cast<int>(left), row = static_cast<int>(top);
-    const float right_share = x - 0.5f - left, bottom_share = y - 0.5f - top;
-    return glm::mix(glm::mix(color(column, row), color(column + 1, row), right_share),
-                    glm::mix(color(column, row + 1), color(column + 1, row + 1), right_share), bottom_share);
+    const int left = column(0), top = row(0);
+    if (nearest) return color(left, top);
+    const int right = column(1), bottom = row(1);
+    return glm::mix(glm::mix(color(left, top), color(right, top), share.x),
+                    glm::mix(color(left, bottom), color(right, bottom), share.x), share.y);
 }
 
 /// The mean over a square of 2^level pixels.

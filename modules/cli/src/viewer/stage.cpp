@@ -47,9 +47,12 @@ struct Parts {
     std::vector<draw::Texture> textures;
 };
 
-Parts parts_of(const BoundModel& model, const Textures& textures, std::size_t index) {
+/// `colors`: those of the vertices, if there are any.
+Parts parts_of(const BoundModel& model, const Textures& textures, std::span<const glm::vec4> colors,
+               std::size_t index) {
     view::Model all;
     all.triangles = model.rest.triangles;
+    all.colors = colors;
     Parts out;
     for (const view::Model& part : part_models(model.mesh, all, textures, plain_color(index))) {
         const auto first = static_cast<std::uint32_t>(part.triangles.data() - all.triangles.data());
@@ -84,11 +87,12 @@ draw::Mesh drawn_mesh(const BoundModel& model, const Textures& textures, std::si
     const std::vector<std::uint32_t> places = places_of(model.binding);
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
-    const Parts parts = parts_of(model, textures, index);
+    const std::vector<glm::vec4> colors = vertex_colors(model.file, model.mesh, model.rest);
+    const Parts parts = parts_of(model, textures, colors, index);
     const draw::Skin skin{parts.textures,
                           parts.textures.empty() ? std::span<const glm::vec2>() : textures.uvs};
     draw::Mesh mesh(model.binding.body, triangles, parts.parts, skin);
-    mesh.set_colors(own_colors(model));
+    mesh.set_colors(in_body_order(colors, model.binding));
     return mesh;
 }
 
