@@ -16,7 +16,7 @@ set(CPACK_COMPONENTS_ALL dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgoffer-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS libglm-dev)
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtinyobjloader-dev, libembree-dev, libpng-dev")  # of the components
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtinyobjloader-dev, libembree-dev, libpng-dev, libjpeg-dev")  # of the components
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Soft-body crowd deformer: headers and libraries for C++ and C")
 if(GOFFER_TBB)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libtbb-dev")

@@ -108,12 +108,18 @@ struct Crowd {
         bend::set_up(batch, coefficients);
     }
 
-    [[nodiscard]] draw::Mesh mesh() const {
+    /// Its triangles, as vertices of the body.
+    [[nodiscard]] std::vector<std::uint32_t> triangles_of_body() const {
         std::vector<std::uint32_t> triangles = bound.test_mesh.triangles;
         const std::vector<std::uint32_t>& order = bound.binding.order;
         std::vector<std::uint32_t> place(bound.binding.body.vertex_count());
         for (std::uint32_t i = 0; i < place.size(); ++i) place[order.empty() ? i : order[i]] = i;
         for (std::uint32_t& vertex : triangles) vertex = place[vertex];
+        return triangles;
+    }
+
+    [[nodiscard]] draw::Mesh mesh() const {
+        const std::vector<std::uint32_t> triangles = triangles_of_body();
         const auto count = static_cast<std::uint32_t>(triangles.size() / 3), half = count / 2;
         const std::array parts{draw::Part{0, half}, draw::Part{half, count - half, {0.1f, 0.3f, 0.6f}}};
         return {bound.binding.body, triangles, parts};
@@ -209,6 +215,68 @@ TEST_CASE("pictures: edges, colors, tints and opacity show, and go again") {
         mesh.set_colors({});
         CHECK(picture(renderer, camera, &mesh) == plain);
     });
+}
+
+namespace {
+
+/// A mesh with a texture in which every triangle has a color of its own: all edges are seams. It must look
+/// like one whose triangles are parts in these colors, whoever deforms.
+void same_with_seams(draw::Renderer& renderer) {
+    Random random(25);
+    const std::array<glm::vec3, 4> colors{glm::vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
+    std::vector<std::uint8_t> rgba;  // two above, two below
+    for (const glm::vec3& color : colors)
+        for (const float value : {color.r, color.g, color.b, 1.0f})
+            rgba.push_back(static_cast<std::uint8_t>(255 * value));
+    const std::array textures{draw::Texture{2, 2, rgba, draw::Wrap::clamp, draw::Wrap::clamp, true}};
+    for (std::size_t trial = 0; trial < 3; ++trial) {
+        CAPTURE(trial);
+        const Crowd crowd(random, 1 + trial, trial == 1);
+        const std::vector<std::uint32_t> triangles = crowd.triangles_of_body();
+        std::vector<draw::Part> by_color;
+        std::vector<glm::vec2> uvs;
+        for (std::uint32_t t = 0; t < triangles.size() / 3; ++t) {
+            const std::size_t which = (t * 2654435761u >> 7) % 4;
+            by_color.push_back({t, 1, 0.7f * colors[which]});
+            uvs.insert(uvs.end(), 3, {which % 2 == 0 ? 0.25f : 0.75f, which < 2 ? 0.75f : 0.25f});
+        }
+        const auto count = static_cast<std::uint32_t>(triangles.size() / 3);
+        const std::array whole{draw::Part{0, count, glm::vec3(0.7f), 0}};
+        draw::Mesh textured(crowd.bound.binding.body, triangles, whole, {textures, uvs});
+        draw::Mesh plain(crowd.bound.binding.body, triangles, by_color);
+        plain.set_vertices(crowd.vertices);
+        const draw::OrbitCamera camera = crowd.camera();
+        const std::vector<Pixel> backdrop = picture(renderer, camera, nullptr);
+        const std::vector<Pixel> wanted = picture(renderer, camera, &plain, {.tinted = true});
+        const std::size_t shown = different(wanted, backdrop, 8);
+        CHECK(shown > 500);
+        textured.set_vertices(crowd.vertices);
+        CHECK(different(picture(renderer, camera, &textured, {.tinted = true}), wanted, 3) <= shown / 500);
+        textured.set_coefficients(crowd.coefficients);
+        CHECK(different(picture(renderer, camera, &textured, {.tinted = true}), wanted, 8) <= shown / 50);
+        // Vertices' colors are multiplied by it, and stand alone where it is not wanted.
+        const std::vector<glm::vec3> red(crowd.bound.binding.body.vertex_count(), {1, 0, 0});
+        textured.set_colors(red);
+        const std::vector<Pixel> both = picture(renderer, camera, &textured);
+        const auto reddish = [](const std::vector<Pixel>& pixels) {
+            return static_cast<std::size_t>(std::ranges::count_if(
+                pixels, [](const Pixel& p) { return p.r > p.g + 60 && p.r > p.b + 60; }));
+        };
+        CHECK(reddish(both) > shown / 5);
+        CHECK(reddish(both) < shown * 4 / 5);
+        CHECK(reddish(picture(renderer, camera, &textured, {.textured = false})) > shown * 4 / 5);
+        CHECK(different(picture(renderer, camera, &textured, {.wireframe = true}), both, 8) > shown / 10);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("pictures: OpenGL 3.3 draws textures, and seams where they are") {
+    in_context(false, same_with_seams);
+}
+
+TEST_CASE("pictures: OpenGL ES 3.0 draws textures, and seams where they are") {
+    in_context(true, same_with_seams);
 }
 
 TEST_CASE("pictures: lines are hidden behind what is in front, points are not") {

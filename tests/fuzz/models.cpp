@@ -47,6 +47,20 @@ void round_trip(const Mesh& mesh, const std::string& ending) {
     std::filesystem::remove(file);
 }
 
+/// Textures are on all corners or on none, and their images are bytes or an error.
+void look_at_textures(const Mesh& mesh) {
+    const std::size_t corners = texture_uvs(mesh).size();
+    require(corners == 0 || corners == 3 * triangle_count(mesh), "all corners have a place in a texture");
+    for (const Material& material : mesh.materials) {
+        if (!material.texture) continue;
+        try {
+            (void)material.texture->image->bytes();
+        } catch (const Error& error) {
+            require_one_line(error.what());
+        }
+    }
+}
+
 /// Turned, which keeps numbers finite.
 Mesh bent(const Mesh& mesh) {
     VertexArrays arrays = vertex_arrays(mesh);
@@ -79,6 +93,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     require_finite(mesh);
+    look_at_textures(mesh);
     // Which format depends on the size, so that every mutation that changes it tries others.
     round_trip(mesh, endings[size % std::size(endings)]);
     round_trip(bent(mesh), endings[size / 5 % std::size(endings)]);

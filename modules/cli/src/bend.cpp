@@ -42,7 +42,7 @@ struct BendOptions {
     PictureWords picture;
     std::optional<std::string> camera;
     bool ghost = false;
-    std::string show;  ///< what the picture's colors stand for; empty: the materials
+    std::string show;  ///< what the picture's colors stand for; empty: the model's own
     std::filesystem::path json;
 };
 
@@ -181,9 +181,11 @@ void run_bend(const BendOptions& options) {
         const bool show = !options.show.empty();
         const std::vector<glm::vec4> colors = show ? area_colors(model, bent.records.positions)
                                                    : vertex_colors(options.model, model.mesh, model.rest);
-        write_picture(
-            {body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors, poses[0]},
-            request.style, png, outputs);
+        const Textures textures = show ? Textures{} : textures_of(model.mesh, options.bind.load.limits);
+        for (const std::string& warning : textures.warnings) report.warn(warning);
+        write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,
+                       textures, poses[0]},
+                      request.style, png, outputs);
         if (show) report_area_colors(report);
         report.line("picture", png.string());
     }

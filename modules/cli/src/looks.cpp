@@ -15,10 +15,12 @@
 namespace goffer::cli {
 namespace {
 
+constexpr float brightest = 0.75f;
+
 /// Neither so bright nor so dark that its wrinkles do not show.
 glm::vec4 dimmed(const glm::vec4& color) {
     const float high = std::max({color.r, color.g, color.b, 1e-3f});
-    return {glm::max(glm::vec3(color) * std::min(1.0f, 0.75f / high), glm::vec3(0.06f)), 1.0f};
+    return {glm::max(glm::vec3(color) * std::min(1.0f, brightest / high), glm::vec3(0.06f)), 1.0f};
 }
 
 /// A material's color, made readable: wrinkles drown in white and in black. A neutral gray, which is what a
@@ -61,16 +63,25 @@ std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const me
     return colors;
 }
 
-std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const glm::vec4& plain) {
+std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const Textures& textures, bool colored,
+                               const glm::vec4& plain) {
     const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
     std::vector<PartLook> looks;
     for (std::size_t p = 0; p < triangles.size(); ++p) {
         if (triangles[p].count == 0) continue;
-        const std::int32_t material = mesh.parts[p].material;
-        looks.push_back(
-            {triangles[p],
-             material < 0 ? plain
-                          : readable(mesh.materials[static_cast<std::size_t>(material)].base_color, plain)});
+        PartLook& look = looks.emplace_back();
+        look.triangles = triangles[p];
+        look.color = colored ? glm::vec4(1) : plain;
+        if (mesh.parts[p].material < 0) continue;
+        const auto number = static_cast<std::size_t>(mesh.parts[p].material);
+        const mesh::Material& material = mesh.materials[number];
+        if (number < textures.of_material.size() && textures.of_material[number].image) {
+            look.material = number;
+            const float bright = colored ? 1 : brightest;  // vertices' are dimmed already
+            look.color = glm::vec4(bright * glm::clamp(glm::vec3(material.texture->factor), 0.0f, 1.0f), 1);
+        } else if (!colored) {
+            look.color = readable(material.base_color, plain);
+        }
     }
     return looks;
 }

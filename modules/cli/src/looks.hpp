@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model.hpp"
+#include "textures.hpp"
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/pose.hpp>
@@ -36,20 +37,24 @@ struct Sight {
 /// The color of parts that have none of their own, of one model of several.
 [[nodiscard]] glm::vec4 plain_color(std::size_t model);
 
-/// The colors of vertices as pictures show them, linear RGBA, in place of materials' and in the order of
-/// `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB, which `file` tells. Empty where
-/// there are none, or all are white.
+/// The colors of vertices as pictures show them, linear RGBA, in place of materials' (a texture is multiplied
+/// by them) and in the order of `rest`, the arrays of `mesh`. Those of a PLY or an OBJ are taken for sRGB,
+/// which `file` tells. Empty where there are none, or all are white.
 [[nodiscard]] std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
                                                    const mesh::VertexArrays& rest);
 
-/// A part of a mesh and its color, linear RGBA.
+/// A part of a mesh, and how it looks.
 struct PartLook {
     TriangleRange triangles;
-    glm::vec4 color;
+    glm::vec4 color;              ///< linear RGBA; a texture, or the vertices' colors, are multiplied by it
+    std::size_t material = none;  ///< whose texture of `textures` it shows, or none
+
+    static constexpr std::size_t none = ~std::size_t{0};
 };
 
-/// The parts of `mesh` that have triangles, in order, with their materials' colors; those without one are
-/// `plain`.
-[[nodiscard]] std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const glm::vec4& plain);
+/// The parts of `mesh` that have triangles, in order, with their materials' colors or textures; those without
+/// either are `plain`. `textures` are those of `mesh`, or none. `colored`: the vertices have colors.
+[[nodiscard]] std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const Textures& textures, bool colored,
+                                             const glm::vec4& plain);
 
 }  // namespace goffer::cli

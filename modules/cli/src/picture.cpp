@@ -6,12 +6,27 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
 
 namespace goffer::cli {
 namespace {
+
+view::Wrap wrap_of(mesh::Wrap wrap) {
+    switch (wrap) {
+        case mesh::Wrap::clamp:
+            return view::Wrap::clamp;
+        case mesh::Wrap::mirror:
+            return view::Wrap::mirror;
+        case mesh::Wrap::repeat:
+            break;
+    }
+    return view::Wrap::repeat;
+}
 
 [[noreturn]] void refuse_size(const std::string& text) {
     throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to " +
@@ -66,28 +81,41 @@ Viewpoint parse_camera(const std::string& text) {
     return {std::remainder(angles[0], 360.0), angles[1]};
 }
 
+PictureTextures::PictureTextures(const Textures& decoded) : textures(decoded) {
+    std::map<const view::Image*, std::shared_ptr<const view::MipMap>> made;
+    for (const ShownTexture& texture : decoded.of_material) {
+        view::Texture& out = of_material.emplace_back();
+        if (!texture.image) continue;
+        std::shared_ptr<const view::MipMap>& image = made[texture.image.get()];
+        if (!image) image = std::make_shared<view::MipMap>(*texture.image);
+        out = {image, wrap_of(texture.wrap_u), wrap_of(texture.wrap_v), texture.nearest};
+    }
+}
+
 std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
-                                     const glm::vec4& plain) {
+                                     const PictureTextures& textures, const glm::vec4& plain) {
     std::vector<view::Model> models;
-    for (const PartLook& part : looks_of(mesh, plain)) {
-        view::Model model = vertices;
-        model.triangles = vertices.triangles.subspan(3 * std::size_t{part.triangles.first},
-                                                     3 * std::size_t{part.triangles.count});
+    for (const PartLook& part : looks_of(mesh, textures.textures, !vertices.colors.empty(), plain)) {
+        const std::size_t first = 3 * std::size_t{part.triangles.first},
+                          count = 3 * std::size_t{part.triangles.count};
+        view::Model& model = models.emplace_back(vertices);
+        model.triangles = vertices.triangles.subspan(first, count);
         model.color = part.color;
-        models.push_back(model);
+        if (part.material == PartLook::none) continue;
+        model.texture = textures.of_material[part.material];
+        model.uvs = std::span(textures.textures.uvs).subspan(first, count);
     }
     return models;
 }
 
 void write_picture(const BentModel& model, const PictureStyle& style, const std::filesystem::path& file,
                    io::AtomicFiles& outputs) {
-    const view::Model bent{
-        .positions = model.bent_positions, .triangles = model.rest.triangles, .normals = model.bent_normals};
-    std::vector<view::Model> models = part_models(model.mesh, bent, bent.color);
-    for (view::Model& part : models) {
-        part.colors = model.colors;
-        if (!model.colors.empty()) part.color = glm::vec4(1);
-    }
+    const view::Model bent{.positions = model.bent_positions,
+                           .triangles = model.rest.triangles,
+                           .normals = model.bent_normals,
+                           .colors = model.colors};
+    std::vector<view::Model> models =
+        part_models(model.mesh, bent, PictureTextures(model.textures), bent.color);
     if (style.ghost) {
         view::Model rest;
         rest.positions = model.rest.positions;

@@ -7,6 +7,7 @@
 #include <goffer/bend/pose.hpp>
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/view/picture.hpp>
+#include <goffer/view/texture.hpp>
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
@@ -50,14 +51,24 @@ struct BentModel {
     std::span<const glm::vec3> bent_positions;
     std::span<const glm::vec3> bent_normals;
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
+    const Textures& textures;           ///< of the mesh, or none; with colors, these are multiplied
     bend::Pose pose;
 };
 
-/// One model per part of `mesh`, since each part has its material's color; parts without one are `plain`.
-/// `vertices` has the positions and normals; its triangles are those of all faces, as mesh::triangles() cuts
-/// them, in their order. The models refer to the same memory.
+/// Textures as pictures take them. The textures must outlive it.
+struct PictureTextures {
+    const Textures& textures;
+    std::vector<view::Texture> of_material;  ///< of each material
+
+    explicit PictureTextures(const Textures& decoded);
+};
+
+/// One model per part of `mesh`, as looks_of() has them. `vertices` has the positions and normals, and the
+/// colors if there are any; its triangles are those of all faces, as mesh::triangles() cuts them, in their
+/// order. `textures` are those of `mesh`, or none. The models refer to the same memory, and to that of
+/// `textures`.
 [[nodiscard]] std::vector<view::Model> part_models(const mesh::Mesh& mesh, const view::Model& vertices,
-                                                   const glm::vec4& plain);
+                                                   const PictureTextures& textures, const glm::vec4& plain);
 
 /// How to draw it.
 struct PictureStyle {

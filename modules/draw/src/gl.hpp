@@ -77,7 +77,7 @@ inline void delete_program(GLuint name) {
 
 using Buffer = Name<delete_buffer>;
 using VertexArray = Name<delete_vertex_array>;
-using Texture = Name<delete_texture>;
+using TextureName = Name<delete_texture>;
 using Query = Name<delete_query>;
 using Shader = Name<delete_shader>;
 using ProgramName = Name<delete_program>;

@@ -15,10 +15,13 @@ namespace {
 /// What both vertex shaders do with a vertex, however it was deformed. Instances differ a little in color.
 constexpr std::string_view surface_outputs = R"(
 layout(location = 2) in vec3 color;
+layout(location = 7) in vec2 uv;
 uniform mat4 view_projection;
 uniform int first_instance, tinted;
 out vec3 surface_position, surface_normal, surface_color;
+out vec2 surface_uv;
 void put(vec3 position, vec3 normal) {
+    surface_uv = uv;
     surface_position = position;
     surface_normal = normal;
     float turn = 2.4 * float((first_instance + gl_InstanceID) % 1000);
@@ -94,7 +97,10 @@ std::string surface_fragment() {
     return std::string(to_screen) + R"(
 uniform vec3 eye, right, up, forward, part_color;
 uniform float opacity;
+uniform sampler2D part_texture;
+uniform int part_textured;
 in vec3 surface_position, surface_normal, surface_color;
+in vec2 surface_uv;
 out vec4 pixel;
 void main() {
     vec3 to_eye = normalize(eye - surface_position);
@@ -108,6 +114,8 @@ void main() {
     }
     vec3 key = normalize(-0.60 * right + 0.75 * up - 0.55 * forward);
     vec3 albedo = part_color * surface_color;
+    vec3 texel = texture(part_texture, surface_uv).rgb;  // outside the branch: it needs the neighbors'
+    if (part_textured != 0) albedo *= texel;
     vec3 sky = mix(vec3(0.16, 0.13, 0.12), vec3(0.34, 0.37, 0.42), 0.5 + 0.33 * dot(normal, up));
     sky *= 0.5 + 0.5 * cosine;
     float lit = max(0.0, dot(normal, key));

@@ -20,8 +20,12 @@ enum Attribute : GLuint {
     column = 3,
     wrinkle = 4,
     shape = 5,
-    tangent = 6
+    tangent = 6,
+    uv = 7
 };
+
+/// The texture unit of surfaces' textures. That of coefficients is 0.
+inline constexpr int surface_unit = 1;
 
 /// Rows of a texture of coefficients are this long, in texels.
 inline constexpr int texture_width = 1024;

@@ -21,6 +21,13 @@ void check_context() {
                     std::to_string(found % 10) + "; try a newer driver, or Mesa's in software");
 }
 
+/// To its own unit; what is bound to unit 0, which stays the active one, is left alone.
+void bind_surface_texture(GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + surface_unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glActiveTexture(GL_TEXTURE0);
+}
+
 }  // namespace
 
 struct Renderer::Data {
@@ -68,6 +75,7 @@ void Renderer::begin(const OrbitCamera& camera, const Viewport& viewport) {
         program->set("right", camera.right());
         program->set("up", camera.up());
         program->set("forward", camera.forward());
+        program->set("part_texture", surface_unit);
     }
     glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
     glEnable(GL_SCISSOR_TEST);
@@ -90,11 +98,15 @@ void Renderer::Data::draw_instances(const Program& program, const Mesh::Data& me
     program.set("first_instance", static_cast<int>(look.first_instance + first));
     const auto instances = static_cast<GLsizei>(count);
     if (edges) {
+        program.set("part_textured", 0);
         glDrawElementsInstanced(GL_LINES, mesh.edge_ends, GL_UNSIGNED_INT, nullptr, instances);
         return;
     }
     for (const Part& part : mesh.parts) {
-        program.set("part_color", mesh.colored ? glm::vec3(1) : part.color);
+        const bool textured = look.textured && part.texture != Part::none;
+        program.set("part_textured", textured ? 1 : 0);
+        if (textured) bind_surface_texture(mesh.textures[part.texture]);
+        program.set("part_color", mesh.colored && !textured ? glm::vec3(1) : part.color);
         glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(3 * part.count), GL_UNSIGNED_INT,
                                 at_byte(sizeof(std::uint32_t) * 3 * part.first), instances);
     }

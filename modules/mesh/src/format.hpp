@@ -4,6 +4,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -44,6 +45,9 @@ class Budget;
 /// Returns all bytes of a regular file, which come out of `budget`. Throws Error if it is missing, no regular
 /// file, empty or unreadable.
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& file, Budget& budget);
+
+/// An image in a file of its own, which is read by Image::bytes() if it is no larger than limits.memory.
+[[nodiscard]] std::shared_ptr<const Image> image_in(const std::filesystem::path& file, const Limits& limits);
 
 /// Throws Error that begins with `file`, unless sizes, indices, parts and materials fit together and all
 /// positions and normals are finite.

@@ -16,6 +16,7 @@ constexpr int steps[] = {1, 2, 4};  // between the pixels that are smoothed over
 static_assert(steps[0] + steps[1] + steps[2] + 1 == Band::reach);  // and a neighbor of the last
 constexpr float edge_cosine = 0.9f;  // of the angle between normals, below which there is an edge
 constexpr float edge_offset = 2;     // of a surface from its neighbor's plane, in pixels
+constexpr float seam = 3;            // steps of texture coordinates to a neighbor, beyond which there is one
 
 // `dither`, 0..1, decides where to round up, which hides the steps of faint gradients.
 std::uint8_t to_srgb(float linear, float dither) {
@@ -60,6 +61,8 @@ void Band::look(int x, int y, std::vector<Hit>& hits) {
         seen.hit = *hit;
         seen.position = surface.position;
         seen.normal = surface.normal;
+        seen.uv = surface.uv;
+        seen.uv_step = surface.uv_step;
         lights_[index(x, y)] = light_at(scene_, view_, surface, -ray.direction, sampler, rays_);
         ray.length = hit->distance;
     }
@@ -118,7 +121,8 @@ bool Band::at_edge(int x, int y) const {
         const Seen& other = seen_[index(x + step[0], y + step[1])];
         if (own.solid != other.solid || own.ghosts != other.ghosts) return true;
         return own.solid &&
-               (own.hit.model != other.hit.model || !same_surface(own, other.normal, other.position));
+               (own.hit.model != other.hit.model || !same_surface(own, other.normal, other.position) ||
+                glm::distance(own.uv, other.uv) > seam * (own.uv_step + other.uv_step));
     });
 }
 

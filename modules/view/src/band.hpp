@@ -31,6 +31,8 @@ private:
     /// What is seen at the middle of a pixel.
     struct Seen {
         glm::vec3 position{0}, normal{0};
+        glm::vec2 uv{0};
+        float uv_step = 0;
         Hit hit{};
         std::uint32_t ghosts = 0;  ///< surfaces in front
         bool solid = false;

@@ -44,7 +44,9 @@ Fit fit(std::span<const glm::vec3> points, const glm::vec3& axis, const glm::vec
 }  // namespace
 
 Ray View::ray(const glm::vec2& place) const {
-    return {eye, glm::normalize(forward + place.x * tangent.x * right + place.y * tangent.y * up)};
+    const glm::vec3 toward = forward + place.x * tangent.x * right + place.y * tangent.y * up;
+    const glm::vec2 step = pixel * tangent / glm::length(toward);
+    return {eye, glm::normalize(toward), std::numeric_limits<float>::infinity(), step.x * right, step.y * up};
 }
 
 View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {

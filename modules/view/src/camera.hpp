@@ -11,6 +11,7 @@ namespace goffer::view {
 struct View {
     glm::vec3 eye, right, up, forward;
     glm::vec2 tangent;
+    glm::vec2 pixel{0};  ///< its size, where the picture is 2 wide and 2 high
 
     /// Returns the ray through a place of the picture, in -1..1 to the right and upward.
     [[nodiscard]] Ray ray(const glm::vec2& place) const;

@@ -27,7 +27,8 @@ void check(const Settings& settings) {
 Picture render(std::span<const Model> models, const Camera& camera, const Settings& settings) {
     check(settings);
     const Scene scene(models);
-    const View view = frame(camera, scene.points(), static_cast<float>(settings.width) / settings.height);
+    View view = frame(camera, scene.points(), static_cast<float>(settings.width) / settings.height);
+    view.pixel = {2.0f / settings.width, 2.0f / settings.height};
 
     Picture picture{settings.width, settings.height, {}};
     picture.rgb.resize(std::size_t{3} * settings.width * settings.height);

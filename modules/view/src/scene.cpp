@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene.hpp"
 
+#include "texture.hpp"
+
 #include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
 
@@ -28,6 +30,9 @@ void check_sizes(const Model& model, const std::string& name) {
     if (!model.colors.empty() && model.colors.size() != model.positions.size())
         throw Error(name + ": " + std::to_string(model.colors.size()) + " colors for " + vertices +
                     " vertices; give one each or none");
+    if (model.texture.image && model.uvs.size() != model.triangles.size())
+        throw Error(name + ": " + std::to_string(model.uvs.size()) + " texture coordinates for " +
+                    std::to_string(model.triangles.size()) + " corners; give one each");
 }
 
 void check(const Model& model, std::size_t index) {
@@ -95,6 +100,28 @@ void commit(RTCScene scene) {
 glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     const float length = glm::length(v);
     return length > 0 && std::isfinite(length) ? v / length : otherwise;
+}
+
+/// Where a ray meets the plane of a triangle, as the weights of its edges. Not finite where it does not.
+glm::vec2 on_plane(const Ray& ray, const glm::vec3& direction, const glm::vec3& corner,
+                   const glm::vec3& edge1, const glm::vec3& edge2) {
+    const glm::vec3 normal = glm::cross(edge1, edge2), to_eye = ray.origin - corner;
+    const glm::vec3 place = to_eye - glm::dot(normal, to_eye) / glm::dot(normal, direction) * direction;
+    return glm::vec2(glm::dot(normal, glm::cross(place, edge2)), glm::dot(normal, glm::cross(edge1, place))) /
+           glm::dot(normal, normal);
+}
+
+/// What the pixel that the ray belongs to covers: as far as its neighbors' rays are apart on the same plane.
+Footprint footprint(const Model& model, const Hit& hit, const Ray& ray, const glm::vec3& corner,
+                    const glm::vec3& edge1, const glm::vec3& edge2) {
+    const auto uvs = model.uvs.subspan(std::size_t{3} * hit.triangle, 3);
+    const glm::vec2 along1 = uvs[1] - uvs[0], along2 = uvs[2] - uvs[0];
+    const glm::vec2 here(hit.u, hit.v);
+    const auto change = [&](const glm::vec3& step) {
+        const glm::vec2 there = on_plane(ray, ray.direction + step, corner, edge1, edge2) - here;
+        return there.x * along1 + there.y * along2;
+    };
+    return {uvs[0] + here.x * along1 + here.y * along2, change(ray.right), change(ray.up)};
 }
 
 }  // namespace
@@ -185,6 +212,12 @@ Surface Scene::surface(const Hit& hit, const Ray& ray) const {
         glm::vec4 color(0);
         for (int i = 0; i < 3; ++i) color += weights[i] * model.colors[corners[i]];
         s.color *= color;
+    }
+    if (model.texture.image) {
+        const Footprint over = footprint(model, hit, ray, points[corners[0]], edge1, edge2);
+        s.color *= glm::vec4(texture_color(model.texture, over), 1);
+        s.uv = over.uv;
+        s.uv_step = std::max(glm::length(over.across), glm::length(over.up));
     }
     s.normal = s.face;
     s.outside = s.position;

@@ -5,6 +5,8 @@
 
 #include <goffer/view/picture.hpp>
 
+#include <glm/vec2.hpp>
+
 #include <limits>
 
 namespace goffer::view {
@@ -13,6 +15,7 @@ struct Ray {
     glm::vec3 origin;
     glm::vec3 direction;  ///< unit
     float length = std::numeric_limits<float>::infinity();
+    glm::vec3 right{0}, up{0};  ///< what the directions of the next pixels' rays have more, if they matter
 };
 
 struct Hit {
@@ -29,6 +32,8 @@ struct Surface {
     glm::vec3 face;     ///< normal of the triangle
     glm::vec3 normal;   ///< interpolated normal, for shading
     glm::vec4 color;
+    glm::vec2 uv{0};    ///< in the texture, if there is one
+    float uv_step = 0;  ///< how far it moves to the next pixel
 };
 
 /// The models, moved and scaled into [-1, 1]^3, so that tolerances are plain numbers. The constructor throws

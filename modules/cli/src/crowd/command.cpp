@@ -85,6 +85,11 @@ std::vector<BoundModel> bind_models(std::vector<ModelFile> files, const BindRequ
     return models;
 }
 
+/// Which of several models is meant, to begin a warning with.
+std::string place_of(const BoundModel& model, std::span<const BoundModel> models) {
+    return models.size() > 1 ? model.file.string() + ": " : "";
+}
+
 /// Of what a model's regions are asked for and cannot do.
 void warn_of_regions(Report& report, const CrowdRequest& request, const BoundModel& model,
                      const std::string& where) {
@@ -103,7 +108,7 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
 void report_models(Report& report, const CrowdRequest& request, std::span<const BoundModel> models) {
     for (const BoundModel& model : models) {
         const bend::Body& body = model.binding.body;
-        const std::string where = models.size() > 1 ? model.file.string() + ": " : "";
+        const std::string where = place_of(model, models);
         for (const std::string& warning : model.mesh.warnings) report.warn(where + warning);
         warn_of_regions(report, request, model, where);
         nlohmann::ordered_json regions;
@@ -199,7 +204,14 @@ void run_crowd(const CrowdOptions& options) {
     io::AtomicFiles outputs;
     if (const std::filesystem::path& file = options.picture.file; !file.empty()) {
         const Progress rendering("rendering " + file.string());
-        const std::size_t shown = write_crowd_picture(crowd, models, request.picture, file, outputs);
+        std::vector<Textures> textures;
+        for (const BoundModel& model : models) {
+            textures.push_back(textures_of(model.mesh, options.bind.load.limits));
+            for (const std::string& warning : textures.back().warnings)
+                report.warn(place_of(model, models) + warning);
+        }
+        const std::size_t shown =
+            write_crowd_picture(crowd, models, textures, request.picture, file, outputs);
         report.line("picture",
                     file.string() + (shown == options.instances ? std::string()
                                                                 : ", " + std::to_string(shown) + " of " +

@@ -103,9 +103,10 @@ std::vector<std::size_t> choose(const Crowd& crowd, std::span<const BoundModel> 
 }  // namespace
 
 std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> models,
-                                const view::Settings& settings, const std::filesystem::path& file,
-                                io::AtomicFiles& outputs) {
+                                std::span<const Textures> textures, const view::Settings& settings,
+                                const std::filesystem::path& file, io::AtomicFiles& outputs) {
     const std::vector<std::size_t> chosen = choose(crowd, models);
+    const std::vector<PictureTextures> pictured(textures.begin(), textures.end());
     std::vector<std::vector<glm::vec4>> colors;
     for (const BoundModel& model : models)
         colors.push_back(vertex_colors(model.file, model.mesh, model.rest));
@@ -122,8 +123,8 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
                               .triangles = model.rest.triangles,
                               .normals = own.normals,
                               .colors = colors[crowd.model(i)]};
-        for (view::Model& part : part_models(model.mesh, all, plain)) {
-            part.color = tinted(all.colors.empty() ? part.color : glm::vec4(1), i);
+        for (view::Model& part : part_models(model.mesh, all, pictured[crowd.model(i)], plain)) {
+            part.color = tinted(part.color, i);
             parts.push_back(part);
         }
     }

@@ -33,9 +33,11 @@ std::vector<Target> rest_targets(const bend::Body& body) {
 }
 
 /// What the command `bend` would warn of, at a right angle or as far as the body bends.
-std::vector<std::string> warnings_of(const BoundModel& model, const BindRequest& request) {
+std::vector<std::string> warnings_of(const BoundModel& model, const Textures& textures,
+                                     const BindRequest& request) {
     Report report("");
     for (const std::string& warning : model.mesh.warnings) report.warn(warning);
+    for (const std::string& warning : textures.warnings) report.warn(warning);
     if (!model.baked) {
         report_suitability(report, model);
         const bend::Body& body = model.binding.body;
@@ -54,7 +56,8 @@ Loaded load(const Wish& wish) {
     for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
     const PoseRequest pose(wish.pose, baked_regions(files));
     const BindRequest request(wish.bind, pose.regions);
-    Loaded loaded{.wish = wish, .models = {}, .words = request.words, .targets = {}, .warnings = {}};
+    Loaded loaded{
+        .wish = wish, .models = {}, .textures = {}, .words = request.words, .targets = {}, .warnings = {}};
     if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));
     for (ModelFile& file : files) loaded.models.push_back(bind_model(std::move(file), request));
     const bend::Body& body = loaded.models[0].binding.body;
@@ -71,7 +74,9 @@ Loaded load(const Wish& wish) {
         }
     }
     for (const BoundModel& model : loaded.models) {
-        for (const std::string& warning : warnings_of(model, request))
+        const Textures& textures =
+            loaded.textures.emplace_back(textures_of(model.mesh, wish.bind.load.limits));
+        for (const std::string& warning : warnings_of(model, textures, request))
             loaded.warnings.push_back(
                 (loaded.models.size() > 1 ? model.file.filename().string() + ": " : "") + warning);
     }

@@ -3,6 +3,7 @@
 
 #include "model.hpp"
 #include "poses.hpp"
+#include "textures.hpp"
 
 #include <filesystem>
 #include <string>
@@ -25,6 +26,7 @@ struct Wish {
 struct Loaded {
     Wish wish;
     std::vector<BoundModel> models;
+    std::vector<Textures> textures;     ///< of each model
     BindWords words;                    ///< of the wish, with those that --paper stands for
     std::vector<Target> targets;        ///< of the first model, as the words ask for them
     std::vector<std::string> warnings;  ///< in one line each

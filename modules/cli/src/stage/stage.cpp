@@ -23,12 +23,48 @@ namespace {
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
 constexpr int wall_clock = 2;  // threads, for which measure::now() reads the clock on the wall
 
-/// Parts in the colors that pictures have.
-std::vector<draw::Part> parts_of(const BoundModel& model, std::size_t index) {
+draw::Wrap drawn(mesh::Wrap wrap) {
+    switch (wrap) {
+        case mesh::Wrap::clamp:
+            return draw::Wrap::clamp;
+        case mesh::Wrap::mirror:
+            return draw::Wrap::mirror;
+        case mesh::Wrap::repeat:
+            break;
+    }
+    return draw::Wrap::repeat;
+}
+
+draw::Texture drawn(const ShownTexture& texture) {
+    const view::Image& image = *texture.image;
+    return {image.width,           image.height,          image.rgba,
+            drawn(texture.wrap_u), drawn(texture.wrap_v), texture.nearest};
+}
+
+/// Parts in the colors and with the textures that pictures have, and these textures, each once.
+struct Parts {
     std::vector<draw::Part> parts;
-    for (const PartLook& part : looks_of(model.mesh, plain_color(index)))
-        parts.push_back({part.triangles.first, part.triangles.count, part.color});
-    return parts;
+    std::vector<draw::Texture> textures;
+};
+
+/// `colored`: the vertices have colors.
+Parts parts_of(const BoundModel& model, const Textures& textures, bool colored, std::size_t index) {
+    Parts out;
+    std::vector<ShownTexture> known;
+    for (const PartLook& look : looks_of(model.mesh, textures, colored, plain_color(index))) {
+        draw::Part& part = out.parts.emplace_back();
+        part.first = look.triangles.first;
+        part.count = look.triangles.count;
+        part.color = glm::vec3(look.color);
+        if (look.material == PartLook::none) continue;
+        const ShownTexture& texture = textures.of_material[look.material];
+        const auto found = std::ranges::find(known, texture);
+        part.texture = static_cast<std::size_t>(found - known.begin());
+        if (found != known.end()) continue;
+        known.push_back(texture);
+        out.textures.push_back(drawn(texture));
+    }
+    return out;
 }
 
 /// Colors in the model's order, put into the body's.
@@ -43,12 +79,16 @@ std::vector<glm::vec3> own_colors(const BoundModel& model) {
     return in_body_order(vertex_colors(model.file, model.mesh, model.rest), model.binding);
 }
 
-draw::Mesh drawn_mesh(const BoundModel& model, std::size_t index) {
+draw::Mesh drawn_mesh(const BoundModel& model, const Textures& textures, std::size_t index) {
     const std::vector<std::uint32_t> places = places_of(model.binding);
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
-    draw::Mesh mesh(model.binding.body, triangles, parts_of(model, index));
-    mesh.set_colors(own_colors(model));
+    const std::vector<glm::vec4> colors = vertex_colors(model.file, model.mesh, model.rest);
+    const Parts parts = parts_of(model, textures, !colors.empty(), index);
+    const draw::Skin skin{parts.textures,
+                          parts.textures.empty() ? std::span<const glm::vec2>() : textures.uvs};
+    draw::Mesh mesh(model.binding.body, triangles, parts.parts, skin);
+    mesh.set_colors(in_body_order(colors, model.binding));
     return mesh;
 }
 
@@ -84,7 +124,8 @@ double timed(const Work& work) {
 Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
     const BoundModel& first = model();
     for (std::size_t i = 0; i < loaded_->models.size(); ++i)
-        meshes_.push_back(drawn_mesh(loaded_->models[i], i));
+        meshes_.push_back(drawn_mesh(loaded_->models[i], loaded_->textures[i], i));
+    loaded_->textures.clear();  // they are where they are drawn from
     rig_ = Rig::make(first);
     poses_ = first.binding.body.rest_poses();
     vertices_.resize(first.binding.body.vertex_count());
@@ -174,7 +215,7 @@ void Stage::mark_normals() {
 }
 
 void Stage::draw(draw::Renderer& renderer, const Show& show) {
-    draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr};
+    draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr, .textured = !area_shown_};
     for (std::size_t i = 0; i < batches().size(); ++i) {
         renderer.draw(meshes_[i], look);
         look.first_instance += batches()[i].count;
@@ -197,7 +238,7 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
     }
     if (!show.rest) return;
     if (!rest_) {
-        rest_.emplace(drawn_mesh(model(), 0));
+        rest_.emplace(drawn_mesh(model(), {}, 0));
         rest_->set_vertices(rest_vertices(model()));
     }
     renderer.draw(*rest_, {.opacity = 0.25f});

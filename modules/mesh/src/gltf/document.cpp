@@ -201,6 +201,7 @@ std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
                                               const LoadOptions& options, Budget& budget) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
     const auto document = std::make_shared<Document>(NamedFiles(file, options.allow_outside));
+    document->limits = options.limits;
     document->json = parse(parts.json, budget);
     const Value root = document->root();
     check_version(root);
@@ -234,8 +235,9 @@ std::vector<std::string> missing_images(const Document& document) {
     return missing;
 }
 
-std::shared_ptr<const Document> document_of(Output output, const NamedFiles& files) {
-    const auto document = std::make_shared<Document>(files);
+std::shared_ptr<const Document> document_of(Output output, const Document& origin) {
+    const auto document = std::make_shared<Document>(origin.files);
+    document->limits = origin.limits;
     document->json = std::move(output.json);
     set_buffer(document->json, output.buffer, "");
     if (!output.buffer.empty()) document->buffers.push_back(std::move(output.buffer));

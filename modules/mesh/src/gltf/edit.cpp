@@ -282,8 +282,8 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
             const auto from = std::filesystem::weakly_canonical(named, error);
             const auto to =
                 std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
-            if (to != std::filesystem::weakly_canonical(std::filesystem::absolute(document_.files.folder()),
-                                                        error)) {
+            if (to != std::filesystem::weakly_canonical(
+                          std::filesystem::absolute(document_.files.folder() / "."), error)) {
                 const std::filesystem::path way = from.lexically_relative(to);
                 if (!way.empty()) json_["images"][i]["uri"] = uri_of(way);
             }

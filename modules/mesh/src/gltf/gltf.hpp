@@ -71,7 +71,8 @@ struct Document : Source {
 
     Json json;
     std::vector<std::string> buffers;
-    NamedFiles files;  ///< of the file
+    NamedFiles files;    ///< of the file
+    Limits limits = {};  ///< that it was loaded with, for images in files of their own
 
     [[nodiscard]] Value root() const { return Value(json); }
     [[nodiscard]] std::size_t count(const char* list) const;
@@ -104,6 +105,11 @@ void each(Owner& owner, const char* key, Visit&& visit) {
 
 /// Says which images are not where their URIs lead, or may not be read; broken ones are not looked at.
 [[nodiscard]] std::vector<std::string> missing_images(const Document& document);
+
+/// Gives the materials of `mesh`, which are those of the document, their base-color textures. Returns, as a
+/// warning or none, which are broken and left out; of missing images missing_images() tells.
+[[nodiscard]] std::vector<std::string> read_textures(const std::shared_ptr<const Document>& document,
+                                                     Mesh& mesh);
 
 /// Says, as a warning or none, which fields that nothing here reads are of the wrong type.
 [[nodiscard]] std::vector<std::string> wrong_types(const Document& document);
@@ -217,8 +223,8 @@ struct Output {
 [[nodiscard]] std::optional<Output> rewritten(const Mesh& mesh, const std::filesystem::path& file,
                                               bool embed);
 
-/// Turns an output into a document again. `files` are those that it names.
-[[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const NamedFiles& files);
+/// Turns an output into a document again, which names the files that `origin` does.
+[[nodiscard]] std::shared_ptr<const Document> document_of(Output output, const Document& origin);
 
 /// Returns a new document for a mesh that came from no glTF.
 [[nodiscard]] Output made(const Mesh& mesh);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -120,7 +121,7 @@ glm::vec4 color_of(const Value& owner, const char* key) {
 void SceneReader::read_materials() {
     for (std::size_t i = 0; i < document_.count("materials"); ++i) {
         const Value material = document_.root()["materials"][i];
-        Material read{material.text_or("name", ""), glm::vec4(1.0f)};
+        Material read{.name = material.text_or("name", ""), .base_color = glm::vec4(1.0f)};
         constexpr const char* glossy = "KHR_materials_pbrSpecularGlossiness";
         if (material.has("pbrMetallicRoughness")) {
             read.base_color = color_of(material["pbrMetallicRoughness"], "baseColorFactor");
@@ -406,8 +407,12 @@ Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const 
     try {
         const auto document = gltf::open_document(file, bytes, options, budget);
         Mesh mesh = gltf::read_scene(*document, budget).mesh;
-        for (const auto look : {gltf::missing_images, gltf::wrong_types})
-            for (std::string& warning : look(*document)) mesh.warnings.push_back(std::move(warning));
+        const auto say = [&](std::vector<std::string> warnings) {
+            std::ranges::move(warnings, std::back_inserter(mesh.warnings));
+        };
+        say(gltf::missing_images(*document));
+        say(gltf::wrong_types(*document));
+        say(gltf::read_textures(document, mesh));
         mesh.source = document;
         return mesh;
     } catch (const OverLimit&) {

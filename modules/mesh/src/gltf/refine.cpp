@@ -294,12 +294,13 @@ std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone) {
     if (!source) return std::nullopt;
     std::optional<gltf::Output> now = gltf::rewritten(cut.mesh(), source->files.folder() / "refined", false);
     if (!now) return std::nullopt;
-    const auto document = gltf::document_of(std::move(*now), source->files);
+    const auto document = gltf::document_of(std::move(*now), *source);
     std::vector<std::uint32_t> order;
     gltf::Output output = gltf::SceneRefiner(*document, cut).run(order);
-    const auto made = gltf::document_of(std::move(output), source->files);
+    const auto made = gltf::document_of(std::move(output), *source);
     Mesh out = gltf::read_scene(*made).mesh;
     for (std::size_t i = 0; i < order.size(); ++i) out.positions[i] = alone.positions[order[i]];
+    (void)gltf::read_textures(made, out);  // what it says has been said
     out.warnings = cut.mesh().warnings;
     out.source = made;
     return out;

@@ -26,7 +26,7 @@ class ObjReader {
 public:
     ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options,
               Budget& budget)
-        : file_(file), text_(text), files_(file, options.allow_outside), budget_(budget) {}
+        : file_(file), text_(text), options_(options), files_(file, options.allow_outside), budget_(budget) {}
     Mesh read();
 
 private:
@@ -45,12 +45,14 @@ private:
     void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
     void warn_of_textures(const std::filesystem::path& library,
                           std::span<const tinyobj::material_t> materials);
+    void find_textures(const std::filesystem::path& library, std::span<const tinyobj::material_t> materials);
     std::vector<tinyobj::material_t> read_libraries();
     void read_materials();
     [[noreturn]] void fail_at(std::string_view place, const std::string& what) const;
 
     const std::filesystem::path& file_;
     std::string_view text_;
+    const LoadOptions& options_;
     NamedFiles files_;
     Budget& budget_;
     Mesh mesh_;
@@ -59,6 +61,8 @@ private:
     std::unordered_map<std::string_view, std::int32_t> material_of_;  ///< by its name
     Part part_;                                                       ///< what o, g and usemtl said last
     std::vector<std::string_view> libraries_;
+    std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+    std::vector<std::optional<Texture>> textures_;  ///< of each entry of the material files
     std::size_t short_faces_ = 0;
     std::size_t not_finite_ = 0;
     std::size_t stray_exponents_ = 0;
@@ -261,10 +265,43 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     const std::size_t before = found.size();
     tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
     warn_of_textures(library, std::span(found).subspan(before));
+    find_textures(library, std::span(found).subspan(before));
 }
 
-/// Nothing reads textures, but whoever shows the output wants them. Those that may not be read are not even
-/// looked for.
+/// As Windows has it, too.
+std::string with_slashes(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    return name;
+}
+
+/// Kd is no factor: exporters write all kinds of gray beside a map, and programs that show it leave Kd out.
+Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<const Image> image) {
+    Texture texture{.image = std::move(image)};
+    texture.transform =
+        glm::mat3x2(option.scale[0], 0, 0, option.scale[1], option.origin_offset[0], option.origin_offset[1]);
+    if (option.clamp) texture.wrap_u = texture.wrap_v = Wrap::clamp;
+    return texture;
+}
+
+/// Finds the images of map_Kd that are there and may be read, each once.
+void ObjReader::find_textures(const std::filesystem::path& library,
+                              std::span<const tinyobj::material_t> materials) {
+    const NamedFiles files(library, options_.allow_outside);
+    for (const tinyobj::material_t& material : materials) {
+        const std::string name = with_slashes(material.diffuse_texname);
+        std::error_code error;
+        const auto place = name.empty() ? std::nullopt : files.find(name);
+        if (place && images_.find(*place) == images_.end() && std::filesystem::is_regular_file(*place, error))
+            images_.emplace(*place, image_in(*place, options_.limits));
+        const auto image = place ? images_.find(*place) : images_.end();
+        textures_.push_back(image == images_.end()
+                                ? std::nullopt
+                                : std::optional(texture_with(material.diffuse_texopt, image->second)));
+    }
+}
+
+/// Most of them nothing reads, but whoever shows the output wants them. Those outside are not even looked
+/// for.
 void ObjReader::warn_of_textures(const std::filesystem::path& library,
                                  std::span<const tinyobj::material_t> materials) {
     const NamedFiles files(library, false);
@@ -277,8 +314,7 @@ void ObjReader::warn_of_textures(const std::filesystem::path& library,
               &tinyobj::material_t::alpha_texname, &tinyobj::material_t::reflection_texname,
               &tinyobj::material_t::roughness_texname, &tinyobj::material_t::metallic_texname,
               &tinyobj::material_t::emissive_texname, &tinyobj::material_t::normal_texname}) {
-            std::string name = material.*texture;
-            std::ranges::replace(name, '\\', '/');  // as Windows has it
+            const std::string name = with_slashes(material.*texture);
             std::error_code error;
             const auto place = files.find(name);
             if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
@@ -321,14 +357,16 @@ std::vector<tinyobj::material_t> ObjReader::read_libraries() {
 void ObjReader::read_materials() {
     const std::vector<tinyobj::material_t> found = read_libraries();
     std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
-    for (const tinyobj::material_t& entry : found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const tinyobj::material_t& entry = found[i];
         const auto used = material_of_.find(trimmed(entry.name));
         if (used == material_of_.end()) continue;
         const auto number = static_cast<std::size_t>(used->second);
         if (colored[number]) continue;
         colored[number] = true;
         const float rgba[] = {entry.diffuse[0], entry.diffuse[1], entry.diffuse[2], entry.dissolve};
-        for (int i = 0; i < 4; ++i) mesh_.materials[number].base_color[i] = std::clamp(rgba[i], 0.0f, 1.0f);
+        for (int c = 0; c < 4; ++c) mesh_.materials[number].base_color[c] = std::clamp(rgba[c], 0.0f, 1.0f);
+        mesh_.materials[number].texture = textures_[i];
     }
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -29,18 +31,42 @@ struct Vertex {
     glm::vec3 position, normal;
 };
 
+/// How a texture goes on beyond 0..1.
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+/// An image on a mesh: coordinates 0, 0 are its lower left corner, 1, 1 its upper right one.
+struct Texture {
+    int width = 0, height = 0;
+    std::span<const std::uint8_t> rgba;  ///< 8-bit sRGB, rows from top to bottom; alpha is not looked at
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    bool nearest = false;  ///< when enlarged, pixels are squares rather than blended
+};
+
 /// Triangles in one color.
 struct Part {
     std::uint32_t first = 0, count = 0;    ///< triangles
-    glm::vec3 color{0.72f, 0.33f, 0.20f};  ///< linear
+    glm::vec3 color{0.72f, 0.33f, 0.20f};  ///< linear, multiplied by the texture's
+    std::size_t texture = none;            ///< of Skin::textures, or none
+
+    static constexpr std::size_t none = ~std::size_t{0};
+};
+
+/// Textures, and where in them triangles are. The caller owns the memory, which must last for the call.
+struct Skin {
+    std::span<const Texture> textures;
+    /// One for each entry of the triangles, or none without textures. They belong to corners, so that a
+    /// vertex on a seam may have several; what deforms the body knows of none of them.
+    std::span<const glm::vec2> uvs;
 };
 
 /// What is drawn of a body, and how its instances were deformed last. Move-only.
 class Mesh {
 public:
     /// Uploads what never changes: the body's columns, and `triangles`, 3 vertices of the body each, every
-    /// one < body.vertex_count(). `parts` lie within them. `body` is not empty, and not needed afterward.
-    Mesh(const bend::Body& body, std::span<const std::uint32_t> triangles, std::span<const Part> parts);
+    /// one < body.vertex_count(). `parts` lie within them. `body` is not empty, and not needed afterward. Of
+    /// a texture that is larger than the device takes, some rows and columns are left out.
+    Mesh(const bend::Body& body, std::span<const std::uint32_t> triangles, std::span<const Part> parts,
+         const Skin& skin = {});
     Mesh(Mesh&&) noexcept;
     Mesh& operator=(Mesh&&) noexcept;
     ~Mesh();
@@ -54,8 +80,8 @@ public:
     /// texture holds.
     void set_coefficients(std::span<const bend::Coefficients> coefficients);
 
-    /// Gives each of body.vertex_count() vertices a color, linear, in place of its part's; none: takes the
-    /// colors away.
+    /// Gives each of body.vertex_count() vertices a color, linear, in place of its part's or, with a texture,
+    /// multiplied by that; none: takes the colors away.
     void set_colors(std::span<const glm::vec3> colors);
 
 private:

@@ -27,6 +27,7 @@ struct Viewport {
 struct Look {
     bool wireframe = false;          ///< edges over the surface
     bool tinted = false;             ///< not quite the same colors for any two instances
+    bool textured = true;            ///< with the mesh's textures
     std::size_t first_instance = 0;  ///< what the tints of this mesh count from
     float opacity = 1;               ///< below 1: over what has been drawn, and hides nothing
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -43,11 +45,42 @@ struct Attribute {
     bool operator==(const Attribute&) const = default;
 };
 
-/// What is read of a material. Textures and the rest stay with Mesh::source.
+/// An image that a file holds or names, encoded: PNG, JPEG or what else its maker took. It is not read before
+/// its bytes are asked for, so that it costs nothing where nobody looks at it. Immutable; it may hold on to
+/// the file that was loaded, but needs no Mesh.
+class Image {
+public:
+    virtual ~Image() = default;
+
+    /// Returns all bytes. An image in a file of its own is read from there, by the rules that load() had.
+    /// Throws Error in one line if there are none to be had, or more than the limits of that load() allow.
+    [[nodiscard]] virtual std::string bytes() const = 0;
+};
+
+/// How a texture goes on beyond 0..1.
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+/// An image on a surface.
+struct Texture {
+    std::shared_ptr<const Image> image;  ///< not null; textures with the same image share it
+    std::size_t uv_set = 0;              ///< which of Mesh::uvs; the mesh need not have it
+    glm::mat3x2 transform{1.0f};         ///< times (u, v, 1): where in the image a coordinate is, v up
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    bool nearest = false;    ///< when enlarged, texels are squares rather than blended
+    glm::vec4 factor{1.0f};  ///< linear RGBA, by which the image's color is multiplied
+};
+
+/// What is read of a material. Other textures and the rest stay with Mesh::source.
 struct Material {
     std::string name;
-    glm::vec4 base_color{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGBA
-    bool operator==(const Material&) const = default;
+    glm::vec4 base_color{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGBA; of a texture, the factor counts instead
+    /// For looking at alone. Nothing writes it: save() gives back that of the source, where it does so at
+    /// all. Hence it has no part in whether a mesh is still that of its source.
+    std::optional<Texture> texture = {};
+
+    bool operator==(const Material& other) const {
+        return name == other.name && base_color == other.base_color;
+    }
 };
 
 /// A run of faces that belong together: a glTF primitive, an OBJ group with one material, an STL solid.
@@ -100,8 +133,9 @@ struct LoadOptions {
 
 /// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the
 /// ending of the name. Other files that an OBJ or a glTF names are read too, if they lie in its folder or
-/// below it once links are followed, or anywhere with LoadOptions::allow_outside. Faces of fewer than 3
-/// corners, and materials and textures that lie outside, are left out with a warning.
+/// below it once links are followed, or anywhere with LoadOptions::allow_outside; images are looked for, and
+/// read by Image::bytes() alone. Faces of fewer than 3 corners, and materials and textures that are missing,
+/// broken or outside, are left out with a warning.
 ///
 /// Throws Error if the file cannot be read or is not of these formats, has a buffer outside its folder, is
 /// beyond the limits, a position or normal is not finite, an index is out of range, there is no vertex or no
@@ -161,6 +195,15 @@ struct VertexArrays {
 /// have its area, in a time that grows with the square of its corners. It is a fan too if it crosses itself,
 /// has no area, or has more than 4096 corners.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
+
+/// Returns where in their images the corners of triangles(mesh) are, each in the texture of its part's
+/// material: of its set, and transformed. 0, 0 where there is no texture, or the corner has no coordinate in
+/// it; empty where that is so of all. Values may be infinite or NaN if the file has such.
+///
+/// They are of corners rather than of vertices since a vertex on a seam has several. What bends a mesh then
+/// needs no vertices for the sake of its texture: split ones would change what a fit finds, and what save()
+/// writes.
+[[nodiscard]] std::vector<glm::vec2> texture_uvs(const Mesh& mesh);
 
 /// Returns `mesh` with the positions, normals and tangents of `bent`, whose entries are those of
 /// vertex_arrays(mesh), or of vertex_arrays_with_uvs(mesh, bent.uv_set) if it has uvs, in the same order. Its

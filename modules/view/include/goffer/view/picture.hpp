@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/view/texture.hpp>
+
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -8,7 +11,6 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 /// Pictures of meshes, rendered on the CPU, without a display or a GPU (Embree).
@@ -19,12 +21,6 @@ class AtomicFiles;
 
 namespace goffer::view {
 
-/// Thrown for a picture that cannot be made. what() is one line: what is wrong, where, and how to mend it.
-class Error : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
 /// One mesh of the scene. The caller owns the memory, which must last for the call.
 struct Model {
     std::span<const glm::vec3> positions;      ///< world space; those that triangles use must be finite
@@ -32,6 +28,10 @@ struct Model {
     std::span<const glm::vec3> normals = {};   ///< empty (flat shading), or one per vertex, of any length
     std::span<const glm::vec4> colors = {};    ///< empty, or linear RGBA per vertex, multiplied by `color`
     glm::vec4 color{0.72f, 0.33f, 0.20f, 1};  ///< linear RGBA. An alpha below 1 anywhere: a ghost, see render
+    Texture texture = {};                     ///< multiplied by the colors; its own alpha is not looked at
+    /// With a texture: where in it each entry of `triangles` is, as many; else not looked at. They belong to
+    /// corners, so that a vertex on a seam may have several. Those that are not finite count as 0.
+    std::span<const glm::vec2> uvs = {};
 };
 
 /// How the camera looks at the scene. Its place follows: the nearest from which all models are seen.
@@ -65,13 +65,14 @@ struct Picture {
 /// the sky, with soft shadows, so that wrinkles show. Both sides of a surface look the same. A ghost is
 /// translucent, casts no shadow, shows only its front, and fades where it is close in front of a solid, so
 /// that it hides nothing. Light is found by a few rays from every pixel, and smoothed over the surface;
-/// what is thinner than a pixel may be missed. Runs
+/// what is thinner than a pixel may be missed; textures are averaged over the pixel. Runs
 /// in parallel in the caller's oneTBB arena; the same input gives the same bytes on one machine, whatever the
 /// number of threads. Thread-safe.
 ///
 /// Throws Error if there is nothing to see (no triangles, or all vertices in one point), a setting is out of
 /// range, the camera has no direction, or a model is broken (an index out of range or not 3 per triangle, a
-/// vertex that is not finite, normals or colors that are not one per vertex). It is then named by its index
+/// vertex that is not finite, normals or colors that are not one per vertex, coordinates that are not one per
+/// corner). It is then named by its index
 /// in `models`.
 [[nodiscard]] Picture render(std::span<const Model> models, const Camera& camera,
                              const Settings& settings = {});

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+/// Images to put on models, decoded from PNG and JPEG.
+
+namespace goffer::view {
+
+/// Thrown for a picture that cannot be made, and an image that cannot be read. what() is one line: what is
+/// wrong, where, and how to mend it.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// An image in 8-bit sRGB with alpha: rows from top to bottom, 4 bytes a pixel.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+/// The most pixels of an image along a side, and the most in all.
+inline constexpr std::uint64_t largest_image_side = 16384, most_image_pixels = std::uint64_t{64} << 20;
+
+/// Decodes a PNG or a JPEG, whichever it is by its content, from whomever it comes. Of more than
+/// `most_pixels` nothing is decoded, nor of more than most_image_pixels; until then it takes 4 bytes a pixel,
+/// and a JPEG whose parts come in turns (progressive) as much again or more. Thread-safe.
+///
+/// Throws Error if it is neither, broken, cut off or larger, or a JPEG in the colors of print (CMYK).
+[[nodiscard]] Image decode_image(std::string_view bytes, std::uint64_t most_pixels = most_image_pixels);
+
+}  // namespace goffer::view

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/view/texture.hpp>
+
+#include <doctest/doctest.h>
+#include <jpeglib.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>  // jpeglib.h does without, and needs it
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+/// Images, and their files.
+
+namespace goffer::test {
+
+using Rgb = std::vector<std::uint8_t>;  ///< 3 bytes a pixel, rows from top to bottom
+
+inline view::Image image_of(int width, int height, const Rgb& rgb) {
+    view::Image image{width, height, {}};
+    for (std::size_t i = 0; i < rgb.size(); i += 3)
+        image.rgba.insert(image.rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+    return image;
+}
+
+inline std::string png_of(int width, int height, const Rgb& rgb) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB;
+    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+    png_alloc_size_t size = bytes.size();
+    REQUIRE(png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) != 0);
+    bytes.resize(size);
+    return bytes;
+}
+
+/// `channels`: 3, or 1 for gray, or 4 for the colors of print.
+inline std::string jpeg_of(int width, int height, const Rgb& values, int channels = 3,
+                           bool progressive = false) {
+    jpeg_compress_struct info{};
+    jpeg_error_mgr errors{};
+    info.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&info);
+    unsigned char* memory = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&info, &memory, &size);
+    info.image_width = static_cast<JDIMENSION>(width);
+    info.image_height = static_cast<JDIMENSION>(height);
+    info.input_components = channels;
+    info.in_color_space = channels == 3 ? JCS_RGB : channels == 1 ? JCS_GRAYSCALE : JCS_CMYK;
+    jpeg_set_defaults(&info);
+    jpeg_set_quality(&info, 95, TRUE);
+    if (progressive) jpeg_simple_progression(&info);
+    jpeg_start_compress(&info, TRUE);
+    Rgb row(static_cast<std::size_t>(width) * static_cast<std::size_t>(channels));
+    while (info.next_scanline < info.image_height) {
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(info.next_scanline * row.size()), row.size(),
+                    row.begin());
+        unsigned char* first = row.data();
+        jpeg_write_scanlines(&info, &first, 1);
+    }
+    jpeg_finish_compress(&info);
+    std::string bytes(reinterpret_cast<char*>(memory), size);
+    jpeg_destroy_compress(&info);
+    std::free(memory);
+    return bytes;
+}
+
+}  // namespace goffer::test
