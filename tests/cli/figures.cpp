@@ -193,7 +193,8 @@ void check_folds(const Folder& folder) {
                                   std::pair("smooth", paper::Profile::smooth),
                                   std::pair("even", paper::Profile::even)};
     for (std::size_t p = 0; p < profiles.size(); ++p) {
-        const auto& [name, profile] = profiles[p];
+        const std::string name = profiles[p].first;
+        const paper::Profile profile = profiles[p].second;
         CAPTURE(name);
         double squares = 0, worst = 0;
         for (int fold = 0; fold < 12; ++fold) {
