@@ -290,8 +290,8 @@ void check_times(const Folder& folder, const std::string& page) {
         return table.at(first, "milliseconds") + table.at(first + 1, "milliseconds");
     };
     const double steps_total = total(0) + table.at(2, "milliseconds"), kernel_total = total(drawn ? 4 : 3);
-    CHECK(all.at(0, "milliseconds") == doctest::Approx(steps_total).epsilon(0.4));
-    CHECK(all.at(1, "milliseconds") == doctest::Approx(kernel_total).epsilon(0.4));
+    CHECK(std::fabs(all.at(0, "milliseconds") / steps_total - 1) < 0.4);
+    CHECK(std::fabs(all.at(1, "milliseconds") / kernel_total - 1) < 0.4);
     CHECK(all.at(1, "times_as_fast") ==
           doctest::Approx(all.at(0, "milliseconds") / all.at(1, "milliseconds")).epsilon(1e-6));
     for (const std::string name : {"vertices", "instances"}) {

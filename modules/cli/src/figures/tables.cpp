@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdio>
 
 namespace goffer::cli {
@@ -44,7 +45,7 @@ std::string for_people(double value, Shown shown) {
         case Shown::whole:
             return with_commas(formatted("%.0f", value));
         case Shown::change:
-            return formatted("%+.2f", 100 * value) + "&nbsp;%";
+            return std::fabs(value) < 0.5e-4 ? "0.00&nbsp;%" : formatted("%+.2f", 100 * value) + "&nbsp;%";
         case Shown::percent:
             return formatted("%.2f", 100 * value) + "&nbsp;%";
         case Shown::plain:
