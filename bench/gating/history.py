@@ -70,7 +70,7 @@ def draw(path: pathlib.Path) -> pathlib.Path:
     if not panels:
         raise Unmeasured(f"{path} has nothing that is charted")
     if shutil.which("gnuplot") is None:
-        raise Unmeasured("gnuplot is not here: bash .ci/setup bench installs it")
+        raise Unmeasured("gnuplot is not here: bash .ci/setup build installs it")
     data, chart = path.with_suffix(".dat"), path.with_suffix(".svg")
     blocks = ["\n".join(f"{commits.index(commit)} {statistics.median(values):.6g} {min(values):.6g} {max(values):.6g}"
                         for commit, values in of_case.items()) for of_case in panels.values()]

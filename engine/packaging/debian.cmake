@@ -32,6 +32,7 @@ if(TARGET goffer)
   list(APPEND CPACK_COMPONENTS_ALL command)
   set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME goffer)
   set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS gnuplot-nox)  # draws the charts of "goffer figures"
   set(CPACK_DEBIAN_COMMAND_DESCRIPTION "Soft-body crowd deformer: bends models, bakes bodies, times crowds")
 endif()
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)

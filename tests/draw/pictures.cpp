@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/bound_case.hpp"
-#include "support/egl.hpp"
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/bend/kernel_input.hpp>
+#include <goffer/draw/offscreen.hpp>
 #include <goffer/draw/renderer.hpp>
 
 #include <doctest/doctest.h>
@@ -36,39 +36,22 @@ int difference(const Pixel& one, const Pixel& other) {
     return std::max({std::abs(one.r - other.r), std::abs(one.g - other.g), std::abs(one.b - other.b)});
 }
 
-/// Something to draw into, as large as a picture.
-class Target {
-public:
-    Target() {
-        std::array<GLuint, 2> buffers{};
-        glGenRenderbuffers(2, buffers.data());
-        glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, side, side);
-        glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, side, side);
-        GLuint frame = 0;
-        glGenFramebuffers(1, &frame);
-        glBindFramebuffer(GL_FRAMEBUFFER, frame);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
-        REQUIRE(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
-    }
-    [[nodiscard]] static std::vector<Pixel> pixels() {
-        std::vector<Pixel> pixels(std::size_t{side} * side);
-        glReadPixels(0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-        return pixels;
-    }
-};
+std::vector<Pixel> drawn_pixels() {
+    std::vector<Pixel> pixels(std::size_t{side} * side);
+    glReadPixels(0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    return pixels;
+}
 
 /// Runs `check` in a context, unless there is none.
 void in_context(bool embedded, const std::function<void(draw::Renderer&)>& check) {
     std::string why;
-    const EglContext context(embedded, 3, why);
-    if (!why.empty()) {
+    using Api = draw::OffscreenContext::Api;
+    const draw::OffscreenContext context(embedded ? Api::es30 : Api::core33, why);
+    if (!context) {
         MESSAGE("skipped: ", why);
         return;
     }
-    const Target target;
+    const draw::OffscreenTarget target(side, side);
     draw::Renderer renderer;
     check(renderer);
 }
@@ -142,7 +125,7 @@ std::vector<Pixel> picture(draw::Renderer& renderer, const draw::OrbitCamera& ca
     renderer.begin(camera, {0, 0, side, side});
     if (mesh != nullptr) renderer.draw(*mesh, look);
     renderer.end();
-    return Target::pixels();
+    return drawn_pixels();
 }
 
 /// How many pixels differ by more than `most` of 255.
@@ -295,7 +278,7 @@ TEST_CASE("pictures: lines are hidden behind what is in front, points are not") 
             renderer.draw(mesh);
             marks();
             renderer.end();
-            return std::ranges::count_if(Target::pixels(),
+            return std::ranges::count_if(drawn_pixels(),
                                          [](const Pixel& pixel) { return pixel.g > 200 && pixel.r < 60; });
         };
         const auto line_at = [&](const glm::vec3& from) {
@@ -325,7 +308,7 @@ TEST_CASE("pictures: a mesh without instances, and no marks, are nothing to draw
         renderer.draw_lines({});
         renderer.draw_points({}, 5);
         renderer.end();
-        CHECK(Target::pixels() == backdrop);
+        CHECK(drawn_pixels() == backdrop);
     });
 }
 

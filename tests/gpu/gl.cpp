@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl.hpp"
 
-#include "support/egl.hpp"
-
 #include <goffer/bend/kernel_input.hpp>
+#include <goffer/draw/offscreen.hpp>
 #include <goffer/gpu/source.hpp>
 
 #include <epoxy/gl.h>
@@ -143,17 +142,6 @@ void attribute(GLuint location, GLint floats, const gpu::VertexLayout& layout, s
                           reinterpret_cast<const void*>(offset));
 }
 
-/// Something to draw into, without which nothing is drawn: there is no window.
-void set_target() {
-    GLuint pixel = 0, target = 0;
-    glGenRenderbuffers(1, &pixel);
-    glBindRenderbuffer(GL_RENDERBUFFER, pixel);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
-    glGenFramebuffers(1, &target);
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixel);
-}
-
 void set_attributes(const gpu::VertexLayout& layout) {
     attribute(0, 4, layout, layout.column);
     attribute(1, 4, layout, layout.wrinkle);
@@ -182,11 +170,16 @@ void set_texture(GlApi api, std::span<const float> rows) {
                  GL_FLOAT, padded.data());
 }
 
+draw::OffscreenContext::Api context_for(GlApi api) {
+    using Api = draw::OffscreenContext::Api;
+    if (api == GlApi::embedded) return Api::es30;
+    return api == GlApi::compute ? Api::core43 : Api::core33;
+}
+
 class Deformer : public GlDeformer {
 public:
-    Deformer(GlApi api, std::string& why)
-        : context_(api == GlApi::embedded, api == GlApi::compute ? 4 : 3, why), api_(api) {
-        if (why.empty()) program_ = linked(api);
+    Deformer(GlApi api, std::string& why) : context_(context_for(api), why), api_(api) {
+        if (context_) program_ = linked(api);
     }
 
     std::vector<GlVertex> run(std::span<const std::byte> vertices, const gpu::VertexLayout& layout,
@@ -222,7 +215,8 @@ public:
             buffer(GL_ARRAY_BUFFER, vertices.size(), vertices.data());
             set_attributes(layout);
             set_texture(api_, rows);
-            set_target();
+            // Without something to draw into nothing is drawn: there is no window.
+            const draw::OffscreenTarget target_pixel(1, 1);
             glBindBufferBase(target, 0, buffer(target, bytes, nullptr));
             glEnable(GL_RASTERIZER_DISCARD);
             glBeginTransformFeedback(GL_POINTS);
@@ -246,7 +240,7 @@ public:
     }
 
 private:
-    EglContext context_;
+    draw::OffscreenContext context_;
     GlApi api_;
     GLuint program_ = 0;
 };

@@ -2,7 +2,6 @@
 #include "local_area.hpp"
 
 #include <goffer/bend/job.hpp>
-#include <goffer/fit/patches.hpp>
 
 #include <glm/common.hpp>
 
@@ -17,17 +16,6 @@ constexpr double largest_shown = 0.5;
 
 fit::Geometry geometry_of(const BoundModel& model) {
     return {model.rest.positions, model.rest.triangles};
-}
-
-/// The model bent without wrinkles.
-std::vector<glm::vec3> bare(const BoundModel& model, std::span<const bend::Pose> poses) {
-    const bend::Body& body = model.binding.body;
-    std::vector<glm::vec3> positions(body.vertex_count());
-    bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = 0};
-    job.positions = interleaved<3>(&positions.front().x, positions.size());
-    bend::run(job);
-    put_in_model_order(positions, model.binding);
-    return positions;
 }
 
 /// Where a patch is, for a person: slices and sides count from 1, and a side is named by its middle.
@@ -52,13 +40,30 @@ nlohmann::ordered_json numbers(const fit::PatchChange& change, const fit::PatchG
 
 }  // namespace
 
+std::vector<glm::vec3> bent_positions(const BoundModel& model, std::span<const bend::Pose> poses,
+                                      float wrinkle_weight) {
+    const bend::Body& body = model.binding.body;
+    std::vector<glm::vec3> positions(body.vertex_count());
+    bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = wrinkle_weight};
+    job.positions = interleaved<3>(&positions.front().x, positions.size());
+    bend::run(job);
+    put_in_model_order(positions, model.binding);
+    return positions;
+}
+
+LocalArea local_area(const BoundModel& model, std::span<const bend::Pose> poses,
+                     std::span<const glm::vec3> positions) {
+    LocalArea local;
+    const fit::Geometry geometry = geometry_of(model);
+    const std::vector<std::uint32_t> patches = fit::patches_of(geometry, model.cylinder, local.grid);
+    local.bent = fit::patch_change(geometry, positions, patches);
+    local.without_wrinkles = fit::patch_change(geometry, bent_positions(model, poses, 0), patches);
+    return local;
+}
+
 void report_local_area(Report& report, const BoundModel& model, std::span<const bend::Pose> poses,
                        std::span<const glm::vec3> positions) {
-    const fit::PatchGrid grid;
-    const fit::Geometry geometry = geometry_of(model);
-    const std::vector<std::uint32_t> patches = fit::patches_of(geometry, model.cylinder, grid);
-    const fit::PatchChange bent = fit::patch_change(geometry, positions, patches);
-    const fit::PatchChange plain = fit::patch_change(geometry, bare(model, poses), patches);
+    const auto [grid, bent, plain] = local_area(model, poses, positions);
     report.json["local_area_change"] = {{"slices", grid.slices},
                                         {"sides", grid.sides},
                                         {"patches", bent.patches},

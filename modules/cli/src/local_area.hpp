@@ -5,6 +5,7 @@
 #include "report.hpp"
 
 #include <goffer/bend/pose.hpp>
+#include <goffer/fit/patches.hpp>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -15,6 +16,22 @@
 /// What a bend does to the area of a model here and there, in the report and as colors.
 
 namespace goffer::cli {
+
+/// How the areas of patches change, with wrinkles and without.
+struct LocalArea {
+    fit::PatchGrid grid;
+    fit::PatchChange bent, without_wrinkles;
+};
+
+/// Measures that: 12 slices along the body by 4 sides about it. `positions` are those of the bent model, in
+/// the order of model.rest.
+[[nodiscard]] LocalArea local_area(const BoundModel& model, std::span<const bend::Pose> poses,
+                                   std::span<const glm::vec3> positions);
+
+/// The positions of the model bent, with wrinkles of that weight, in the order of model.rest.
+[[nodiscard]] std::vector<glm::vec3> bent_positions(const BoundModel& model,
+                                                    std::span<const bend::Pose> poses,
+                                                    float wrinkle_weight = 1);
 
 /// Says how the areas of patches change, 12 slices along the body by 4 sides about it, and how they would
 /// without wrinkles. `positions` are those of the bent model, in the order of model.rest.

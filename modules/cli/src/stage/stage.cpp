@@ -21,7 +21,6 @@ namespace goffer::cli {
 namespace {
 
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
-constexpr int wall_clock = 2;  // threads, for which measure::now() reads the clock on the wall
 
 draw::Wrap drawn(mesh::Wrap wrap) {
     switch (wrap) {
@@ -116,7 +115,7 @@ bend::Bounds united(const bend::Bounds& one, const bend::Bounds& other) {
 /// Milliseconds of `work`, by the clock on the wall.
 template <class Work>
 double timed(const Work& work) {
-    return 1e-6 * measure::nanoseconds_of(wall_clock, work);
+    return 1e-6 * measure::nanoseconds_of(measure::wall_clock, work);
 }
 
 }  // namespace

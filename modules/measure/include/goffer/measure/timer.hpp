@@ -9,6 +9,9 @@
 
 namespace goffer::measure {
 
+/// In the place of a number of threads: the wall's clock, whoever does the work.
+inline constexpr int wall_clock = 0;
+
 /// Nanoseconds since some time in the past, by the clock for work of `threads` threads: with one, that of
 /// the calling thread (of the wall, where a system has no other). Does not allocate. Thread-safe.
 [[nodiscard]] double now(int threads) noexcept;
