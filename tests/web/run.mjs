@@ -11,6 +11,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser, find_chromium } from "./browser.mjs";
+import { textured_tube } from "./textured_tube.mjs";
 
 // Pictures are kept and compared in the page.
 const helpers = `
@@ -261,6 +262,34 @@ const checks = {
         await page.set(id, value);
       const state = await page.state();
       assert.deepEqual([state.profile, state.amplitude, state.shape], ["damped", "paper", "cylinder"]);
+    });
+  },
+
+  /// A texture shows, each half of it on its half of the body, from both deformers.
+  async texture(options) {
+    const file = join(options.work, "tube.glb");
+    writeFileSync(file, textured_tube());
+    await with_page(options, async (page) => {
+      await page.drop([file]);
+      await page.set("angle", 0);
+      // How much of what is colored is red, left and right of the middle of the colored part.
+      const red = () => page.value(`(() => {
+        take("texture");
+        const { data, width } = pictures.texture, places = [[], []];
+        for (let i = 0; i < data.length; i += 4) {
+          if (Math.abs(data[i] - data[i + 2]) > 60) places[data[i] > data[i + 2] ? 0 : 1].push(i / 4 % width);
+        }
+        const mean = (list) => list.reduce((sum, x) => sum + x, 0) / list.length;
+        return { red: places[0].length, blue: places[1].length, apart: Math.abs(mean(places[0]) - mean(places[1])) / width };
+      })()`);
+      const processor = await red();
+      assert.ok(Math.min(processor.red, processor.blue) > 5000, JSON.stringify(processor));
+      assert.ok(processor.apart > 0.1, JSON.stringify(processor));
+      await page.set("shader", true);
+      const shader = await red();
+      assert.ok(Math.abs(shader.red - processor.red) < 0.02 * processor.red, JSON.stringify([processor, shader]));
+      await page.set("area", true);
+      assert.ok((await red()).blue < 0.1 * processor.blue, "the colors of areas do not replace it");
     });
   },
 
