@@ -8,7 +8,8 @@ const frames_per_second = 60;
 const models = /\.(glb|gltf|obj|ply|stl|goffer)$/i;
 
 let goffer, page, state;
-let region = 0, dirty = true, started = performance.now(), folders = 0;
+const started = performance.now();
+let region = 0, dirty = true, folders = 0, opened;  // opened: the folder that the models on stage lie in
 
 /// Calls a function of page.cpp that returns text; throws what it says is wrong.
 function ask(name, types = [], values = []) {
@@ -163,6 +164,14 @@ function download(blob, name) {
 
 // Files.
 
+/// Forgets what was dropped together.
+function remove(folder) {
+  for (const name of goffer.FS.readdir(folder)) {
+    if (name !== "." && name !== "..") goffer.FS.unlink(`${folder}/${name}`);
+  }
+  goffer.FS.rmdir(folder);
+}
+
 async function open_files(files) {
   const folder = `/opened${folders++}`, wanted = files.filter((file) => models.test(file.name));
   if (wanted.length === 0) return say("There is no model among these: .glb, .gltf, .obj, .ply, .stl or .goffer.", true);
@@ -170,8 +179,15 @@ async function open_files(files) {
   goffer.FS.mkdir(folder);
   files.forEach((file, index) => goffer.FS.writeFile(`${folder}/${file.name}`, new Uint8Array(contents[index])));
   attempt_later("Opening ..", () => {
+    try {
+      state = ask("open", ["string"], [JSON.stringify(wanted.map((file) => `${folder}/${file.name}`))]);
+    } catch (error) {
+      remove(folder);
+      throw error;
+    }
+    if (opened) remove(opened);  // until then a control that binds again reads it
+    opened = folder;
     region = 0;
-    state = ask("open", ["string"], [JSON.stringify(wanted.map((file) => `${folder}/${file.name}`))]);
     tell("look");
   });
 }
@@ -236,6 +252,10 @@ function listen_to_pointers() {
     down.delete(event.pointerId);
     dragged = -1;
   };
+  canvas.addEventListener("webglcontextlost", () => {
+    page = undefined;
+    say("The browser has taken the picture's memory away: load the page again.", true);
+  });
   canvas.oncontextmenu = (event) => event.preventDefault();
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -262,6 +282,7 @@ function draw() {
 }
 
 function draw_on() {
+  if (!page) return;
   if (dirty) {
     try {
       draw();
