@@ -8,13 +8,12 @@
 
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 15000
 
-#include <fast_float/fast_float.h>
-
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <string_view>
+#include <limits>
 #include <system_error>
+#include <type_traits>
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Weverything"
 #include <range/v3/algorithm.hpp>
@@ -109,31 +108,37 @@ template <class To, class From>
     return __builtin_bit_cast(To, from);
 }
 
-inline from_chars_result from_chars(const char* first, const char* last, double& value) {
-    const auto [end, error] = fast_float::from_chars(first, last, value);
-    return {end, error};
-}
-inline from_chars_result from_chars(const char* first, const char* last, float& value) {
-    const auto [end, error] = fast_float::from_chars(first, last, value);
-    return {end, error};
-}
-
 /// The fewest digits that read back as `value`.
-inline to_chars_result to_chars(char* first, char* last, double value, int most = 17) {
-    const auto room = static_cast<size_t>(last - first);
-    for (int digits = 1;; ++digits) {
-        const int length = snprintf(first, room, "%.*g", digits, value);
-        if (length < 0 || static_cast<size_t>(length) >= room) return {last, errc::value_too_large};
-        if (digits == most || strtod(first, nullptr) == value) return {first + length, errc()};
-    }
-}
-inline to_chars_result to_chars(char* first, char* last, float value) {
+template <class Float>
+requires is_floating_point_v<Float> to_chars_result to_chars(char* first, char* last, Float value) {
     const auto room = static_cast<size_t>(last - first);
     for (int digits = 1;; ++digits) {
         const int length = snprintf(first, room, "%.*g", digits, static_cast<double>(value));
         if (length < 0 || static_cast<size_t>(length) >= room) return {last, errc::value_too_large};
-        if (digits == 9 || strtof(first, nullptr) == value) return {first + length, errc()};
+        if (digits == numeric_limits<Float>::max_digits10 ||
+            static_cast<Float>(strtod(first, nullptr)) == value)
+            return {first + length, errc()};
     }
+}
+
+}  // namespace std
+
+#endif
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
+
+#include <fast_float/fast_float.h>
+
+#include <charconv>
+#include <type_traits>
+
+namespace std {
+
+template <class Float>
+requires is_floating_point_v<Float> from_chars_result from_chars(const char* first, const char* last,
+                                                                 Float& value) {
+    const auto [end, error] = fast_float::from_chars(first, last, value);
+    return {end, error};
 }
 
 }  // namespace std

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The controls of the page. What is drawn, and how, is in page.cpp.
+// The controls of the page. What is drawn, and how, is in page.hpp.
 "use strict";
 
 const at = (id) => document.getElementById(id);
@@ -9,10 +9,18 @@ const models = /\.(glb|gltf|obj|ply|stl|goffer)$/i;
 
 let goffer, page, state;
 const started = performance.now();
-let region = 0, dirty = true, folders = 0, opened;  // opened: the folder that the models on stage lie in
+let region = 0, dirty = true, waiting = 0, folders = 0, failed = false, opened;  // opened: the folder that the models on stage lie in
 
-/// Calls a function of page.cpp that returns text; throws what it says is wrong.
+/// After what there is no way back from.
+function give_up(text) {
+  page = undefined;
+  at("panel").inert = true;
+  say(text, true);
+}
+
+/// Calls a function of exports.cpp that returns text; throws what it says is wrong.
 function ask(name, types = [], values = []) {
+  if (!page) throw new Error("load the page again");
   const answer = JSON.parse(goffer.ccall("goffer_page_" + name, "string", ["number", ...types], [page, ...values]));
   dirty = true;
   if (answer.error) throw new Error(answer.error);
@@ -20,21 +28,24 @@ function ask(name, types = [], values = []) {
 }
 
 function tell(name, ...values) {
+  if (!page) return;
   goffer.ccall("goffer_page_" + name, null, ["number", ...values.map(() => "number")], [page, ...values]);
   dirty = true;
 }
 
 function say(text, failed = false) {
-  at("message").textContent = text;
+  at("message").textContent = text.replaceAll(/\/opened\d+\//g, "");  // where dropped files are kept
   at("message").classList.toggle("failed", failed);
 }
 
 /// Does what may fail; says so where it does, and has the controls show what is.
 function attempt(work) {
+  if (!page) return;
   try {
     say("");
     work();
   } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) return give_up(`goffer has failed (${error.message}): load the page again.`);
     say(error.message, true);
     state = ask("state");
   }
@@ -43,20 +54,27 @@ function attempt(work) {
 
 /// The same for what takes long: the page says so first.
 function attempt_later(text, work) {
+  ++waiting;
   document.body.classList.add("busy");
   say(text);
   requestAnimationFrame(() => setTimeout(() => {
     attempt(work);
-    document.body.classList.remove("busy");
+    if (--waiting === 0) document.body.classList.remove("busy");
   }));
 }
 
 const degrees = (value) => `${Math.round(10 * value) / 10}°`;
 
+const is_automatic = (input) => input.dataset.auto !== undefined && Number(input.value) <= Number(input.dataset.auto);
+
+/// What a control that binds is set to, as exports.cpp takes it.
+function value_of(input) {
+  if (input.type !== "range") return input.value;
+  return Number(is_automatic(input) ? input.dataset.autoValue : input.value);
+}
+
 function show_automatic(input) {
-  const automatic = input.dataset.auto !== undefined && Number(input.value) <= Number(input.dataset.auto);
-  const output = document.querySelector(`output[for=${input.id}]`);
-  output.textContent = automatic ? "auto" : input.value;
+  document.querySelector(`output[for=${input.id}]`).textContent = is_automatic(input) ? "auto" : input.value;
 }
 
 function show_state() {
@@ -81,6 +99,7 @@ function show_state() {
   at("folds").value = state.folds;
   at("fold_length").value = state.fold_length > 0 ? state.fold_length : at("fold_length").min;
   at("instances").value = state.instances;
+  at("shader").checked = state.shader;
   all("input[data-bind]").forEach(show_automatic);
   document.querySelector("output[for=instances]").textContent = state.instances || "one body";
   at("area_hint").hidden = !at("area").checked;
@@ -90,6 +109,13 @@ function show_state() {
   show_tabs();
 }
 
+/// Has the sliders be about a region.
+function choose(index) {
+  region = index;
+  const { angle, direction } = state.regions[index];
+  attempt(() => { state = ask("bend", ["number", "number", "number"], [index, angle, direction]); });
+}
+
 function show_tabs() {
   at("tabs").hidden = state.regions.length < 2;
   at("tabs").replaceChildren(...state.regions.map((_, index) => {
@@ -97,11 +123,7 @@ function show_tabs() {
     button.textContent = index + 1;
     button.title = `Region ${index + 1}, counted from the base`;
     button.setAttribute("aria-pressed", index === region);
-    button.onclick = () => {
-      region = index;
-      const { angle, direction } = state.regions[index];
-      attempt(() => { state = ask("bend", ["number", "number", "number"], [region, angle, direction]); });
-    };
+    button.onclick = () => choose(index);
     return button;
   }));
 }
@@ -117,12 +139,10 @@ function listen_to_panel() {
   }
   for (const input of all("[data-bind]")) {
     input.oninput = () => { if (input.type === "range") show_automatic(input); };
-    input.onchange = () => attempt_later("Binding ..", () => {
-      const automatic = input.dataset.auto !== undefined && Number(input.value) <= Number(input.dataset.auto);
-      const value = input.type !== "range" ? input.value
-        : automatic ? Number(input.dataset.autoValue) : Number(input.value);
-      state = ask("bind", ["string"], [JSON.stringify({ [input.id]: value })]);
-    });
+    input.onchange = () => {
+      const words = JSON.stringify({ [input.id]: value_of(input) });
+      attempt_later("Binding ..", () => { state = ask("bind", ["string"], [words]); });
+    };
   }
   for (const input of all("[data-show]")) {
     input.onchange = () => attempt(() => {
@@ -135,7 +155,7 @@ function listen_to_panel() {
     state = ask("crowd", ["number"], [crowd]);
   });
   at("animated").onchange = () => { dirty = true; };
-  at("look").onclick = () => tell("look");
+  at("look").onclick = () => attempt(() => { state = ask("look"); });
   at("open").onclick = () => at("files").click();
   at("files").onchange = () => { open_files([...at("files").files]); at("files").value = ""; };
   at("save").onclick = () => attempt(() => {
@@ -150,6 +170,7 @@ function listen_to_panel() {
   });
   at("copy").onclick = () => attempt(() => {
     const { command } = ask("command");
+    if (!navigator.clipboard) return say(command);  // as on pages without https
     navigator.clipboard.writeText(command).then(() => say("The command is in the clipboard."), () => say(command));
   });
 }
@@ -175,9 +196,14 @@ function remove(folder) {
 async function open_files(files) {
   const folder = `/opened${folders++}`, wanted = files.filter((file) => models.test(file.name));
   if (wanted.length === 0) return say("There is no model among these: .glb, .gltf, .obj, .ply, .stl or .goffer.", true);
-  const contents = await Promise.all(files.map((file) => file.arrayBuffer()));
-  goffer.FS.mkdir(folder);
-  files.forEach((file, index) => goffer.FS.writeFile(`${folder}/${file.name}`, new Uint8Array(contents[index])));
+  try {
+    const contents = await Promise.all(files.map((file) => file.arrayBuffer()));
+    goffer.FS.mkdir(folder);
+    files.forEach((file, index) => goffer.FS.writeFile(`${folder}/${file.name}`, new Uint8Array(contents[index])));
+  } catch (error) {
+    if (goffer.FS.analyzePath(folder).exists) remove(folder);
+    return say(`These cannot be read: ${error.message ?? error}`, true);
+  }
   attempt_later("Opening ..", () => {
     try {
       state = ask("open", ["string"], [JSON.stringify(wanted.map((file) => `${folder}/${file.name}`))]);
@@ -188,7 +214,7 @@ async function open_files(files) {
     if (opened) remove(opened);  // until then a control that binds again reads it
     opened = folder;
     region = 0;
-    tell("look");
+    state = ask("look");
   });
 }
 
@@ -201,66 +227,6 @@ function listen_to_drops() {
     marked(false);
     open_files([...event.dataTransfer.files]);
   };
-}
-
-// The mouse, pens and fingers.
-
-function listen_to_pointers() {
-  const canvas = at("canvas"), down = new Map();
-  let dragged = -1, apart = 0;
-  const place = (event) => {
-    const box = canvas.getBoundingClientRect();
-    return [2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height];
-  };
-  const distance = () => {
-    const [a, b] = [...down.values()];
-    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
-  };
-  canvas.onpointerdown = (event) => {
-    if (!page) return;
-    canvas.setPointerCapture(event.pointerId);
-    down.set(event.pointerId, event);
-    if (down.size === 2) {
-      apart = distance();
-      dragged = -1;
-    } else if (down.size === 1 && event.button === 0 && !event.shiftKey && !at("animated").checked) {
-      const reach = (event.pointerType === "touch" ? 60 : 30) / canvas.clientHeight;
-      dragged = goffer.ccall("goffer_page_end_at", "number", ["number", "number", "number", "number"],
-                             [page, ...place(event), reach]);
-      if (dragged >= 0) region = dragged;
-    }
-  };
-  canvas.onpointermove = (event) => {
-    const before = down.get(event.pointerId);
-    if (!before) return;
-    down.set(event.pointerId, event);
-    const x = (event.clientX - before.clientX) / canvas.clientHeight, y = (event.clientY - before.clientY) / canvas.clientHeight;
-    if (dragged >= 0) {
-      attempt(() => { state = ask("drag", ["number", "number", "number"], [dragged, ...place(event)]); });
-    } else if (down.size === 2) {
-      const now = distance();
-      tell("zoom", apart / now);
-      apart = now;
-      tell("pan", x, -y);
-    } else if (event.shiftKey || (event.buttons & 6)) {
-      tell("pan", 2 * x, -2 * y);
-    } else {
-      tell("orbit", -Math.PI * x, Math.PI * y);
-    }
-  };
-  canvas.onpointerup = canvas.onpointercancel = (event) => {
-    down.delete(event.pointerId);
-    dragged = -1;
-  };
-  canvas.addEventListener("webglcontextlost", () => {
-    page = undefined;
-    say("The browser has taken the picture's memory away: load the page again.", true);
-  });
-  canvas.oncontextmenu = (event) => event.preventDefault();
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    if (page) tell("zoom", Math.pow(1.0015, event.deltaY));
-  }, { passive: false });
 }
 
 // Pictures.
@@ -281,24 +247,36 @@ function draw() {
     `, upload ${milliseconds(times.upload)}`;
 }
 
+/// Where it fails, page.hpp shows less from then on; where that fails too, nothing is drawn until something changes.
+function attempt_to_draw() {
+  const again = !failed;
+  try {
+    draw();
+    failed = false;
+  } catch (error) {
+    failed = true;
+    attempt(() => { throw error; });
+    dirty = again;
+  }
+}
+
 function draw_on() {
   if (!page) return;
   if (dirty) {
-    try {
-      draw();
-    } catch (error) {
-      dirty = false;
-      say(error.message, true);
-    }
+    dirty = false;
+    attempt_to_draw();
   }
   requestAnimationFrame(draw_on);
 }
 
 makeGoffer().then((module) => {
   goffer = module;
-  page = goffer.ccall("goffer_page_make", "number", ["string"], ["#canvas"]);
-  if (page === 0) return say("This browser has no WebGL 2: try a newer one, or another device.", true);
-  state = ask("state");
+  page = goffer.ccall("goffer_page_make", "number", [], []);
+  try {
+    state = ask("start", ["string"], ["#canvas"]);
+  } catch (error) {
+    return give_up(`goffer could not be started: ${error.message}`);
+  }
   listen_to_panel();
   listen_to_drops();
   listen_to_pointers();

@@ -138,7 +138,7 @@ TEST_CASE("textures: an image that is broken is warned of, where a picture is wa
         return of.value("warnings", nlohmann::json::array());
     };
     CHECK(warnings(said).size() == warnings(quiet).size() + 1);
-    CHECK(warnings(said).dump().find("a texture is not shown: the PNG is broken") != std::string::npos);
+    CHECK(warnings(said).dump().find("is not shown: the PNG is broken") != std::string::npos);
     const auto seen = seen_in(folder / "out.png");
     CHECK(seen[2].count == 0);
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 /// Images that come from anybody.
 
@@ -133,4 +134,26 @@ TEST_CASE("images: copies of half the size have the mean by area, in linear ligh
     CHECK(five.levels()[2].rgba[0] == 204);  // three fifths, of rounded halves
     CHECK_THROWS_AS(view::MipMap(view::Image{}), view::Error);
     CHECK_THROWS_AS(view::MipMap(view::Image{2, 2, std::vector<std::uint8_t>(15)}), view::Error);
+}
+
+// A pixel of 16 bits a color, half as large as can be; and one of 8 with a gAMA of 1. Both are sRGB, as glTF
+// has it.
+TEST_CASE("images: the numbers of a PNG are sRGB, whatever it says of its colors") {
+    constexpr char wide[] =
+        "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x01"
+        "\x00\x00\x00\x01\x10\x02\x00\x00\x00\xc0\xe7\x8f\x9d\x00\x00\x00\x0b\x49\x44\x41"
+        "\x54\x78\xda\x63\x68\x00\x03\x00\x0a\x87\x03\x01\x57\x62\x68\x81\x00\x00\x00\x00"
+        "\x49\x45\x4e\x44\xae\x42\x60\x82";
+    constexpr char told[] =
+        "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x01"
+        "\x00\x00\x00\x01\x08\x02\x00\x00\x00\x90\x77\x53\xde\x00\x00\x00\x04\x67\x41\x4d"
+        "\x41\x00\x01\x86\xa0\x31\xe8\x96\x5f\x00\x00\x00\x0c\x49\x44\x41\x54\x78\xda\x63"
+        "\x68\x68\x68\x00\x00\x03\x04\x01\x81\x75\x2e\x01\xbc\x00\x00\x00\x00\x49\x45\x4e"
+        "\x44\xae\x42\x60\x82";
+    for (const std::string_view png :
+         {std::string_view(wide, sizeof wide - 1), std::string_view(told, sizeof told - 1)}) {
+        const view::Image image = view::decode_image(png);
+        REQUIRE(image.rgba.size() == 4);
+        for (int c = 0; c < 3; ++c) CHECK(int{image.rgba[static_cast<std::size_t>(c)]} == 0x80);
+    }
 }

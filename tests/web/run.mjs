@@ -244,7 +244,7 @@ const checks = {
       await page.drop([join(options.models, "fuze.ply")]);
       assert.equal((await page.state()).name, "fuze.ply");
       await page.value("take('fuze')");
-      await page.value("tell('look')");
+      await page.value("state = ask('look')");
       await page.set("angle", 45);
       await page.value("take('less')");
       assert.ok(await page.value("difference('fuze', 'less')") > 0.02);
@@ -262,6 +262,31 @@ const checks = {
         await page.set(id, value);
       const state = await page.state();
       assert.deepEqual([state.profile, state.amplitude, state.shape], ["damped", "paper", "cylinder"]);
+    });
+  },
+
+  /// A crowd that memory does not hold is refused in words, and what was there stays; so with a lost context.
+  async limits(options) {
+    const large = join(options.work, "large.glb");
+    execFileSync(options.goffer, ["base", "--length", "20", "--radius", "1", "--columns", "400", "--rows", "1000", "--caps", "-o", large]);
+    await with_page(options, async (page) => {
+      await page.set("instances", 500);
+      await page.drop([large]);
+      assert.match(await page.value("at('message').textContent"), /GB of memory/);
+      assert.equal((await page.state()).name, "caterpillar.glb");
+      await page.set("profile", "damped");  // from the file that was there
+      await page.set("instances", 0);
+      await page.drop([large]);
+      assert.equal((await page.state()).name, "large.glb");
+      await page.value("set('instances', 500)");
+      assert.match(await page.value("at('message').textContent"), /GB of memory/);
+      assert.equal((await page.state()).instances, 0);
+      await page.value("take('one')");
+      assert.deepEqual(await page.value("goffer.FS.readdir('/').filter((name) => name.startsWith('opened'))"), ["opened1"]);
+      await page.value("at('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()");
+      await page.browser.until("at('panel').inert");
+      assert.match(await page.value("at('message').textContent"), /load the page again/);
+      await page.value("set('angle', 10)");
     });
   },
 

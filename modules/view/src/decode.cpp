@@ -4,20 +4,40 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace goffer::view {
 
-void check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
-    const std::uint64_t most = std::min(most_pixels, most_image_pixels);
-    if (width < 1 || height < 1) throw Error("the image has no pixels; export it again");
-    if (std::max(width, height) > largest_image_side || width * height > most)
-        throw Error("the image is " + std::to_string(width) + " x " + std::to_string(height) +
-                    " pixels; make it no more than " + std::to_string(largest_image_side) + " a side, and " +
-                    std::to_string(most) + " in all");
+namespace {
+
+std::uint32_t big_endian(std::string_view four) {
+    std::uint32_t value = 0;
+    for (const char byte : four) value = value << 8 | static_cast<unsigned char>(byte);
+    return value;
 }
 
-Image decode_png(std::string_view bytes, std::uint64_t most_pixels) {
+/// A PNG less what says which colors its numbers stand for: as glTF has it, they are sRGB.
+std::string without_color_spaces(std::string_view bytes) {
+    constexpr std::array<std::string_view, 5> told{"gAMA", "cHRM", "sRGB", "iCCP", "cICP"};
+    constexpr std::size_t signature = 8, frame = 12;  // a chunk's length, its name and its checksum
+    std::string out(bytes.substr(0, signature));
+    for (std::size_t at = signature; at < bytes.size();) {
+        const std::string_view rest = bytes.substr(at);
+        const std::size_t length =
+            rest.size() < frame ? rest.size()
+                                : std::min<std::size_t>(rest.size(), frame + big_endian(rest.substr(0, 4)));
+        if (rest.size() < frame || std::ranges::find(told, rest.substr(4, 4)) == told.end())
+            out += rest.substr(0, length);
+        at += length;
+    }
+    return out;
+}
+
+}  // namespace
+
+Image decode_png(std::string_view file, std::uint64_t most_pixels) {
+    const std::string bytes = without_color_spaces(file);
     png_image header{};
     header.version = PNG_IMAGE_VERSION;
     // Of what it has taken, png_image_finish_read() frees all, and so does png_image_begin_.. where it fails.
@@ -31,6 +51,7 @@ Image decode_png(std::string_view bytes, std::uint64_t most_pixels) {
         image.width = static_cast<int>(header.width);
         image.height = static_cast<int>(header.height);
         header.format = PNG_FORMAT_RGBA;
+        header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
         image.rgba.resize(PNG_IMAGE_SIZE(header));
     } catch (...) {
         png_image_free(&header);

@@ -96,6 +96,7 @@ Image halved(const Image& large, const MipMap& mip_map, const Encoder& encode) {
 
 /// A coordinate as one of the image's own, far from where integers end.
 float brought_near(float value, Wrap wrap) {
+    if (!std::isfinite(value)) return 0;
     switch (wrap) {
         case Wrap::repeat:
             return value - std::floor(value);
@@ -174,6 +175,8 @@ glm::vec3 texture_color(const Texture& texture, Footprint over) {
         if (!finite(*vector)) *vector = glm::vec2(0);
     const Image& image = texture.image->levels()[0];
     const glm::vec2 size(image.width, image.height);
+    for (glm::vec2* const vector : {&over.across, &over.up})
+        if (!std::isfinite(glm::length(size * *vector))) *vector = glm::vec2(0);
     if (glm::length(size * over.across) < glm::length(size * over.up)) std::swap(over.across, over.up);
     const float longer = glm::length(size * over.across), shorter = glm::length(size * over.up);
     const float probes = std::clamp(std::ceil(longer / std::max(shorter, 1.0f)), 1.0f, most_probes);

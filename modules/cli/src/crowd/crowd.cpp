@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <numbers>
 
@@ -64,8 +65,10 @@ std::vector<measure::CrowdGroup> groups_of(std::span<const BoundModel> models, s
 Columns memory_for(std::span<const BoundModel> models, const CrowdPlan& plan) {
     const std::size_t vertices = measure::vertex_count(groups_of(models, plan.instances));
     const std::uint64_t bytes =
-        vertices * plan.layout.footprint() * sizeof(float) +
-        plan.instances * (sizeof(glm::mat4x3) + plan.poses.size() * sizeof(bend::Pose));
+        std::uint64_t{vertices} * plan.layout.footprint() * sizeof(float) +
+        std::uint64_t{plan.instances} * (sizeof(glm::mat4x3) + plan.poses.size() * sizeof(bend::Pose));
+    constexpr std::uint64_t most = std::numeric_limits<std::ptrdiff_t>::max();
+    if (bytes > most) refuse(plan, bytes, ", more than a program can have");
     if (const auto free = free_memory(); free && bytes > *free) {
         refuse(plan, bytes, ", and " + number(static_cast<double>(*free) / 1e9) + " GB are free");
     }

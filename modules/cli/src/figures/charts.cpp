@@ -5,16 +5,19 @@
 
 #include <goffer/io/error.hpp>
 
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <thread>
 
 extern char** environ;  // NOLINT: POSIX has it in no header
 
@@ -64,6 +67,9 @@ struct Output {
     std::string out, err;
 };
 
+/// It takes less than a second.
+constexpr std::chrono::seconds longest_chart(60);
+
 /// Runs gnuplot with `input` as its standard input. Throws InputError where it is not there.
 Output run_gnuplot(const std::string& input) {
     const File in = unnamed_file(), out = unnamed_file(), err = unnamed_file();
@@ -84,12 +90,19 @@ Output run_gnuplot(const std::string& input) {
                          "; install it (Debian's package gnuplot-nox), or go without charts by --no-charts");
     }
     int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+    using namespace std::chrono_literals;
+    const auto end = std::chrono::steady_clock::now() + longest_chart;
+    while (waitpid(process, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > end) (void)kill(process, SIGKILL);
+        std::this_thread::sleep_for(5ms);
+    }
     return {WIFEXITED(status) && WEXITSTATUS(status) == 0, contents(out.get()), contents(err.get())};
 }
 
 [[noreturn]] void refuse(const std::string& what, const Output& output) {
-    throw InputError("gnuplot does not draw " + what + ": " + io::one_line(output.err.substr(0, 300)) +
+    const std::string words = io::one_line(output.err.substr(0, 300));
+    throw InputError("gnuplot does not draw " + what + ": " +
+                     (words.empty() ? "it does not say why" : words) +
                      "; version 5.4 or newer is needed, or go without charts by --no-charts");
 }
 
@@ -112,9 +125,9 @@ void check_gnuplot() {
 }
 
 std::string chart_script(const Figure& figure) {
-    return "# " + figure.title + "\n#   gnuplot " + figure.name + ".gp\n" + std::string(settings) +
-           "if (!exists(\"data\")) data = \"" + figure.name + ".csv\"; set output \"" + figure.name +
-           ".svg\"\n" + figure.script;
+    return "# " + io::one_line(figure.title) + "\n#   gnuplot " + figure.name + ".gp\n" +
+           std::string(settings) + "if (!exists(\"data\")) data = \"" + figure.name +
+           ".csv\"; set output \"" + figure.name + ".svg\"\n" + figure.script;
 }
 
 std::string drawn_chart(const Figure& figure) {
@@ -122,7 +135,8 @@ std::string drawn_chart(const Figure& figure) {
     // all are.
     const Output output = run_gnuplot("$table << end_of_table\n" + figure.table.csv() +
                                       "end_of_table\ndata = \"$table\"\n" + chart_script(figure));
-    if (!output.good || !output.out.starts_with("<?xml")) refuse(figure.name, output);
+    if (!output.good || !output.out.starts_with("<?xml") || output.out.find("</svg>") == std::string::npos)
+        refuse(figure.name, output);
     return output.out;
 }
 

@@ -51,6 +51,15 @@ void check_words(const FiguresOptions& options) {
     std::vector<NamedFile> inputs;
     for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
     check_places(inputs, {{"-o", options.folder / "index.html"}, {"--json", options.json}});
+    const auto place = [](const std::filesystem::path& path) {
+        std::error_code error;
+        return std::filesystem::weakly_canonical(path / "", error).parent_path();
+    };
+    if (options.json.empty() || options.json == "-") return;
+    if (place(options.json) == place(options.folder) ||
+        place(options.json).parent_path() == place(options.folder))
+        throw UsageError("--json: '" + options.json.string() +
+                         "' lies in the page's folder; give it another place");
 }
 
 /// The model by one of the two methods. Says what there is to warn of, for the largest angle of its pictures.
@@ -163,15 +172,19 @@ void run_figures(const FiguresOptions& options) {
     report.json["charts"] = !options.no_charts;
     report.json["machine"] = machine.json();
     report.json["seconds"] = 1e-9 * nanoseconds;
-    for (const Figure& figure : figures)
-        report_figure(report, figure, write_figure(workshop, figure, !options.no_charts));
+    std::vector<std::string> names{"index.html", "machine.csv"};
+    for (const Figure& figure : figures) {
+        const std::vector<std::string> written = write_figure(workshop, figure, !options.no_charts);
+        names.insert(names.end(), written.begin(), written.end());
+        report_figure(report, figure, written);
+    }
     files.add(folder.path() / "machine.csv").write(machine.csv());
     const PageFacts facts{names_of(options.models), options.quick, !options.no_charts, &machine};
     files.add(folder.path() / "index.html").write(page_text(figures, facts));
     report.line("time", number(1e-9 * nanoseconds) + " s");
     report.line("page", (folder.path() / "index.html").string());
     report.finish(files);
-    folder.keep();
+    folder.keep(names);
 }
 
 }  // namespace

@@ -41,7 +41,6 @@ struct Figure {
 
 /// How much is done.
 struct FigurePlan {
-    bool quick = false;
     std::vector<double> grid_angles{45, 90, 135, 180};  ///< degrees, of Figures 5 and 6
     std::vector<double> model_angles{30, 60, 90};       ///< degrees from the rest pose
     std::size_t area_samples = 25;
@@ -51,8 +50,7 @@ struct FigurePlan {
     double seconds = 0.1;  ///< at least, for each time of the last figures
 
     [[nodiscard]] static FigurePlan sparing() {
-        return {.quick = true,
-                .grid_angles = {90},
+        return {.grid_angles = {90},
                 .model_angles = {60},
                 .area_samples = 5,
                 .runs = 3,

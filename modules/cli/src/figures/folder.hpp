@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,11 +24,15 @@ public:
     ~PageFolder();
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    void keep() noexcept { made_.clear(); }
+    /// Leaves the folder as it is, but for files that an earlier page shows and that are none of `files`.
+    void keep(const std::vector<std::string>& files);
 
 private:
+    void remove_made() noexcept;
+
     std::filesystem::path path_;
     std::vector<std::filesystem::path> made_;  // the innermost first
+    std::vector<std::string> earlier_;         // files of the page that was there
 };
 
 }  // namespace goffer::cli

@@ -71,10 +71,6 @@ double Table::number(std::size_t row, std::string_view column) const {
     return std::get<double>(at(row, column));
 }
 
-std::string Table::text(std::size_t row, std::string_view column) const {
-    return text_of(at(row, column));
-}
-
 std::string Table::csv() const {
     std::string text;
     const auto line = [&](const auto& cells, const auto& words) {

@@ -29,8 +29,6 @@ public:
     [[nodiscard]] const Cell& at(std::size_t row, std::string_view column) const;
     /// Such a cell, which must be a number.
     [[nodiscard]] double number(std::size_t row, std::string_view column) const;
-    /// Such a cell as its CSV has it, less quotation marks: numbers with nine digits.
-    [[nodiscard]] std::string text(std::size_t row, std::string_view column) const;
 
     /// RFC 4180, but for lines that end as Unix has them: the columns' names, and a line for each row.
     [[nodiscard]] std::string csv() const;

@@ -287,10 +287,14 @@ Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<co
 void ObjReader::find_textures(const std::filesystem::path& library,
                               std::span<const tinyobj::material_t> materials) {
     const NamedFiles files(library, options_.allow_outside);
+    std::set<std::string> outside;
     for (const tinyobj::material_t& material : materials) {
         const std::string name = with_slashes(material.diffuse_texname);
         std::error_code error;
         const auto place = name.empty() ? std::nullopt : files.find(name);
+        if (!name.empty() && !place && outside.insert(name).second)
+            mesh_.warnings.push_back("a texture is not looked at: " + io::about(library, "names ") +
+                                     mesh::quoted(name) + NamedFiles::outside);
         if (place && images_.find(*place) == images_.end() && std::filesystem::is_regular_file(*place, error))
             images_.emplace(*place, image_in(*place, options_.limits));
         const auto image = place ? images_.find(*place) : images_.end();

@@ -32,6 +32,7 @@ inline constexpr std::uint64_t largest_image_side = 16384, most_image_pixels = s
 /// and a JPEG whose parts come in turns (progressive) as much again or more. Thread-safe.
 ///
 /// Throws Error if it is neither, broken, cut off or larger, or a JPEG in the colors of print (CMYK).
+/// In browsers, what is missing of a JPEG is gray instead, and those of print are shown.
 [[nodiscard]] Image decode_image(std::string_view bytes, std::uint64_t most_pixels = most_image_pixels);
 
 }  // namespace goffer::view
