@@ -106,6 +106,7 @@ function show_state() {
   at("wrinkles").hidden = state.baked;
   at("regions").disabled = state.baked;
   for (const input of all("input[data-one]")) input.disabled = state.instances > 0;
+  at("base").disabled ||= state.baked;  // a body file does not say what its body was bound to
   show_tabs();
 }
 

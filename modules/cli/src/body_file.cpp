@@ -118,6 +118,8 @@ BoundModel baked_model(const std::filesystem::path& file, bend::BodyFile loaded,
     model.rest = mesh::vertex_arrays(model.mesh);
     model.cylinder = cylinder_of(level.body);
     model.baked = true;
+    for (const bend::NamedSocket& socket : loaded.sockets)
+        model.sockets.push_back({std::string(socket.name), socket.socket});
     Notes notes = read_notes(loaded);
     notes.regions.resize(wanted);
     for (std::size_t r = 0; r < wanted; ++r) {

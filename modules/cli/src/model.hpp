@@ -5,6 +5,7 @@
 #include "refine.hpp"
 #include "report.hpp"
 
+#include <goffer/bend/socket.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/paper/base.hpp>
@@ -69,6 +70,12 @@ struct BindRequest {
     explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
 };
 
+/// A socket of a body file.
+struct FileSocket {
+    std::string name;
+    bend::Socket socket;
+};
+
 /// A model read, fitted, refined where that was asked for, and bound. Vertex i of the body is record
 /// binding.order[i], or i where that is empty.
 struct BoundModel {
@@ -81,6 +88,7 @@ struct BoundModel {
     /// It comes from a body file: of its binding only the body, its cylinder without radii, and the regions'
     /// lengths and folds are there; of its mesh what is drawn.
     bool baked = false;
+    std::vector<FileSocket> sockets = {};
 };
 
 /// The arrays as fit reads them. They must outlive the geometry.

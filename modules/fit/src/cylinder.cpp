@@ -175,7 +175,7 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     std::optional<Fitted> found;
     if (rest == RestPose::automatic) found = arc_instead(body, principal, best, axis);
     if (!found) found = measured(body, axis ? line : best);
-    const Cylinder cylinder = cylinder_of(body, toward(axis, *found));
+    Cylinder cylinder = cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);
     return cylinder;
 }

@@ -29,16 +29,18 @@ float encoded(float c) {
 class Encoder {
 public:
     Encoder() {
-        for (std::size_t i = 0; i < bytes_.size(); ++i)
-            bytes_[i] = static_cast<std::uint8_t>(255 * encoded(static_cast<float>(i) / steps) + 0.5f);
+        for (std::size_t i = 0; i < bytes_.size(); ++i) {
+            const float middle = (static_cast<float>(i) + 0.5f) / static_cast<float>(bytes_.size());
+            bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * encoded(middle)));
+        }
     }
     std::uint8_t operator()(float linear) const {
-        return bytes_[static_cast<std::size_t>(std::min(linear, 1.0f) * steps + 0.5f)];
+        return bytes_[std::min(static_cast<std::size_t>(linear * static_cast<float>(bytes_.size())),
+                               bytes_.size() - 1)];
     }
 
 private:
-    static constexpr int steps = 4095;
-    std::array<std::uint8_t, steps + 1> bytes_{};
+    std::array<std::uint8_t, 4096> bytes_{};
 };
 
 const std::uint8_t* texel(const Image& image, int x, int y) {
@@ -88,7 +90,7 @@ Image halved(const Image& large, const MipMap& mip_map, const Encoder& encode) {
         for (int x = 0; x < small.width; ++x, out += 4) {
             const glm::vec4 color = mean(large, mip_map, Share(x, small.width, large.width), rows);
             for (int c = 0; c < 3; ++c) out[c] = encode(color[c]);
-            out[3] = static_cast<std::uint8_t>(color.a + 0.5f);
+            out[3] = static_cast<std::uint8_t>(std::lround(color.a));
         }
     });
     return small;

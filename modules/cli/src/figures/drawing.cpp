@@ -59,6 +59,7 @@ std::optional<std::vector<double>> drawing_times(const bend::Body& body,
     };
     (void)frames_take(warm_up);
     std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(runs));
     for (int run = 0; run < runs; ++run) times.push_back(frames_take(frames));
     return times;
 } catch (const draw::Error& error) {

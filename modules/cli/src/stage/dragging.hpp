@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-/// Regions that are bent by dragging their ends. `frames` are those of Rig::frames().
+/// Regions that are bent by dragging their ends. `frames` are those of Frames::regions().
 
 namespace goffer::cli {
 

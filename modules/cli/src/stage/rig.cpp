@@ -7,7 +7,6 @@
 #include <goffer/paper/shape.hpp>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,12 +40,10 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
     std::vector<double> heights;
     double start = 0;
     for (const fit::RegionBinding& region : model.binding.regions) {
-        rig.borders_.push_back(heights.size());
         for (std::uint32_t i = 0; i < rows_of_region; ++i)
             heights.push_back(start + region.length * i / rows_of_region);
         start += region.length;
     }
-    rig.borders_.push_back(heights.size());
     heights.push_back(cylinder.length);
     rig.rows_ = heights.size();
     const auto rows = static_cast<std::uint32_t>(rig.rows_);
@@ -70,7 +67,6 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
         return std::nullopt;  // outside bend::WorkingRange
     }
     rig.bent_.resize(positions.size());
-    rig.frames_.resize(rig.borders_.size());
     return rig;
 }
 
@@ -84,13 +80,6 @@ void Rig::set(std::span<const bend::Pose> poses) {
     job.poses = poses;
     job.positions = interleaved<3>(&bent_.front().x, bent_.size());
     bend::run(job);
-    for (std::size_t i = 0; i < borders_.size(); ++i) {  // there is no wrinkle at a region's end
-        glm::vec3 center(0);
-        for (std::size_t c = 0; c < columns; ++c) center += at(borders_[i], c) / static_cast<float>(columns);
-        const glm::vec3 e1 = glm::normalize(at(borders_[i], 0) - center);
-        const glm::vec3 e2 = glm::normalize(at(borders_[i], columns / 4) - center);
-        frames_[i] = glm::mat4x3(e1, e2, glm::cross(e1, e2), center);
-    }
 }
 
 std::vector<draw::Mark> Rig::lines() const {

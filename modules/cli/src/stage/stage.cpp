@@ -126,6 +126,7 @@ Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
         meshes_.push_back(drawn_mesh(loaded_->models[i], loaded_->textures[i], i));
     loaded_->textures.clear();  // they are where they are drawn from
     rig_ = Rig::make(first);
+    frames_.emplace(first);
     poses_ = first.binding.body.rest_poses();
     vertices_.resize(first.binding.body.vertex_count());
     batch_.body = &first.binding.body;
@@ -164,6 +165,7 @@ void Stage::pose(std::span<const bend::Pose> poses, std::size_t frame) {
         crowd_->set_poses(frame);
     }
     if (rig_ && !crowd_) rig_->set(poses_);
+    if (!crowd_) frames_->set(poses_);
 }
 
 FrameTimes Stage::deform(Deformer how, const Show& show) {
@@ -213,6 +215,15 @@ void Stage::mark_normals() {
     }
 }
 
+void Stage::mark_axes(const glm::mat4x3& frame, float size) {
+    constexpr std::array<glm::vec3, 3> colors{glm::vec3{0.6f, 0, 0}, {0, 0.35f, 0}, {0, 0.05f, 0.7f}};
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::vec3& color = colors[static_cast<std::size_t>(axis)];
+        frame_marks_.push_back({frame[3], color});
+        frame_marks_.push_back({frame[3] + size * frame[axis], color});
+    }
+}
+
 void Stage::draw(draw::Renderer& renderer, const Show& show) {
     draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr, .textured = !area_shown_};
     for (std::size_t i = 0; i < batches().size(); ++i) {
@@ -222,17 +233,11 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
     if (crowd_) return;
     renderer.draw_lines(normals_);
     if (rig_ && show.base) renderer.draw_lines(rig_->lines());
-    if (rig_ && show.frames) {
-        constexpr std::array<glm::vec3, 3> colors{glm::vec3{0.6f, 0, 0}, {0, 0.35f, 0}, {0, 0.05f, 0.7f}};
-        const auto size = static_cast<float>(1.6 * model().cylinder.radius);
+    if (show.frames) {
+        const auto radius = static_cast<float>(model().cylinder.radius);
         frame_marks_.clear();
-        for (const glm::mat4x3& frame : rig_->frames()) {
-            for (int axis = 0; axis < 3; ++axis) {
-                frame_marks_.push_back({frame[3], colors[static_cast<std::size_t>(axis)]});
-                frame_marks_.push_back(
-                    {frame[3] + size * frame[axis], colors[static_cast<std::size_t>(axis)]});
-            }
-        }
+        for (const glm::mat4x3& frame : frames_->regions()) mark_axes(frame, 1.6f * radius);
+        for (const glm::mat4x3& frame : frames_->sockets()) mark_axes(frame, 0.8f * radius);
         renderer.draw_lines(frame_marks_);
     }
     if (!show.rest) return;
@@ -244,7 +249,7 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
 }
 
 std::span<const glm::mat4x3> Stage::frames() const {
-    return rig_ && !crowd_ ? rig_->frames() : std::span<const glm::mat4x3>();
+    return crowd_ ? std::span<const glm::mat4x3>() : frames_->regions();
 }
 
 void Stage::show_all(draw::OrbitCamera& camera, float aspect) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "crowd/crowd.hpp"
+#include "stage/frames.hpp"
 #include "stage/load.hpp"
 #include "stage/rig.hpp"
 
@@ -60,7 +61,7 @@ public:
     FrameTimes deform(Deformer how, const Show& show);
     void draw(draw::Renderer& renderer, const Show& show);
 
-    /// Where regions begin, and the last one ends; none in a crowd, nor of a body without a Rig.
+    /// Where regions begin, and the last one ends; none in a crowd.
     [[nodiscard]] std::span<const glm::mat4x3> frames() const;
     /// Has the camera see all, from where pictures are taken.
     void show_all(draw::OrbitCamera& camera, float aspect) const;
@@ -69,11 +70,13 @@ private:
     [[nodiscard]] std::span<const bend::Batch> batches() const;
     void upload_vertices(std::size_t group);
     void mark_normals();
+    void mark_axes(const glm::mat4x3& frame, float size);
 
     std::unique_ptr<Loaded> loaded_;
     std::vector<draw::Mesh> meshes_;  // of each model
     std::optional<draw::Mesh> rest_;  // the first model at rest, once it is shown
     std::optional<Rig> rig_;
+    std::optional<Frames> frames_;
     std::vector<bend::Pose> poses_;
     std::vector<draw::Vertex> vertices_;  // of one body
     bend::Batch batch_;                   // it

@@ -32,6 +32,15 @@ std::string milliseconds(double time) {
     return text.data();
 }
 
+std::string names_of(const std::vector<FileSocket>& sockets) {
+    std::string names;
+    for (const FileSocket& socket : sockets) {
+        names += names.empty() ? "" : ", ";
+        names += socket.name;
+    }
+    return names;
+}
+
 /// A choice of words. Returns whether another was chosen.
 template <std::size_t N>
 bool choice(const char* label, std::string& value, const std::array<const char*, N>& words) {
@@ -164,11 +173,13 @@ void show_looks(Controls& controls, const Stage& stage, Done& done) {
         ImGui::Checkbox("area", &show.area);
         ImGui::SameLine(second);
         ImGui::Checkbox("rest shape", &show.rest);
+        ImGui::Checkbox("frames", &show.frames);
         if (!stage.model().baked) {
-            ImGui::Checkbox("base", &show.base);
             ImGui::SameLine(second);
-            ImGui::Checkbox("frames", &show.frames);
+            ImGui::Checkbox("base", &show.base);
         }
+        if (show.frames && !stage.model().sockets.empty())
+            paragraph(quiet, "sockets: " + names_of(stage.model().sockets));
         if (show.area) ImGui::TextColored(quiet, "blue: smaller by half, red: larger by half");
     }
     if (ImGui::Button("look at all")) done.look = true;
