@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -61,12 +63,9 @@ public:
     /// Models in place of those that are there, with the words that are chosen. Where it throws, all is as it
     /// was.
     void open(const Json& files) {
-        cli::Wish wish = cli::wish_of(controls_, stage_->loaded().wish);
-        wish.files.clear();
-        for (const Json& file : files) wish.files.emplace_back(file.get<std::string>());
-        wish.pose = {};
-        wish.keep_rest = true;
-        wish.new_pose = true;
+        std::vector<std::filesystem::path> names;
+        for (const Json& file : files) names.emplace_back(file.get<std::string>());
+        cli::Wish wish = cli::wish_to_open(std::move(names), controls_, stage_->loaded().wish);
         wish.bind.wrinkle_range.reset();
         wish.bind.folds.reset();
         put_on_stage(wish, controls_);

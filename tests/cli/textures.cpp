@@ -2,6 +2,7 @@
 #include "command.hpp"
 #include "mesh/gltf_files.hpp"
 #include "pixels.hpp"
+#include "support/png.hpp"
 
 #include <doctest/doctest.h>
 
@@ -42,16 +43,7 @@ std::array<Seen, 3> seen_in(const std::filesystem::path& file) {
 
 /// A PNG of 2 x 2 pixels: red and green above, blue below.
 std::string small_image() {
-    const std::array<png_byte, 12> rgb{255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 255};
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = image.height = 2;
-    image.format = PNG_FORMAT_RGB;
-    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-    png_alloc_size_t size = bytes.size();
-    REQUIRE(png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) != 0);
-    bytes.resize(size);
-    return bytes;
+    return png_of(2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 255});
 }
 
 /// A tube along z of 5 rows of 16 columns, with that image inside: u once around it, v up along it. Too

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/png.hpp"
+
 #include <goffer/view/texture.hpp>
 
 #include <doctest/doctest.h>
 #include <jpeglib.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -18,26 +19,11 @@
 
 namespace goffer::test {
 
-using Rgb = std::vector<std::uint8_t>;  ///< 3 bytes a pixel, rows from top to bottom
-
 inline view::Image image_of(int width, int height, const Rgb& rgb) {
     view::Image image{width, height, {}};
     for (std::size_t i = 0; i < rgb.size(); i += 3)
         image.rgba.insert(image.rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
     return image;
-}
-
-inline std::string png_of(int width, int height, const Rgb& rgb) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_RGB;
-    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-    png_alloc_size_t size = bytes.size();
-    REQUIRE(png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) != 0);
-    bytes.resize(size);
-    return bytes;
 }
 
 /// `channels`: 3, or 1 for gray, or 4 for the colors of print.

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double largest_shown = 0.5;
 
-fit::Geometry geometry_of(const BoundModel& model) {
-    return {model.rest.positions, model.rest.triangles};
-}
-
 /// Where a patch is, for a person: slices and sides count from 1, and a side is named by its middle.
 std::string place(std::uint32_t patch, const fit::PatchGrid& grid) {
     const auto sides = static_cast<std::uint32_t>(grid.sides);
@@ -54,7 +50,7 @@ std::vector<glm::vec3> bent_positions(const BoundModel& model, std::span<const b
 LocalArea local_area(const BoundModel& model, std::span<const bend::Pose> poses,
                      std::span<const glm::vec3> positions) {
     LocalArea local;
-    const fit::Geometry geometry = geometry_of(model);
+    const fit::Geometry geometry = geometry_of(model.rest);
     const std::vector<std::uint32_t> patches = fit::patches_of(geometry, model.cylinder, local.grid);
     local.bent = fit::patch_change(geometry, positions, patches);
     local.without_wrinkles = fit::patch_change(geometry, bent_positions(model, poses, 0), patches);
@@ -76,7 +72,7 @@ void report_local_area(Report& report, const BoundModel& model, std::span<const 
 std::vector<glm::vec4> area_colors(const BoundModel& model, std::span<const glm::vec3> positions) {
     constexpr glm::vec3 kept{0.72f}, smaller{0.02f, 0.07f, 0.62f}, larger{0.62f, 0.02f, 0.02f};
     std::vector<glm::vec4> colors;
-    for (const double change : fit::vertex_change(geometry_of(model), positions)) {
+    for (const double change : fit::vertex_change(geometry_of(model.rest), positions)) {
         const auto share = static_cast<float>(std::min(std::fabs(change) / largest_shown, 1.0));
         colors.emplace_back(glm::mix(kept, change < 0 ? smaller : larger, share), 1);
     }

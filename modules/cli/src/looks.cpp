@@ -30,11 +30,6 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
 }
 
-float linear(float encoded) {
-    const float value = std::clamp(encoded, 0.0f, 1.0f);
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
 }  // namespace
 
 glm::vec4 plain_color(std::size_t model) {
@@ -57,7 +52,7 @@ std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const me
     colors.reserve(rest.vertex.size());
     for (const std::uint32_t vertex : rest.vertex) {
         glm::vec4 color = mesh.colors[vertex];
-        for (int c = 0; encoded && c < 3; ++c) color[c] = linear(color[c]);
+        for (int c = 0; encoded && c < 3; ++c) color[c] = view::linear_of(std::clamp(color[c], 0.0f, 1.0f));
         colors.push_back(dimmed(color));
     }
     return colors;

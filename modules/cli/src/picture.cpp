@@ -16,18 +16,6 @@
 namespace goffer::cli {
 namespace {
 
-view::Wrap wrap_of(mesh::Wrap wrap) {
-    switch (wrap) {
-        case mesh::Wrap::clamp:
-            return view::Wrap::clamp;
-        case mesh::Wrap::mirror:
-            return view::Wrap::mirror;
-        case mesh::Wrap::repeat:
-            break;
-    }
-    return view::Wrap::repeat;
-}
-
 [[noreturn]] void refuse_size(const std::string& text) {
     throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to " +
                      std::to_string(view::largest_side));
@@ -88,7 +76,8 @@ PictureTextures::PictureTextures(const Textures& decoded) : textures(decoded) {
         if (!texture.image) continue;
         std::shared_ptr<const view::MipMap>& image = made[texture.image.get()];
         if (!image) image = std::make_shared<view::MipMap>(*texture.image);
-        out = {image, wrap_of(texture.wrap_u), wrap_of(texture.wrap_v), texture.nearest};
+        out = {image, wrap_as<view::Wrap>(texture.wrap_u), wrap_as<view::Wrap>(texture.wrap_v),
+               texture.nearest};
     }
 }
 

@@ -21,6 +21,20 @@ struct ShownTexture {
     bool operator==(const ShownTexture&) const = default;
 };
 
+/// The same in the words of another module.
+template <class To>
+[[nodiscard]] To wrap_as(mesh::Wrap wrap) {
+    switch (wrap) {
+        case mesh::Wrap::clamp:
+            return To::clamp;
+        case mesh::Wrap::mirror:
+            return To::mirror;
+        case mesh::Wrap::repeat:
+            break;
+    }
+    return To::repeat;
+}
+
 /// The textures of a model, decoded: for pictures and for the viewer.
 struct Textures {
     std::vector<ShownTexture> of_material;  ///< of each material; without an image where it has none

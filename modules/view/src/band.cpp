@@ -21,8 +21,7 @@ constexpr float seam = 3;            // steps of texture coordinates to a neighb
 // `dither`, 0..1, decides where to round up, which hides the steps of faint gradients.
 std::uint8_t to_srgb(float linear, float dither) {
     const float c = std::isfinite(linear) ? std::clamp(linear, 0.0f, 1.0f) : 0.0f;
-    const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-    return static_cast<std::uint8_t>(std::min(255.0f, 255 * s + dither));
+    return static_cast<std::uint8_t>(std::min(255.0f, 255 * encoded_of(c) + dither));
 }
 
 float to_eighth(float x) {

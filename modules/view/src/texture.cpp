@@ -17,21 +17,13 @@ namespace {
 
 constexpr float most_probes = 8;  // along a footprint that is longer than wide
 
-float decoded(float s) {
-    return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
-float encoded(float c) {
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-}
-
 /// From linear light to bytes, tabled: images are large.
 class Encoder {
 public:
     Encoder() {
         for (std::size_t i = 0; i < bytes_.size(); ++i) {
             const float middle = (static_cast<float>(i) + 0.5f) / static_cast<float>(bytes_.size());
-            bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * encoded(middle)));
+            bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * encoded_of(middle)));
         }
     }
     std::uint8_t operator()(float linear) const {
@@ -164,7 +156,7 @@ MipMap::MipMap(Image image) {
         image.rgba.size() !=
             std::size_t{4} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
         throw Error("an image is empty, or not width x height x 4 bytes; give it all of its pixels");
-    for (std::size_t i = 0; i < linear_.size(); ++i) linear_[i] = decoded(static_cast<float>(i) / 255);
+    for (std::size_t i = 0; i < linear_.size(); ++i) linear_[i] = linear_of(static_cast<float>(i) / 255);
     levels_.push_back(std::move(image));
     const Encoder encode;
     while (levels_.back().width > 1 || levels_.back().height > 1)

@@ -38,18 +38,17 @@ public:
     explicit Areas(const BoundModel& model)
         : rest_(model.rest),
           before_(of(model.rest.positions)),
-          patches_(fit::patches_of(geometry(), model.cylinder)) {}
+          patches_(fit::patches_of(geometry_of(rest_), model.cylinder)) {}
 
     [[nodiscard]] double change(std::span<const glm::vec3> positions) const {
         return of(positions) / before_ - 1;
     }
     /// The root mean square over patches, as `goffer bend` has them.
     [[nodiscard]] double local_rms(std::span<const glm::vec3> positions) const {
-        return fit::patch_change(geometry(), positions, patches_).rms;
+        return fit::patch_change(geometry_of(rest_), positions, patches_).rms;
     }
 
 private:
-    [[nodiscard]] fit::Geometry geometry() const { return {rest_.positions, rest_.triangles}; }
     [[nodiscard]] double of(std::span<const glm::vec3> positions) const {
         return fit::surface_area(positions, rest_.triangles);
     }

@@ -152,6 +152,19 @@ Wish wish_of(const Controls& controls, Wish wish) {
     return wish;
 }
 
+Wish wish_to_open(std::vector<std::filesystem::path> files, const Controls& controls, Wish wish) {
+    Wish other = wish_of(controls, std::move(wish));
+    other.files = std::move(files);
+    other.pose = {};
+    other.keep_rest = true;
+    other.new_pose = true;
+    other.bind.level = 0;
+    other.bind.axis = "auto";
+    if (other.bind.folds && other.bind.folds->find(',') != std::string::npos) other.bind.folds.reset();
+    other.bind.choices.clear();  // were of the files of the command line
+    return other;
+}
+
 std::vector<bend::Pose> poses_of(const Controls& controls) {
     std::vector<bend::Pose> poses;
     for (const Bend& bend : controls.regions)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct Controls {
 /// to be as many regions as there are, they keep their shares; else all are as long, and together bend as
 /// these do.
 [[nodiscard]] Wish wish_of(const Controls& controls, Wish wish);
+
+/// The same for other files: in the pose that they have, without what was said of those on stage alone.
+[[nodiscard]] Wish wish_to_open(std::vector<std::filesystem::path> files, const Controls& controls,
+                                Wish wish);
 
 /// Poses of the regions, in radians; and back.
 [[nodiscard]] std::vector<bend::Pose> poses_of(const Controls& controls);

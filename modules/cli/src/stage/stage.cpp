@@ -22,22 +22,14 @@ namespace {
 
 constexpr glm::vec3 normal_color{0.02f, 0.10f, 0.55f};
 
-draw::Wrap drawn(mesh::Wrap wrap) {
-    switch (wrap) {
-        case mesh::Wrap::clamp:
-            return draw::Wrap::clamp;
-        case mesh::Wrap::mirror:
-            return draw::Wrap::mirror;
-        case mesh::Wrap::repeat:
-            break;
-    }
-    return draw::Wrap::repeat;
-}
-
 draw::Texture drawn(const ShownTexture& texture) {
     const view::Image& image = *texture.image;
-    return {image.width,           image.height,          image.rgba,
-            drawn(texture.wrap_u), drawn(texture.wrap_v), texture.nearest};
+    return {image.width,
+            image.height,
+            image.rgba,
+            wrap_as<draw::Wrap>(texture.wrap_u),
+            wrap_as<draw::Wrap>(texture.wrap_v),
+            texture.nearest};
 }
 
 /// Parts in the colors and with the textures that pictures have, and these textures, each once.
@@ -120,13 +112,11 @@ double timed(const Work& work) {
 
 }  // namespace
 
-Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)) {
+Stage::Stage(std::unique_ptr<Loaded> loaded) : loaded_(std::move(loaded)), frames_(model()) {
     const BoundModel& first = model();
     for (std::size_t i = 0; i < loaded_->models.size(); ++i)
         meshes_.push_back(drawn_mesh(loaded_->models[i], loaded_->textures[i], i));
     loaded_->textures.clear();  // they are where they are drawn from
-    rig_ = Rig::make(first);
-    frames_.emplace(first);
     poses_ = first.binding.body.rest_poses();
     vertices_.resize(first.binding.body.vertex_count());
     batch_.body = &first.binding.body;
@@ -164,8 +154,7 @@ void Stage::pose(std::span<const bend::Pose> poses, std::size_t frame) {
         crowd_->set_farthest(poses_);
         crowd_->set_poses(frame);
     }
-    if (rig_ && !crowd_) rig_->set(poses_);
-    if (!crowd_) frames_->set(poses_);
+    if (!crowd_) frames_.set(poses_);
 }
 
 FrameTimes Stage::deform(Deformer how, const Show& show) {
@@ -224,6 +213,14 @@ void Stage::mark_axes(const glm::mat4x3& frame, float size) {
     }
 }
 
+void Stage::draw_base(draw::Renderer& renderer) {
+    if (!rig_sought_) rig_ = Rig::make(model());
+    rig_sought_ = true;
+    if (!rig_) return;
+    rig_->set(poses_);
+    renderer.draw_lines(rig_->lines());
+}
+
 void Stage::draw(draw::Renderer& renderer, const Show& show) {
     draw::Look look{.wireframe = show.wireframe, .tinted = crowd_ != nullptr, .textured = !area_shown_};
     for (std::size_t i = 0; i < batches().size(); ++i) {
@@ -232,12 +229,12 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
     }
     if (crowd_) return;
     renderer.draw_lines(normals_);
-    if (rig_ && show.base) renderer.draw_lines(rig_->lines());
+    if (show.base) draw_base(renderer);
     if (show.frames) {
         const auto radius = static_cast<float>(model().cylinder.radius);
         frame_marks_.clear();
-        for (const glm::mat4x3& frame : frames_->regions()) mark_axes(frame, 1.6f * radius);
-        for (const glm::mat4x3& frame : frames_->sockets()) mark_axes(frame, 0.8f * radius);
+        for (const glm::mat4x3& frame : frames_.regions()) mark_axes(frame, 1.6f * radius);
+        for (const glm::mat4x3& frame : frames_.sockets()) mark_axes(frame, 0.8f * radius);
         renderer.draw_lines(frame_marks_);
     }
     if (!show.rest) return;
@@ -249,7 +246,7 @@ void Stage::draw(draw::Renderer& renderer, const Show& show) {
 }
 
 std::span<const glm::mat4x3> Stage::frames() const {
-    return crowd_ ? std::span<const glm::mat4x3>() : frames_->regions();
+    return crowd_ ? std::span<const glm::mat4x3>() : frames_.regions();
 }
 
 void Stage::show_all(draw::OrbitCamera& camera, float aspect) const {

@@ -70,13 +70,15 @@ private:
     [[nodiscard]] std::span<const bend::Batch> batches() const;
     void upload_vertices(std::size_t group);
     void mark_normals();
+    void draw_base(draw::Renderer& renderer);
     void mark_axes(const glm::mat4x3& frame, float size);
 
     std::unique_ptr<Loaded> loaded_;
+    Frames frames_;
     std::vector<draw::Mesh> meshes_;  // of each model
     std::optional<draw::Mesh> rest_;  // the first model at rest, once it is shown
-    std::optional<Rig> rig_;
-    std::optional<Frames> frames_;
+    std::optional<Rig> rig_;          // the base, once it is shown
+    bool rig_sought_ = false;
     std::vector<bend::Pose> poses_;
     std::vector<draw::Vertex> vertices_;  // of one body
     bend::Batch batch_;                   // it

@@ -173,11 +173,11 @@ void show_looks(Controls& controls, const Stage& stage, Done& done) {
         ImGui::Checkbox("area", &show.area);
         ImGui::SameLine(second);
         ImGui::Checkbox("rest shape", &show.rest);
-        ImGui::Checkbox("frames", &show.frames);
         if (!stage.model().baked) {
-            ImGui::SameLine(second);
             ImGui::Checkbox("base", &show.base);
+            ImGui::SameLine(second);
         }
+        ImGui::Checkbox("frames", &show.frames);
         if (show.frames && !stage.model().sockets.empty())
             paragraph(quiet, "sockets: " + names_of(stage.model().sockets));
         if (show.area) ImGui::TextColored(quiet, "blue: smaller by half, red: larger by half");

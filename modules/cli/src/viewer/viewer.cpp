@@ -188,16 +188,7 @@ void Viewer::bind() {
 
 void Viewer::open(const std::vector<std::filesystem::path>& files) {
     if (files.empty() || files[0].empty()) return;
-    Wish wish = wish_of(controls_, stage_->loaded().wish);
-    wish.files = files;
-    wish.pose = {};
-    wish.keep_rest = true;
-    wish.new_pose = true;
-    wish.bind.level = 0;
-    wish.bind.axis = "auto";
-    if (wish.bind.folds && wish.bind.folds->find(',') != std::string::npos) wish.bind.folds.reset();
-    wish.bind.choices.clear();  // were of the files of the command line
-    ask(std::move(wish));
+    ask(wish_to_open(files, controls_, stage_->loaded().wish));
 }
 
 void Viewer::turn_region(std::size_t region, float angle, float direction) {

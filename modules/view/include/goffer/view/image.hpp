@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string_view>
@@ -34,5 +35,13 @@ inline constexpr std::uint64_t largest_image_side = 16384, most_image_pixels = s
 /// Throws Error if it is neither, broken, cut off or larger, or a JPEG in the colors of print (CMYK).
 /// In browsers, what is missing of a JPEG is gray instead, and those of print are shown.
 [[nodiscard]] Image decode_image(std::string_view bytes, std::uint64_t most_pixels = most_image_pixels);
+
+/// The curve of sRGB: a number in proportion to light, 0 to 1, of one as images have it; and back.
+[[nodiscard]] inline float linear_of(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+[[nodiscard]] inline float encoded_of(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
 
 }  // namespace goffer::view
