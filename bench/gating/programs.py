@@ -51,7 +51,7 @@ class Run:
             raise Unmeasured(f"{self.program} does not start: {error}") from error
 
     def counters(self) -> dict[str, dict[str, float]]:
-        """Waits for its end. By case, the counters that goffer_bench sets (bench/README.md)."""
+        """Waits for its end. By case, the counters that goffer_bench sets (bench/README.md), and the wall clock's time."""
         try:
             try:
                 complaint = self._process.communicate(timeout=MOST_SECONDS)[1]
@@ -81,7 +81,7 @@ def _counters(run: dict) -> tuple[str, dict[str, float]]:
     if run.get("error_occurred"):
         raise Unmeasured(f"{run['name']}: {run.get('error_message', 'failed')}")
     return run["name"], {key: value for key, value in run.items()
-                         if key in ("ns_per_vertex", "ns_per_instance", "of_floor")}
+                         if key in ("ns_per_vertex", "ns_per_instance", "of_floor", "real_time")}
 
 
 def time_of(counters: dict[str, float]) -> float:

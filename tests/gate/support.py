@@ -32,7 +32,7 @@ FAKE = """
         figure = value * (1 + spread * normal) * (1 + swing if run % 2 else 1 / (1 + swing))
         name = "ns_per_instance" if case.startswith("setup") else "ns_per_vertex"
         fault_words = ', "error_occurred": true, "error_message": "no such body"' if fault == "error" else ""
-        return '{{"name": "%s", "%s": %r, "of_floor": 0.2%s}}' % (case, name, figure, fault_words)
+        return '{{"name": "%s", "%s": %r, "of_floor": 0.2, "real_time": %r%s}}' % (case, name, figure, figure, fault_words)
     wanted = re.compile(options["benchmark_filter"])
     found = [result(case, value) for case, value in times.items() if wanted.search(case)]
     with open(options["benchmark_out"], "w") as file:

@@ -14,8 +14,9 @@ PAIR = {"deform/packed/crowd/avx2/1": 2.0, "deform/packed/crowd/avx2/2": 1.1}
 
 
 class Ratios(support.Case):
-    def judge(self, bounds, program, others=0.0):
-        with unittest.mock.patch.object(ratios.Others, "processors", return_value=others):
+    def judge(self, bounds, program, others=0.0, reached=4.0):
+        with unittest.mock.patch.object(ratios.Others, "processors", return_value=others), \
+                unittest.mock.patch.object(ratios, "two_programs", return_value=reached):
             part = ratios.judge({"ratios": bounds}, program, lambda text: None)
         return part, [row.verdict for row in part.rows]
 
@@ -45,6 +46,18 @@ class Ratios(support.Case):
         self.assertEqual(verdicts, [Verdict.NOTE])
         self.assertIn("busy", part.rows[0].remark)
         self.assertEqual(part.exit_code, 0)
+
+    def test_threads_where_two_processors_are_not_worth_two(self):
+        bounds = {"two_threads": {"deform/packed/crowd/avx2": 1.9}}
+        for reached, verdict in ((2.0, Verdict.NOTE), (2.2, Verdict.REGRESSION)):
+            with self.subTest(reached):
+                part, verdicts = self.judge(bounds, self.fake("head", PAIR, spread=0), reached=reached)  # 1.82
+                self.assertEqual(verdicts, [verdict])
+        self.assertEqual(part.exit_code, 1)
+
+    def test_two_programs(self):
+        program = self.fake("head", PAIR, spread=0, change_after=(1, 1.6))  # 2.0 alone, 3.2 beside each other
+        self.assertAlmostEqual(ratios.two_programs(program, "deform/packed/crowd/avx2/1"), 1.25)
 
     def test_cases_that_are_not_there(self):
         part, verdicts = self.judge({"of_floor": {"deform/positions/cache/avx512/1": 0.1}}, self.fake("head"))
