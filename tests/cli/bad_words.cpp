@@ -63,6 +63,8 @@ TEST_CASE("bad words: numbers and names out of range") {
     for (const std::string word :
          {"0.8,0.1", "0.5", "0,0.5,1", "-0.1,1", "0,1.1", "0.5,0.5", "nan,1", "", "a,b"})
         place.refuse_bend({"--wrinkle-range", word}, {"--wrinkle-range"});
+    for (const std::string word : {"r", "COLOR_0", "COLOR_0.x", "COLOR_0.rg", "COLOR_1.r", "color_0.r", ""})
+        place.refuse_bend({"--wrinkle-mask", word}, {"--wrinkle-mask", "COLOR_0.r"});
     place.refuse_bend({"--shape", "round"}, {"--shape", "round", "auto", "cylinder"});
     place.refuse_bend({"--refine", "maybe"}, {"--refine", "maybe", "auto", "on", "off"});
     place.refuse_bend({"--refine", "base.ply"}, {"base.ply", "a MODEL goes before --refine"});

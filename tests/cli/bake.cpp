@@ -123,10 +123,19 @@ TEST_CASE("bake: a body file takes no word that was decided when it was baked") 
     const Folder folder;
     base(folder);
     well(folder, {"bake", "base.ply", "-o", "worm.goffer"});
-    const Words choices[] = {{"--folds", "3"},      {"--fold-length", "1"}, {"--amplitude", "paper"},
-                             {"--profile", "even"}, {"--shape", "auto"},    {"--paper"},
-                             {"--onset", "0"},      {"--axis", "z"},        {"--rest", "straight"},
-                             {"--refine", "on"},    {"--roundness", "0.1"}, {"--wrinkle-range", "0,0.5"}};
+    const Words choices[] = {{"--folds", "3"},
+                             {"--fold-length", "1"},
+                             {"--amplitude", "paper"},
+                             {"--profile", "even"},
+                             {"--shape", "auto"},
+                             {"--paper"},
+                             {"--onset", "0"},
+                             {"--axis", "z"},
+                             {"--rest", "straight"},
+                             {"--refine", "on"},
+                             {"--roundness", "0.1"},
+                             {"--wrinkle-range", "0,0.5"},
+                             {"--wrinkle-mask", "COLOR_0.r"}};
     for (const Words& words : choices) {
         refused(folder, 2, Words{"bend", "worm.goffer", "-o", "a.ply"} + words, {words[0], "worm.goffer"});
         refused(folder, 2, Words{"crowd", "worm.goffer"} + words, {words[0], "worm.goffer"});

@@ -101,6 +101,45 @@ TEST_CASE("wrinkles: a part of the body stays smooth, and the report says at wha
     CHECK(said.find("\nwrinkle range     0 to 0.7 of the length: area ") != said.npos);
 }
 
+TEST_CASE("wrinkles: a color's channel says where, on refined meshes, and in body files too") {
+    const Folder folder;
+    base(folder);
+    mesh::Mesh painted = mesh::load(folder / "base.ply");
+    for (const glm::vec3& p : painted.positions) painted.colors.emplace_back(0.25f, p.z > 7 ? 0 : 1, 0, 1);
+    for (const std::string name : {"painted.ply", "painted.glb"}) {
+        mesh::save(painted, folder / name);
+        const auto ends = [&](const Words& more) {
+            well(folder, Words{"bend", name, "-o", "out.ply", "--amplitude", "paper"} + more);
+            mesh::Mesh bent = mesh::load(folder / "out.ply"), above;
+            for (std::size_t i = 0; i < painted.positions.size(); ++i) {
+                if (painted.positions[i].z > 7) above.positions.push_back(bent.positions[i]);
+            }
+            return above;
+        };
+        const Words mask{"--wrinkle-mask", "COLOR_0.g"};
+        CHECK(farthest(ends(mask), ends({"--folds", "0"})) < 1e-5);
+        CHECK(farthest(ends({}), ends({"--folds", "0"})) > 0.05);
+        CHECK(farthest(ends({"--wrinkle-mask", "COLOR_0.a"}), ends({})) == 0);
+        const double whole = farthest(ends({}), ends({"--folds", "0"}));
+        CHECK(farthest(ends({"--wrinkle-mask", "COLOR_0.r"}), ends({"--folds", "0"})) ==
+              doctest::Approx(whole / 4).epsilon(0.02));  // colors may be bytes
+
+        well(folder, Words{"bake", name, "-o", "body.goffer", "--amplitude", "paper"} + mask);
+        well(folder, {"bend", "body.goffer", "-o", "baked.ply"});
+        well(folder, Words{"bend", name, "-o", "out.ply", "--amplitude", "paper", "--refine", "off"} + mask);
+        CHECK(farthest(mesh::load(folder / "baked.ply"), mesh::load(folder / "out.ply")) < 1e-6);
+    }
+    const Words words{"bend", "painted.ply", "-o", "out.ply", "--wrinkle-mask", "COLOR_0.g"};
+    const json all = report(folder, words);
+    CHECK(all["wrinkle_mask"]["channel"] == "COLOR_0.g");
+    CHECK(std::abs(all["wrinkle_mask"]["area_change_inside"].get<double>()) < 2e-3);
+    CHECK(all["wrinkle_mask"]["area_change_outside"].get<double>() == doctest::Approx(-0.157).epsilon(0.1));
+    CHECK(well(folder, words).find("\nwrinkle mask      COLOR_0.g: area ") != std::string::npos);
+    const Result bare = run(folder, {"bend", "base.ply", "-o", "out.ply", "--wrinkle-mask", "COLOR_0.g"});
+    CHECK(bare.code == 1);
+    CHECK(bare.err.find("base.ply: has no vertex colors for --wrinkle-mask") != std::string::npos);
+}
+
 TEST_CASE("wrinkles: a range that is too short for folds is named") {
     const Folder folder;
     base(folder);

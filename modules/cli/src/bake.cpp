@@ -95,7 +95,7 @@ BoundModel bind_next(const std::filesystem::path& file, const BindRequest& reque
     refuse_body_file(file);
     BoundModel model = read_model(file, request);
     try {
-        model.binding = fit::bind_level(geometry_of(model.rest), rig);
+        model.binding = fit::bind_level(geometry_of(model), rig);
     } catch (const fit::Error& error) {
         throw InputError(file.string() +
                          ": is no level of detail of MODEL, but another body: " + error.what());

@@ -105,22 +105,29 @@ void warn_of_foreign_fit(Report& report, const BoundModel& model) {
                 " % of the length of --fit; is it the fit of this model?");
 }
 
-/// What it costs that a part of the body stays smooth.
-void report_range(Report& report, const Request& request, const BoundModel& model,
-                  std::span<const glm::vec3> positions) {
-    const auto [first, last] = request.bind.options.wrinkle_range;
-    const fit::Geometry rest{model.rest.positions, model.rest.triangles};
-    const std::vector<std::uint32_t> within = fit::triangles_within(rest, model.cylinder, {first, last});
-    const double inside = fit::surface_area(rest.positions, within);
-    const double outside = fit::surface_area(rest.positions, rest.triangles) - inside;
+/// What it costs that a part of the body stays smooth: said of --wrinkle-range and --wrinkle-mask together.
+void report_smooth(Report& report, const Request& request, const BoundModel& model,
+                   std::span<const glm::vec3> positions) {
+    const fit::WrinkleRange range = request.bind.options.wrinkle_range;
+    const std::optional<std::string>& mask = request.bind.words.wrinkle_mask;
+    const std::vector<std::uint32_t> within =
+        fit::triangles_within(geometry_of(model), model.cylinder, range);
+    const double inside = fit::surface_area(model.rest.positions, within);
+    const double outside = fit::surface_area(model.rest.positions, model.rest.triangles) - inside;
     const double bent_inside = fit::surface_area(positions, within);
-    const double bent_outside = fit::surface_area(positions, rest.triangles) - bent_inside;
+    const double bent_outside = fit::surface_area(positions, model.rest.triangles) - bent_inside;
     const double change = inside > 0 ? bent_inside / inside - 1 : 0;
     const double cost = outside > 0 ? bent_outside / outside - 1 : 0;
-    report.json["wrinkle_range"] = {
-        {"first", first}, {"last", last}, {"area_change_inside", change}, {"area_change_outside", cost}};
-    report.line("wrinkle range", number(first) + " to " + number(last) + " of the length: area " +
-                                     percent(change) + " there, " + percent(cost) + " elsewhere");
+    nlohmann::ordered_json& json = report.json[mask ? "wrinkle_mask" : "wrinkle_range"];
+    if (mask) json["channel"] = *mask;
+    json["first"] = range.first;
+    json["last"] = range.last;
+    json["area_change_inside"] = change;
+    json["area_change_outside"] = cost;
+    const std::string stretch = number(range.first) + " to " + number(range.last) + " of the length";
+    const std::string where = !mask ? stretch : range.whole() ? *mask : *mask + ", " + stretch;
+    report.line(mask ? "wrinkle mask" : "wrinkle range",
+                where + ": area " + percent(change) + " there, " + percent(cost) + " elsewhere");
 }
 
 void report_bend(Report& report, const Request& request, const BoundModel& model,
@@ -148,8 +155,8 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
 
     report.line("area change", percent(area_after / area_before - 1) + " of the mesh" +
                                    (base_change ? ", " + percent(*base_change) + " of its base" : ""));
-    if (!request.bind.options.wrinkle_range.whole())
-        report_range(report, request, model, bent.records.positions);
+    if (!request.bind.options.wrinkle_range.whole() || request.bind.mask_channel)
+        report_smooth(report, request, model, bent.records.positions);
     const std::string bind = model.baked ? "" : number(binding.milliseconds) + " ms to bind, ";
     report.line("time", bind + number(bent.microseconds) + " us to deform (" +
                             std::string(name(resolve(request.isa))) +

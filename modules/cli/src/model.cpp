@@ -33,6 +33,17 @@ fit::WrinkleRange parse_wrinkle_range(const std::string& text) {
     return {shares[0], shares[1]};
 }
 
+/// Which of red, green, blue, alpha.
+int parse_wrinkle_mask(const std::string& text) {
+    constexpr std::string_view set = "COLOR_0.", channels = "rgba";
+    const bool named = text.starts_with(set) && text.size() == set.size() + 1;
+    const std::size_t channel = named ? channels.find(text.back()) : channels.npos;
+    if (channel == channels.npos)
+        throw UsageError("--wrinkle-mask: '" + text +
+                         "' is no channel of vertex colors; give COLOR_0.r, .g, .b or .a");
+    return static_cast<int>(channel);
+}
+
 /// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
 std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& model) {
     options.folds.reset();
@@ -94,8 +105,18 @@ CLI::Validator refine_word() {
     return {check, ""};
 }
 
-mesh::VertexArrays arrays_of(const mesh::Mesh& mesh, const BindRequest& request) {
-    return request.with_uvs ? mesh::vertex_arrays_with_uvs(mesh) : mesh::vertex_arrays(mesh);
+/// The arrays of the model's mesh, and the mask in its colors.
+void take_arrays(BoundModel& model, const BindRequest& request) {
+    const mesh::Mesh& mesh = model.mesh;
+    model.rest = request.with_uvs ? mesh::vertex_arrays_with_uvs(mesh) : mesh::vertex_arrays(mesh);
+    model.wrinkle_mask.clear();
+    if (!request.mask_channel) return;
+    if (mesh.colors.empty())
+        throw InputError(model.file.string() +
+                         ": has no vertex colors for --wrinkle-mask; paint them, or leave it out");
+    model.wrinkle_mask.reserve(model.rest.vertex.size());
+    for (const std::uint32_t vertex : model.rest.vertex)
+        model.wrinkle_mask.push_back(std::clamp(mesh.colors[vertex][*request.mask_channel], 0.0f, 1.0f));
 }
 
 }  // namespace
@@ -163,13 +184,18 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         "--wrinkle-range", words.wrinkle_range,
         "Wrinkle this stretch of the body alone, A,B as shares of its length from base to tip, "
         "as in 0.1,0.8 (default: all of it)");
+    command.add_option(
+        "--wrinkle-mask", words.wrinkle_mask,
+        "Wrinkle each vertex as much as this channel of its color says, COLOR_0.r, .g, .b or .a, from 0 "
+        "(not at all) to 1 (default: all of them fully)");
     command
         .add_option("--onset", words.onset,
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
-    for (const char* option : {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness",
-                               "--shape", "--paper", "--wrinkle-range", "--onset", "--axis", "--rest"})
+    for (const char* option :
+         {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness", "--shape", "--paper",
+          "--wrinkle-range", "--wrinkle-mask", "--onset", "--axis", "--rest"})
         words.choices.push_back(command.get_option(option));
     add_load_words(command, words.load);
 }
@@ -198,6 +224,7 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
     options.profile.roundness = words.roundness;
     options.fold_length = words.fold_length;
     if (words.wrinkle_range) options.wrinkle_range = parse_wrinkle_range(*words.wrinkle_range);
+    if (words.wrinkle_mask) mask_channel = parse_wrinkle_mask(*words.wrinkle_mask);
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
     refine = words.refine.empty() ? "on" : words.refine;
     if (refine == "on" && words.folds == "0")
@@ -207,6 +234,12 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
 
 fit::Geometry geometry_of(const mesh::VertexArrays& arrays) {
     return {arrays.positions, arrays.triangles, arrays.normals, arrays.tangents};
+}
+
+fit::Geometry geometry_of(const BoundModel& model) {
+    fit::Geometry geometry = geometry_of(model.rest);
+    geometry.wrinkle_mask = model.wrinkle_mask;
+    return geometry;
 }
 
 mesh::Mesh mesh_of(const paper::BaseMesh& base) {
@@ -244,7 +277,7 @@ BoundModel read_model(const std::filesystem::path& file, const BindRequest& requ
     model.file = file;
     model.mesh = mesh::load(file, request.words.load);
     check_memory(file.string(), model.mesh, request.words.load.limits);
-    model.rest = arrays_of(model.mesh, request);
+    take_arrays(model, request);
     return model;
 }
 
@@ -273,7 +306,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
             return refine(model.mesh, cylinder, request.options, request.words.load.limits, automatic);
         });
         if (model.growth->triangles_after != model.growth->triangles_before) {
-            model.rest = arrays_of(model.mesh, request);
+            take_arrays(model, request);
         } else if (automatic) {
             model.growth.reset();
         }
@@ -281,7 +314,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     fit::BindOptions options = request.options;
     if (cylinder.radii.empty()) options.shape = fit::ShapeMode::cylinder;  // that was looked for already
     model.binding =
-        in_file(given ? fit : file, [&] { return fit::bind(geometry_of(model.rest), cylinder, options); });
+        in_file(given ? fit : file, [&] { return fit::bind(geometry_of(model), cylinder, options); });
     model.cylinder = model.binding.cylinder;
     return model;
 }

@@ -32,6 +32,7 @@ struct BindWords {
     std::string shape = "auto";
     bool paper = false;  ///< as the paper has it
     std::optional<std::string> wrinkle_range = {};
+    std::optional<std::string> wrinkle_mask = {};  ///< a channel of the vertex colors
     std::string axis = "auto";
     std::string rest = "auto";
     std::optional<double> onset = {};
@@ -51,7 +52,7 @@ void add_load_words(CLI::App& command, mesh::LoadOptions& options);
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
 /// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --wrinkle-range,
-/// --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
+/// --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.
@@ -64,7 +65,8 @@ struct BindRequest {
     fit::RestPose rest;
     fit::BindOptions options;
     std::string refine;
-    bool with_uvs = false;  ///< a vertex of the body for each texture coordinate of a vertex
+    std::optional<int> mask_channel;  ///< of the vertex colors, 0..3: Geometry::wrinkle_mask
+    bool with_uvs = false;            ///< a vertex of the body for each texture coordinate of a vertex
 
     /// `regions`: as PoseRequest's; none for a body of one region.
     explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
@@ -82,7 +84,8 @@ struct BoundModel {
     std::filesystem::path file;
     mesh::Mesh mesh;
     mesh::VertexArrays rest;
-    fit::Cylinder cylinder;  ///< the base that it is bound to
+    std::vector<float> wrinkle_mask = {};  ///< as fit::Geometry's, of the entries of `rest`
+    fit::Cylinder cylinder;                ///< the base that it is bound to
     fit::Binding binding;
     std::optional<Growth> growth = {};  ///< where the mesh was refined, or was to be with --refine on
     /// It comes from a body file: of its binding only the body, its cylinder without radii, and the regions'
@@ -91,8 +94,11 @@ struct BoundModel {
     std::vector<FileSocket> sockets = {};
 };
 
-/// The arrays as fit reads them. They must outlive the geometry.
+/// The arrays as fit reads them, without a mask. They must outlive the geometry.
 [[nodiscard]] fit::Geometry geometry_of(const mesh::VertexArrays& arrays);
+
+/// The model at rest, with its mask. It must outlive the geometry.
+[[nodiscard]] fit::Geometry geometry_of(const BoundModel& model);
 
 /// Reads `file`, with neither cylinder nor binding. Throws an error that names it.
 [[nodiscard]] BoundModel read_model(const std::filesystem::path& file, const BindRequest& request);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "factors.hpp"
 #include "girths.hpp"
+#include "mask.hpp"
 #include "rest.hpp"
 #include "text.hpp"
 
@@ -271,7 +272,7 @@ std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cyli
         const auto corners = geometry.triangles.subspan(t, 3);
         const double share =
             std::clamp(straightening.height(centroid(geometry, corners)) / cylinder.length, 0.0, 1.0);
-        if (share >= range.first && share <= range.last)
+        if (share >= range.first && share <= range.last && may_wrinkle(geometry, corners))
             within.insert(within.end(), corners.begin(), corners.end());
     }
     return within;
@@ -301,14 +302,18 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places);
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
+        Geometry wrinkled = geometry;  // what is to keep its area
+        std::vector<std::uint32_t> triangles;
+        if (!geometry.wrinkle_mask.empty()) {
+            triangles = triangles_within(geometry, cylinder, {});
+            wrinkled.triangles = triangles;
+        }
         if (even) {
-            weigh_slices(body, geometry, options, draft->mesh, places, found);
+            weigh_slices(body, wrinkled, options, draft->mesh, places, found);
             draft.emplace(geometry, cylinder, options, onset, places);
             body = make(cylinder, draft->regions, draft->mesh);
         }
         auto& [mesh, plans, regions] = *draft;
-        Geometry wrinkled = geometry;  // what is to keep its area
-        std::vector<std::uint32_t> triangles;
         if (!options.wrinkle_range.whole()) {
             triangles = triangles_within(geometry, cylinder, options.wrinkle_range);
             wrinkled.triangles = triangles;

@@ -34,6 +34,17 @@ void check_stream(std::span<const Vector> stream, std::size_t vertices, std::str
                 " is NaN or infinite; repair the mesh where it was made");
 }
 
+void check_mask(std::span<const float> mask, std::size_t vertices) {
+    if (!mask.empty() && mask.size() != vertices) {
+        throw Error("wrinkle mask: " + std::to_string(mask.size()) + " values for " +
+                    std::to_string(vertices) + " vertices; give one per vertex or none");
+    }
+    const auto bad = std::ranges::find_if_not(mask, [](float value) { return value >= 0 && value <= 1; });
+    if (bad == mask.end()) return;
+    throw Error("wrinkle mask of vertex " + std::to_string(bad - mask.begin()) +
+                " is outside 0..1; give the share of its wrinkle that it follows");
+}
+
 void check_triangles(std::span<const std::uint32_t> triangles, std::size_t vertices) {
     if (triangles.empty()) {
         throw Error("the mesh has no triangles; points and lines cannot be bent, give it faces");
@@ -97,6 +108,7 @@ void check(const Geometry& geometry) {
     check_stream(geometry.positions, geometry.positions.size(), "position");
     check_stream(geometry.normals, geometry.positions.size(), "normal");
     check_stream(geometry.tangents, geometry.positions.size(), "tangent");
+    check_mask(geometry.wrinkle_mask, geometry.positions.size());
     check_spread(geometry);
 }
 

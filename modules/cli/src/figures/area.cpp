@@ -23,12 +23,13 @@ constexpr int few_bones = 2, many_bones = 8;
 BoundModel with_amplitude(const BoundModel& model, fit::Amplitude amplitude) {
     BoundModel other;
     other.rest = model.rest;
+    other.wrinkle_mask = model.wrinkle_mask;
     fit::BindOptions options;
     options.amplitude = amplitude;
     if (model.cylinder.radii.empty())
         options.shape = fit::ShapeMode::cylinder;  // that was looked for already
     other.binding =
-        in_file(model.file, [&] { return fit::bind(geometry_of(other.rest), model.cylinder, options); });
+        in_file(model.file, [&] { return fit::bind(geometry_of(other), model.cylinder, options); });
     return other;
 }
 

@@ -221,6 +221,7 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         add_unless("roundness", number(words.roundness), number(usual.roundness));
         if (words.onset) add("onset", number(*words.onset));
         if (words.wrinkle_range) add("wrinkle-range", *words.wrinkle_range);
+        if (words.wrinkle_mask) add("wrinkle-mask", *words.wrinkle_mask);
         add_unless("axis", words.axis, usual.axis);
         add_unless("rest", words.rest, usual.rest);
         add_unless("refine", words.refine, "auto");

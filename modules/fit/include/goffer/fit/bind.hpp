@@ -65,7 +65,8 @@ struct BindOptions {
     ShapeMode shape = ShapeMode::automatic;
     /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
     /// body; at an end that is not the body's own they fade within a fold and half a radius.
-    /// Amplitude::mesh keeps the area of what lies inside.
+    /// Amplitude::mesh keeps the area of what lies inside. Where not even a stretch of the body is to be
+    /// smooth all around, Geometry::wrinkle_mask says so for each vertex.
     WrinkleRange wrinkle_range = {};
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
@@ -103,9 +104,11 @@ struct RegionBinding {
     std::shared_ptr<const paper::Shape> shape = {};
 };
 
-/// Returns the triangles whose centroids lie in `range`, 3 vertices each, in the order of the geometry's.
-/// What lies beyond an end of the body counts as at that end. Throws Error as check(geometry) and
-/// check(cylinder) do, and where BindOptions::wrinkle_range would be refused. Thread-safe.
+/// Returns the triangles that may wrinkle, 3 vertices each, in the order of the geometry's: those whose
+/// centroids lie in `range` and whose corners follow half of their wrinkle or more, on average, by
+/// Geometry::wrinkle_mask. What lies beyond an end of the body counts as at that end. Throws Error as
+/// check(geometry) and check(cylinder) do, and where BindOptions::wrinkle_range would be refused.
+/// Thread-safe.
 [[nodiscard]] std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cylinder& cylinder,
                                                           const WrinkleRange& range);
 

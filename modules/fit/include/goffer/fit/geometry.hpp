@@ -23,6 +23,11 @@ struct Geometry {
     std::span<const glm::vec3> normals = {};   ///< empty, or one per vertex, of any length
     std::span<const glm::vec4> tangents = {};  ///< empty, or one per vertex, of any length; the sign of w is
                                                ///< that of the bitangent
+    /// Empty, or one per vertex, 0..1: how much of its wrinkle a vertex follows, for a face or a label.
+    /// bind() and bind_level() fold it into the body. Normals follow a mask that changes along the body;
+    /// where it changes around it, they lag behind by up to the angle whose tangent is the wrinkle's depth
+    /// over the width of that change.
+    std::span<const float> wrinkle_mask = {};
 };
 
 /// Thrown for a mesh, an axis or an option that fit cannot use. what() is one line: what is wrong, where, and
@@ -33,9 +38,9 @@ public:
 };
 
 /// Throws Error naming the first fault: no triangles, indices that are not 3 per triangle or out of range,
-/// normals or tangents that are neither none nor one per vertex, a number that is NaN or infinite, or
-/// triangles whose vertices all lie in one point, on one line or in one plane, as far as float can tell.
-/// Thread-safe.
+/// normals, tangents or a mask that are neither none nor one per vertex, a number that is NaN or infinite, a
+/// mask outside 0..1, or triangles whose vertices all lie in one point, on one line or in one plane, as far
+/// as float can tell. Thread-safe.
 void check(const Geometry& geometry);
 
 /// Returns the sum of the triangles' areas, summed in double. Indices must be in range. Thread-safe.

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "synthetic.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/normals.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+/// Geometry::wrinkle_mask: how much of its wrinkle each vertex follows.
+
+using namespace goffer;
+using namespace goffer::test;
+
+namespace {
+
+constexpr double right_angle = std::numbers::pi / 2;
+
+struct Bent {
+    std::vector<glm::vec3> positions, normals;
+};
+
+/// In the geometry's order.
+Bent bent(const fit::Binding& binding, float wrinkle_weight, double angle = right_angle) {
+    const bend::Body& body = binding.body;
+    std::vector<bend::Pose> poses;
+    for (std::size_t i = 0; i < body.region_count(); ++i)
+        poses.push_back({static_cast<float>(angle / static_cast<double>(body.region_count())), 0.4f});
+    Bent made{std::vector<glm::vec3>(body.vertex_count()), std::vector<glm::vec3>(body.vertex_count())};
+    bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = wrinkle_weight};
+    job.positions = interleaved<3>(&made.positions[0].x, made.positions.size());
+    job.normals = interleaved<3>(&made.normals[0].x, made.normals.size());
+    bend::run(job);
+    if (binding.order.empty()) return made;
+    Bent sorted = made;
+    for (std::size_t i = 0; i < binding.order.size(); ++i) {
+        sorted.positions[binding.order[i]] = made.positions[i];
+        sorted.normals[binding.order[i]] = made.normals[i];
+    }
+    return sorted;
+}
+
+Solid fine_tube() {
+    std::mt19937 random(1);
+    return cylinder({.columns = 64, .rows = 481, .closed = false}, random);
+}
+
+fit::Geometry masked(const Solid& solid, const std::vector<float>& mask) {
+    fit::Geometry geometry = solid.geometry();
+    geometry.wrinkle_mask = mask;
+    return geometry;
+}
+
+/// A mask of the height as a share of the length, and of the direction about the axis.
+template <class Value>
+std::vector<float> mask_of(const Solid& solid, const Value& value) {
+    std::vector<float> mask;
+    for (const glm::vec3& p : solid.positions)
+        mask.push_back(static_cast<float>(value(p.z / 10.0, std::atan2(p.y, p.x))));
+    return mask;
+}
+
+double smooth(double x) {
+    return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(x, 0.0, 1.0));
+}
+
+/// The largest angle, degrees, of the kernels' normals with those of the bent triangles, away from the ends.
+double worst_normal(const Solid& solid, const Bent& result) {
+    const std::vector<glm::vec3> truth = fit::make_normals(result.positions, solid.triangles);
+    float least = 1;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        if (solid.positions[i].z > 0.1f && solid.positions[i].z < 9.9f)
+            least = std::min(least, glm::dot(glm::normalize(truth[i]), glm::normalize(result.normals[i])));
+    }
+    return glm::degrees(std::acos(static_cast<double>(least)));
+}
+
+std::string error_of(const std::vector<float>& mask) {
+    const Solid solid = tube();
+    try {
+        (void)fit::bind(masked(solid, mask), upright());
+    } catch (const fit::Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profile, shape and regions") {
+    const Solid solid = fine_tube();
+    const std::vector<float> mask =
+        mask_of(solid, [](double z, double beta) { return 0.5 + 0.5 * std::sin(7 * z + 2 * beta); });
+    for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped, fit::Profile::smooth}) {
+        for (const std::size_t regions : {1u, 3u}) {
+            fit::BindOptions options;
+            options.profile = profile;
+            options.regions.assign(regions, {1.0 / static_cast<double>(regions), std::nullopt});
+            const Bent bare = bent(fit::bind(solid.geometry(), upright(), options), 0),
+                       full = bent(fit::bind(solid.geometry(), upright(), options), 1),
+                       part = bent(fit::bind(masked(solid, mask), upright(), options), 1);
+            double worst = 0, deepest = 0;
+            for (std::size_t i = 0; i < mask.size(); ++i) {
+                const glm::vec3 expected = glm::mix(bare.positions[i], full.positions[i], mask[i]);
+                worst = std::max(worst, double{glm::distance(part.positions[i], expected)});
+                deepest = std::max(deepest, double{glm::distance(bare.positions[i], full.positions[i])});
+            }
+            CHECK(worst < 5e-6);
+            CHECK(deepest > 0.1);
+        }
+    }
+}
+
+TEST_CASE("wrinkle mask: normals follow a mask that changes along the body") {
+    const Solid solid = fine_tube();
+    const auto along = [](double z, double) { return smooth((z - 0.4) / 0.1); };
+    const double whole = worst_normal(solid, bent(fit::bind(solid.geometry(), upright()), 1));
+    const double half =
+        worst_normal(solid, bent(fit::bind(masked(solid, mask_of(solid, along)), upright()), 1));
+    MESSAGE("degrees: " << whole << " without a mask, " << half << " with one");
+    CHECK(half < 1.2 * whole + 0.1);
+}
+
+TEST_CASE("wrinkle mask: around the body, normals lag by depth over width") {
+    const Solid solid = fine_tube();
+    constexpr double from = 0.4, width = 1.2;  // radians, and radii
+    const auto around = [](double, double beta) {
+        return smooth((std::fabs(std::remainder(beta - 0.4, 2 * std::numbers::pi)) - from) / width);
+    };
+    const fit::Binding binding = fit::bind(masked(solid, mask_of(solid, around)), upright());
+    const Bent bare = bent(fit::bind(solid.geometry(), upright()), 0),
+               full = bent(fit::bind(solid.geometry(), upright()), 1);
+    double depth = 0;
+    for (std::size_t i = 0; i < bare.positions.size(); ++i)
+        depth = std::max(depth, double{glm::distance(bare.positions[i], full.positions[i])});
+    const double steepest = std::numbers::pi / 2 * depth / width;  // of a cosine's half wave
+    const double lag = worst_normal(solid, bent(binding, 1));
+    MESSAGE("degrees: " << lag << " seen, " << glm::degrees(std::atan(steepest)) << " promised");
+    CHECK(lag > 1);
+    CHECK(lag < glm::degrees(std::atan(steepest)));
+}
+
+TEST_CASE("wrinkle mask: amplitude mesh keeps the area of what may wrinkle") {
+    const Solid solid = fine_tube();
+    const std::vector<float> mask =
+        mask_of(solid, [](double z, double beta) { return z < 0.6 || std::fabs(beta) > 2.4 ? 1 : 0; });
+    const fit::Geometry geometry = masked(solid, mask);
+    for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped}) {
+        fit::BindOptions options;
+        options.amplitude = fit::Amplitude::mesh;
+        options.profile = profile;
+        const fit::Binding binding = fit::bind(geometry, upright(), options);
+        const std::vector<std::uint32_t> inside = fit::triangles_within(geometry, upright(), {});
+        const double area = fit::surface_area(solid.positions, inside);
+        CHECK(area < 0.8 * fit::surface_area(solid.positions, solid.triangles));
+        for (const double angle : {0.5, right_angle}) {
+            const Bent result = bent(binding, 1, angle);
+            CHECK(std::abs(fit::surface_area(result.positions, inside) / area - 1) < 2e-3);
+        }
+    }
+}
+
+TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bare bend") {
+    const Solid solid = fine_tube();
+    const std::vector<float> ones(solid.positions.size(), 1.0f), zeros(solid.positions.size());
+    for (const fit::Amplitude amplitude : {fit::Amplitude::paper, fit::Amplitude::mesh}) {
+        fit::BindOptions options;
+        options.amplitude = amplitude;
+        const fit::Binding plain = fit::bind(solid.geometry(), upright(), options);
+        CHECK((bent(fit::bind(masked(solid, ones), upright(), options), 1).positions ==
+               bent(plain, 1).positions));
+        const Bent nothing = bent(fit::bind(masked(solid, zeros), upright(), options), 1);
+        const Bent bare = bent(plain, 0);
+        double worst = 0;
+        for (std::size_t i = 0; i < bare.positions.size(); ++i)
+            worst = std::max(worst, double{glm::distance(nothing.positions[i], bare.positions[i])});
+        CHECK(worst < 5e-6);
+    }
+}
+
+TEST_CASE("wrinkle mask: a level of detail has its own") {
+    const Solid fine = fine_tube(), level = tube();
+    const fit::Binding rig = fit::bind(fine.geometry(), upright());
+    const std::vector<float> zeros(level.positions.size());
+    const std::vector<glm::vec3> smooth = bent(fit::bind_level(masked(level, zeros), rig), 1).positions,
+                                 bare = bent(fit::bind_level(level.geometry(), rig), 0).positions;
+    double worst = 0;
+    for (std::size_t i = 0; i < bare.size(); ++i)
+        worst = std::max(worst, double{glm::distance(smooth[i], bare[i])});
+    CHECK(worst < 5e-6);
+}
+
+TEST_CASE("wrinkle mask: what is no mask is refused, and the vertex named") {
+    const std::size_t count = tube().positions.size();
+    CHECK(error_of(std::vector<float>(count - 1, 1.0f)).find("give one per vertex or none") !=
+          std::string::npos);
+    for (const float bad :
+         {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        std::vector<float> mask(count, 0.5f);
+        mask[7] = bad;
+        CHECK(error_of(mask).find("wrinkle mask of vertex 7 is outside 0..1") == 0);
+    }
+}
