@@ -743,27 +743,58 @@ def row_heights(body, settings, times):
     return np.array(heights[1:])
 
 
-def cut_rows(mesh, body, scale, heights):
-    """Cuts the faces that reach over more than a row."""
-    places, edit = Heights(body.base), bmesh.new()
+class Cutter:
+    """Cuts the faces that reach over more than a row. Halves of the rows are cut in turn, so that few faces are looked at
+    for each."""
+
+    MOST_FACES = 1_000_000
+
+    def __init__(self, edit, base, scale, rows):
+        self.edit, self.places, self.scale, self.rows = edit, Heights(base), scale, rows
+        self.dist = 1e-6 * base.length
+        around = np.concatenate(([0], rows, [base.length]))
+        self.steps = np.minimum(np.diff(around)[:-1], np.diff(around)[1:])
+        self.heights = dict(zip(edit.verts, self.places.of(np.array([v.co for v in edit.verts]) * scale)))
+
+    def span(self, face):
+        heights = []
+        for vertex in face.verts:
+            if vertex not in self.heights:
+                self.heights[vertex] = self.places.of(np.array(vertex.co) * self.scale)
+            heights.append(self.heights[vertex])
+        return min(heights), max(heights)
+
+    def cut(self, faces, first, last):
+        """At the rows from `first` up to `last`."""
+        if first >= last or not faces:
+            return
+        middle = (first + last) // 2
+        row, spans = self.rows[middle], [self.span(face) for face in faces]
+        faces += self.bisect([face for face, (low, high) in zip(faces, spans) if low + 2 * self.dist < row <
+                              high - 2 * self.dist and high - low > 1.001 * self.steps[middle]], row)
+        faces = list(dict.fromkeys(faces))
+        spans = [self.span(face) for face in faces]
+        self.cut([face for face, (low, _) in zip(faces, spans) if low < row - 2 * self.dist], first, middle)
+        self.cut([face for face, (_, high) in zip(faces, spans) if high > row + 2 * self.dist], middle + 1, last)
+
+    def bisect(self, faces, row):
+        """Returns the pieces."""
+        if not faces:
+            return []
+        point, normal = self.places.plane(row)
+        parts = dict.fromkeys(part for face in faces for part in (*face.verts, *face.edges))
+        made = bmesh.ops.bisect_plane(self.edit, geom=[*parts, *faces], dist=self.dist,
+                                      plane_co=point / self.scale, plane_no=normal * self.scale)
+        if len(self.edit.faces) > self.MOST_FACES:
+            raise Fault("The mesh would have more than a million faces: ask for fewer folds, or subdivide it by hand")
+        return [part for part in made["geom"] if isinstance(part, bmesh.types.BMFace)]
+
+
+def cut_rows(mesh, body, scale, rows):
+    edit = bmesh.new()
     try:
         edit.from_mesh(mesh)
-        rows = np.concatenate(([-np.inf], heights, [np.inf]))
-        for i, height in enumerate(heights):
-            row = min(rows[i + 1] - rows[i], rows[i + 2] - rows[i + 1])
-            z = places.of(np.array([v.co for v in edit.verts]) * scale)
-            edit.verts.index_update()
-            faces = []
-            for face in edit.faces:
-                low, *_, high = sorted(z[v.index] for v in face.verts)
-                if low < height < high and high - low > 1.001 * row:
-                    faces.append(face)
-            parts = {part for face in faces for part in (*face.verts, *face.edges)}
-            point, normal = places.plane(height)
-            bmesh.ops.bisect_plane(edit, geom=[*parts, *faces], dist=1e-6 * body.base.length,
-                                   plane_co=point / scale, plane_no=normal * scale)
-            if len(edit.faces) > 1_000_000:
-                raise Fault("The mesh would have more than a million faces: ask for fewer folds, or subdivide it")
+        Cutter(edit, body.base, scale, rows).cut(list(edit.faces), 0, len(rows))
         edit.to_mesh(mesh)
     finally:
         edit.free()
@@ -779,12 +810,14 @@ class GOFFER_OT_add_rows(Operator):
         settings, before = obj.goffer_bend, len(obj.data.vertices)
         body_of(obj)
         remove_keys(obj, (LIVE_KEY,))
-        for times in (1, 2, 4):  # thin parts have shorter folds
-            body, scale = body_of(obj)
-            if not any(too_coarse(folds, settings) for folds in body.folds):
-                break
-            cut_rows(obj.data, body, scale, row_heights(body, settings, times))
-        show(obj)
+        try:
+            for times in (1, 2, 4):  # thin parts have shorter folds
+                body, scale = body_of(obj)
+                if not any(too_coarse(folds, settings) for folds in body.folds):
+                    break
+                cut_rows(obj.data, body, scale, row_heights(body, settings, times))
+        finally:
+            show(obj)
         settings.fault = ""
         self.report({"INFO"}, f"{before} vertices before, {len(obj.data.vertices)} with the new rows")
 

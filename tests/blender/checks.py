@@ -328,9 +328,26 @@ def check_scale():
     check_near(seen(obj)[:len(rest(obj))] * np.float32([1, 1, -2]), expected, "with a modifier")
 
 
+def count_bodies():
+    """The set of those that the library holds from now on."""
+    held, body = set(), module().Body
+    bind, free = body.__init__, body.free
+
+    def bound(self, *arguments):
+        bind(self, *arguments)
+        held.add(self.handle)
+
+    def freed(self):
+        held.remove(self.handle)
+        free(self)
+
+    body.__init__, body.free = bound, freed
+    return held
+
+
 def check_several():
     """Objects one after the other, saved, read again, undone; bodies do not heap up."""
-    obj, bodies = tube(), module().store.bodies
+    obj, bodies, held = tube(), module().store.bodies, count_bodies()
     path = written(obj)
     bend(50)
     imported(FUZE).name = "fuze"
@@ -340,11 +357,12 @@ def check_several():
     check_near(seen(bpy.data.objects["fuze"]), by_command(FUZE, "--angle", "70"), "the second")
     for folds in range(12):
         obj.goffer_bend.folds = folds
-    assert len(bodies) == module().Store.KEPT, len(bodies)
+    assert len(bodies) == len(held) == module().Store.KEPT, (len(bodies), len(held))
     obj.goffer_bend.folds = -1
     file = os.path.join(FOLDER, "saved.blend")
     bpy.ops.wm.save_as_mainfile(filepath=file)
     module().store.clear()
+    assert not held
     bpy.ops.wm.open_mainfile(filepath=file)
     obj = bpy.data.objects["object"]
     assert obj.goffer_bend.active
@@ -383,6 +401,11 @@ def check_rows():
         body, _ = module().body_of(obj)
         assert (body.base.rest_angle > 1) == bent_at_rest
         assert body.folds[0].made == 0 and "need a finer mesh" in settings.warnings, settings.warnings
+        most, module().Cutter.MOST_FACES = module().Cutter.MOST_FACES, 100
+        bent, points = seen(obj), rest(obj)
+        refused(bpy.ops.object.goffer_add_rows, "than a million")
+        assert (seen(obj) == bent).all() and (rest(obj) == points).all()
+        module().Cutter.MOST_FACES = most
         assert bpy.ops.object.goffer_add_rows() == {"FINISHED"}
         body, _ = module().body_of(obj)
         print(f"{len(rest(obj))} vertices, {body.folds[0].made} of {body.folds[0].suitable} folds")

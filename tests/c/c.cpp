@@ -11,8 +11,10 @@
 #include <goffer/gpu/vertices.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/gtc/type_ptr.hpp>
 #include <goffer.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -117,11 +119,19 @@ TEST_CASE("C: what bind found is the base, and folds that are made, possible and
             INFO(error.text);
             REQUIRE(body != nullptr);
             const goffer_base base = goffer_body_base(body);
-            CHECK(std::memcmp(&base, &fitted, sizeof base) == 0);  // all members but the radii
+            CHECK(glm::make_vec3(base.origin) == fitted.origin);
+            CHECK(glm::make_vec3(base.axis) == fitted.axis);
+            CHECK(glm::make_vec3(base.zero) == fitted.zero);
+            CHECK(base.length == fitted.length);
+            CHECK(base.radius == fitted.radius);
+            CHECK(base.rest_angle == fitted.rest_angle);
+            CHECK(base.rest_direction == fitted.rest_direction);
+            CHECK(base.residual == fitted.residual);
             // A fold of the half length is two radii long, and takes 16 rows of the whole length.
             const goffer_folds folds = goffer_body_folds(body, shares.size() - 1);
             CHECK(folds.suitable == 6 / regions);
-            CHECK(folds.capacity == doctest::Approx(rows / 16 / regions).epsilon(0.1));
+            const int carried = rows / 16 / regions;
+            CHECK(std::abs(folds.capacity - carried) <= carried / 10);
             CHECK(folds.made == (asked > 0 ? asked : rows < 100 ? 0 : folds.suitable));
             const goffer_folds none = goffer_body_folds(body, shares.size());
             CHECK((none.made == 0 && none.capacity == 0 && none.suitable == 0));
