@@ -280,6 +280,9 @@ def check_frames():
         check_near(seen(obj), by_command(FUZE, "--angle", str(10 * (frame - 1))), f"baked frame {frame}")
     scene.frame_set(4)
     check_differs(seen(obj), before, "between")
+    scene.frame_set(3, subframe=0.5)
+    below, above = (by_command(FUZE, "--angle", angle) for angle in ("20", "40"))
+    check_near(seen(obj), 0.75 * below + 0.25 * above, "a quarter of the way to the next key")
     scene.frame_set(20)
     check_near(seen(obj), by_command(FUZE, "--angle", "80"), "after the last frame")
     bpy.ops.object.goffer_reset()
@@ -304,6 +307,10 @@ def check_keys():
     bpy.ops.object.goffer_reset()
     assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis", "wide"] and other.value == 0.5
     assert (coordinates(other.data) == shape).all() and (rest(obj) == before).all()
+    obj.shape_key_remove(other)
+    bend(60)
+    bpy.ops.object.goffer_reset()
+    assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis"]
     obj.data.shape_keys.use_relative = False
     refused(bpy.ops.object.goffer_bend, "absolute")
 
@@ -415,6 +422,8 @@ def check_rows():
         assert np.allclose(coordinates(keys["wide"].data), rest(obj) * np.float32([1.5, 1.5, 1]), atol=1e-4)
         if scale == (1, 1, 1):
             check_near(seen(obj), by_command(written(obj), "--angle", "60"), "with rows")
+            settings.straight = True
+            check_near(seen(obj), by_command(written(obj), "--angle", "60", "--rest", "straight"), "from straight")
         assert store.bodies
 
 
