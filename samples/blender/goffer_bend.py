@@ -24,7 +24,7 @@ bl_info = {
     "version": (0, 1, 0),
     "blender": (2, 93, 0),
     "location": "3D View > Sidebar > goffer",
-    "description": "Bend soft, longish meshes: the squeezed side wrinkles, and the surface keeps its area",
+    "description": "Bend soft, longish meshes; the squeezed side wrinkles",
     "category": "Mesh",
 }
 
@@ -128,11 +128,13 @@ def opened(path):
     return library
 
 
-def library_path():
-    """The path of the preferences; else a library beside this file, or where the system keeps its own."""
+def preferred_path():
     addon = bpy.context.preferences.addons.get(__name__)
-    if addon is not None and addon.preferences.library:
-        return bpy.path.abspath(addon.preferences.library)
+    return bpy.path.abspath(addon.preferences.library) if addon is not None else ""
+
+
+def found_path():
+    """A library beside this file, or where the system keeps its own."""
     name = {"win32": "goffer.dll", "darwin": "libgoffer.dylib"}.get(sys.platform, "libgoffer.so")
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
     found = beside if os.path.exists(beside) else ctypes.util.find_library("goffer")
@@ -189,12 +191,12 @@ class Store:
         self.path, self.found, self.bodies = None, None, collections.OrderedDict()
 
     def library(self):
-        path = library_path()
+        path = preferred_path()
         if path != self.path:
             self.clear()
-            self.path = path
+            self.path = path  # what was found is kept, a fault too: looking takes too long for every draw
             try:
-                self.found = opened(path)
+                self.found = opened(path or found_path())
             except Fault as fault:
                 self.found = fault
         if isinstance(self.found, Fault):
