@@ -388,6 +388,13 @@ def too_coarse(folds, settings):
     return folds.made < min(folds.suitable, least)
 
 
+def lacks_folds(folds, settings):
+    """Whether more rows would make more folds, few enough to warn of or not."""
+    if settings.amplitude == "NONE" or settings.folds >= 0:
+        return settings.amplitude != "NONE" and too_coarse(folds, settings)
+    return folds.made < folds.suitable
+
+
 def show(obj, evaluated=None):
     """Bends the object's live key as the settings say; as those of `evaluated` where an animation says more."""
     body, scale = body_of(obj)
@@ -558,7 +565,7 @@ class GOFFER_OT_bend(Operator):
 
     def work(self, _context, obj):
         settings = obj.goffer_bend
-        body_of(obj)  # nothing is touched where this fails
+        check_object(obj)
         was_active, settings.active = settings.active, False
         try:
             for name in ("wrinkles", "profile", "amplitude", "folds"):
@@ -739,7 +746,7 @@ def row_heights(body, settings, times):
     shares, heights, below = shares_of(settings) or [1], [], 0
     for share, folds in zip(shares, body.folds):
         wanted = settings.folds if settings.folds > 0 else folds.suitable
-        rows = max(1, times * wanted * (8 if settings.profile == "EVEN" else 16))
+        rows = max(1, math.ceil(times * wanted * (8 if settings.profile == "EVEN" else 16)))
         heights += [(below + share * i / rows) * body.base.length for i in range(rows)]
         below += share
     return np.array(heights[1:])
@@ -792,10 +799,10 @@ class Cutter:
         return [part for part in made["geom"] if isinstance(part, bmesh.types.BMFace)]
 
 
-def cut_rows(mesh, body, scale, rows):
-    edit = bmesh.new()
+def cut_rows(mesh, uncut, body, scale, rows):
+    """Makes `mesh` from `uncut` and rows."""
+    edit = uncut.copy()
     try:
-        edit.from_mesh(mesh)
         Cutter(edit, body.base, scale, rows).cut(list(edit.faces), 0, len(rows))
         edit.to_mesh(mesh)
     finally:
@@ -809,16 +816,18 @@ class GOFFER_OT_add_rows(Operator):
 
     def work(self, _context, obj):
         need_active(obj)
-        settings, before = obj.goffer_bend, len(obj.data.vertices)
+        settings, before, uncut = obj.goffer_bend, len(obj.data.vertices), bmesh.new()
         body_of(obj)
         remove_keys(obj, (LIVE_KEY,))
         try:
-            for times in (1, 2, 4):  # thin parts have shorter folds
+            uncut.from_mesh(obj.data)
+            for times in (1, 1.25, 1.5, 2, 4):  # thin parts have shorter folds
                 body, scale = body_of(obj)
-                if not any(too_coarse(folds, settings) for folds in body.folds):
+                if not any(lacks_folds(folds, settings) for folds in body.folds):
                     break
-                cut_rows(obj.data, body, scale, row_heights(body, settings, times))
+                cut_rows(obj.data, uncut, body, scale, row_heights(body, settings, times))
         finally:
+            uncut.free()
             show(obj)
         settings.fault = ""
         self.report({"INFO"}, f"{before} vertices before, {len(obj.data.vertices)} with the new rows")

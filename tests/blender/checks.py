@@ -428,7 +428,7 @@ def check_rows():
         other.data.foreach_set("co", (rest(obj) * np.float32([1.5, 1.5, 1])).ravel())
         before = np.ptp(rest(obj), axis=0)
         bend(60)
-        settings, store = obj.goffer_bend, module().store
+        settings = obj.goffer_bend
         body, _ = module().body_of(obj)
         assert (body.base.rest_angle > 1) == bent_at_rest
         assert body.folds[0].made == 0 and "need a finer mesh" in settings.warnings, settings.warnings
@@ -437,6 +437,10 @@ def check_rows():
         refused(bpy.ops.object.goffer_add_rows, "than a million")
         assert (seen(obj) == bent).all() and (rest(obj) == points).all()
         module().Cutter.MOST_FACES = most
+        for amplitude, folds in (("NONE", -1), ("MESH", 0)):
+            settings.amplitude, settings.folds = amplitude, folds
+            assert bpy.ops.object.goffer_add_rows() == {"FINISHED"} and len(rest(obj)) == len(points)
+        settings.folds = -1
         assert bpy.ops.object.goffer_add_rows() == {"FINISHED"}
         body, _ = module().body_of(obj)
         print(f"{len(rest(obj))} vertices, {body.folds[0].made} of {body.folds[0].suitable} folds")
@@ -448,7 +452,20 @@ def check_rows():
             check_near(seen(obj), by_command(written(obj), "--angle", "60"), "with rows")
             settings.straight = True
             check_near(seen(obj), by_command(written(obj), "--angle", "60", "--rest", "straight"), "from straight")
-        assert store.bodies
+
+
+    fuze = imported(FUZE)  # a neck and a belly
+    bend(90, folds=2)
+    assert "2 folds; 2 need a finer mesh" in fuze.goffer_bend.warnings
+    assert bpy.ops.object.goffer_add_rows() == {"FINISHED"}
+    print(f"{len(rest(fuze))} vertices for 2 folds")
+    assert fuze.goffer_bend.warnings == "" and len(rest(fuze)) < 2_000
+    fuze.goffer_bend.folds = -1
+    assert bpy.ops.object.goffer_add_rows() == {"FINISHED"}
+    folds = module().body_of(fuze)[0].folds[0]
+    print(f"{len(rest(fuze))} vertices, {folds.made} of {folds.suitable} folds")
+    assert folds.made == folds.suitable == 11 and len(rest(fuze)) < 10_000
+    check_near(seen(fuze), by_command(written(fuze), "--angle", "90"), "a shaped body")
 
 
 def check_faults():
