@@ -753,8 +753,8 @@ def row_heights(body, settings, times):
 
 
 class Cutter:
-    """Cuts the faces that reach over more than a row. Halves of the rows are cut in turn, so that few faces are looked at
-    for each."""
+    """Cuts the faces that reach over more than a row. Halves of the rows are cut in turn, so that few faces are
+    looked at for each."""
 
     MOST_FACES = 1_000_000
 

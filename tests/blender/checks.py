@@ -344,6 +344,27 @@ def check_keys():
     refused(bpy.ops.object.goffer_bend, "absolute")
 
 
+def check_edit():
+    """Who edits the rest shape while it is bent sees it bent as it is then, and gets it back so."""
+    obj = tube()
+    bend(60)
+    before = rest(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(1.5, 1.5, 1))
+    bpy.ops.mesh.quads_convert_to_tris()
+    obj.goffer_bend.angles[0] = 1
+    assert "Object Mode" in obj.goffer_bend.fault
+    bpy.ops.object.mode_set(mode="OBJECT")
+    edited = rest(obj)
+    check_differs(edited, before, "edited")
+    obj.goffer_bend.angles[0] = math.radians(50)
+    assert obj.goffer_bend.fault == "" and (rest(obj) == edited).all()
+    check_near(seen(obj), by_command(written(obj), "--angle", "50"), "edited")
+    bpy.ops.object.goffer_reset()
+    assert obj.data.shape_keys is None and (seen(obj) == edited).all()
+
+
 def check_scale():
     """An uneven scale is bent as it looks; an even one changes nothing; modifiers come after."""
     obj = tube()
