@@ -11,8 +11,10 @@
 #include <goffer/gpu/vertices.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/gtc/type_ptr.hpp>
 #include <goffer.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -97,6 +99,47 @@ TEST_CASE("C: a job gives the bits of C++, and so do bounds, capsules and socket
         CHECK(std::memcmp(frames, c_frames, sizeof frames) == 0);
         goffer_sockets_free(c_sockets);
     }
+}
+
+TEST_CASE("C: what bind found is the base, and folds that are made, possible and suitable") {
+    Random random(77);
+    for (const auto& [rows, regions] : {std::pair{9, 1}, std::pair{513, 1}, std::pair{513, 3}}) {
+        const TestMesh mesh = random_mesh(random, 12, 2, 24, rows, 0);
+        const goffer_mesh from = mesh_of(mesh);
+        const std::vector<double> shares(static_cast<std::size_t>(regions), 1.0 / regions);
+        const fit::Cylinder fitted = fit::fit_cylinder(mesh.geometry());
+        for (const int asked : {-1, 3}) {
+            goffer_bind_options wanted = goffer_bind_defaults();
+            wanted.profile = GOFFER_PROFILE_DAMPED;
+            wanted.folds = asked;
+            wanted.shares = shares.data();
+            wanted.region_count = shares.size();
+            goffer_error error;
+            goffer_body* body = goffer_body_bind(&from, &wanted, &error);
+            INFO(error.text);
+            REQUIRE(body != nullptr);
+            const goffer_base base = goffer_body_base(body);
+            CHECK(glm::make_vec3(base.origin) == fitted.origin);
+            CHECK(glm::make_vec3(base.axis) == fitted.axis);
+            CHECK(glm::make_vec3(base.zero) == fitted.zero);
+            CHECK(base.length == fitted.length);
+            CHECK(base.radius == fitted.radius);
+            CHECK(base.rest_angle == fitted.rest_angle);
+            CHECK(base.rest_direction == fitted.rest_direction);
+            CHECK(base.residual == fitted.residual);
+            // A fold of the half length is two radii long, and takes 16 rows of the whole length.
+            const goffer_folds folds = goffer_body_folds(body, shares.size() - 1);
+            CHECK(folds.suitable == 6 / regions);
+            const int carried = rows / 16 / regions;
+            CHECK(std::abs(folds.capacity - carried) <= carried / 10);
+            CHECK(folds.made == (asked > 0 ? asked : rows < 100 ? 0 : folds.suitable));
+            const goffer_folds none = goffer_body_folds(body, shares.size());
+            CHECK((none.made == 0 && none.capacity == 0 && none.suitable == 0));
+            goffer_body_free(body);
+        }
+    }
+    CHECK(goffer_body_base(nullptr).length == 0);
+    CHECK(goffer_body_folds(nullptr, 0).suitable == 0);
 }
 
 TEST_CASE("C: instruction set and stores are the caller's choice") {

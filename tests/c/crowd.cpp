@@ -176,6 +176,8 @@ TEST_CASE("C: a body file") {
                                            GOFFER_VERIFY_EVERYTHING, &error);
     REQUIRE(opened != nullptr);
     CHECK(goffer_file_level_count(opened) == 2);
+    CHECK(goffer_body_base(goffer_file_body(opened, 0)).length == 0);
+    CHECK(goffer_body_folds(goffer_file_body(opened, 0), 0).suitable == 0);
     goffer_file_free(opened);
     CHECK(goffer_file_open("none.goffer", GOFFER_VERIFY_EVERYTHING, &error) == nullptr);
     CHECK(std::string(error.text) == "body file: there is none of that name");

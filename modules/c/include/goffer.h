@@ -120,6 +120,28 @@ GOFFER_API goffer_pose goffer_body_rest_pose(const goffer_body* body, size_t reg
  * bodies of a file, which have goffer_file_mesh().source. */
 GOFFER_API const uint32_t* goffer_body_order(const goffer_body* body);
 
+/* The base cylinder that a mesh was bound to, in the mesh's space. [fit::Cylinder] */
+typedef struct goffer_base {
+    double origin[3];      /* center of the base end */
+    double axis[3];        /* e3, of unit length: from base to tip, at the base end of an arc */
+    double zero[3];        /* e1, of unit length: direction 0 */
+    double length, radius; /* the length is that of an arc's outer line */
+    double rest_angle, rest_direction;
+    double residual; /* how far the mesh is from the cylinder, rms, in radii */
+} goffer_base;
+
+/* How many folds a region has, over its whole length with GOFFER_PROFILE_EVEN, else over half of it.
+ * [fit::RegionBinding] */
+typedef struct goffer_folds {
+    int made;     /* 0: it bends without wrinkles */
+    int capacity; /* the most that the mesh has vertices for */
+    int suitable; /* as many as a mesh that is fine enough gets where nobody asks for a number */
+} goffer_folds;
+
+/* What was found at bind; zeros for the bodies of a file, and where there is no such region. */
+GOFFER_API goffer_base goffer_body_base(const goffer_body* body);
+GOFFER_API goffer_folds goffer_body_folds(const goffer_body* body, size_t region);
+
 /* ---- Body files [goffer/bend/body_file.hpp] ---- */
 
 typedef struct goffer_file goffer_file;

@@ -2,7 +2,9 @@
 #include "convert.hpp"
 
 #include <goffer/fit/cylinder.hpp>
+#include <goffer/fit/refine.hpp>
 
+#include <cmath>
 #include <memory>
 
 using namespace goffer;
@@ -47,13 +49,29 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     return options;
 }
 
-fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& options) {
+/// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
+std::vector<int> suitable_folds(const fit::Binding& binding, fit::BindOptions options) {
+    options.folds.reset();
+    const std::vector<fit::Stretch> stretches = fit::stretches_of(binding.cylinder, options);
+    const std::size_t regions = binding.regions.size(), of_region = stretches.size() / regions;
+    const double halves = options.profile.kind == fit::Profile::Kind::even ? 2 : 1;
+    std::vector<int> result(regions);
+    for (std::size_t r = 0; r < regions; ++r) {
+        double folds = 0;
+        for (std::size_t i = 0; i < of_region; ++i) folds += halves * stretches[r * of_region + i].folds;
+        result[r] = static_cast<int>(std::round(folds));
+    }
+    return result;
+}
+
+fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& given,
+                  const fit::BindOptions& options) {
     const fit::Geometry geometry = geometry_of(mesh);
     fit::check(geometry);
     std::optional<glm::dvec3> axis;
-    if (options.axis != nullptr) axis = glm::dvec3(options.axis[0], options.axis[1], options.axis[2]);
-    const auto rest = options.straight != 0 ? fit::RestPose::straight : fit::RestPose::automatic;
-    return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest), options_of(options));
+    if (given.axis != nullptr) axis = glm::dvec3(given.axis[0], given.axis[1], given.axis[2]);
+    const auto rest = given.straight != 0 ? fit::RestPose::straight : fit::RestPose::automatic;
+    return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest), options);
 }
 
 }  // namespace
@@ -90,7 +108,10 @@ goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options
     return guarded(error, [&]() -> goffer_body* {
         if (mesh == nullptr) throw fit::Error("mesh: null");
         auto body = std::make_unique<goffer_body>();
-        body->binding = bind(*mesh, options != nullptr ? *options : goffer_bind_defaults());
+        const goffer_bind_options given = options != nullptr ? *options : goffer_bind_defaults();
+        const fit::BindOptions wanted = options_of(given);
+        body->binding = bind(*mesh, given, wanted);
+        body->suitable_folds = suitable_folds(*body->binding, wanted);
         body->body = &body->binding->body;
         return body.release();
     });
@@ -133,4 +154,24 @@ goffer_pose goffer_body_rest_pose(const goffer_body* body, size_t region) {
 const uint32_t* goffer_body_order(const goffer_body* body) {
     if (body == nullptr || !body->binding || body->binding->order.empty()) return nullptr;
     return body->binding->order.data();
+}
+
+goffer_base goffer_body_base(const goffer_body* body) {
+    if (body == nullptr || !body->binding) return {};
+    const auto& [origin, axis, zero, length, radius, angle, direction, residual, radii] =
+        body->binding->cylinder;
+    return {{origin.x, origin.y, origin.z},
+            {axis.x, axis.y, axis.z},
+            {zero.x, zero.y, zero.z},
+            length,
+            radius,
+            angle,
+            direction,
+            residual};
+}
+
+goffer_folds goffer_body_folds(const goffer_body* body, size_t region) {
+    if (body == nullptr || region >= body->suitable_folds.size()) return {};
+    const fit::RegionBinding& found = body->binding->regions[region];
+    return {found.folds, found.folds_capacity, body->suitable_folds[region]};
 }
