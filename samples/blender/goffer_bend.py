@@ -49,7 +49,8 @@ class Error(c.Structure):
 
 class Mesh(c.Structure):
     _fields_ = [("positions", c.c_void_p), ("normals", c.c_void_p), ("tangents", c.c_void_p),
-                ("vertex_count", c.c_size_t), ("triangles", c.c_void_p), ("triangle_count", c.c_size_t)]
+                ("vertex_count", c.c_size_t), ("triangles", c.c_void_p), ("triangle_count", c.c_size_t),
+                ("wrinkle_mask", c.c_void_p)]
 
 
 class BindOptions(c.Structure):
@@ -146,9 +147,10 @@ def found_path():
 class Body:
     """A mesh that was bound, and its memory in the library."""
 
-    def __init__(self, library, positions, triangles, options):
+    def __init__(self, library, positions, triangles, mask, options):
         self.library, self.count, error = library, len(positions), Error()
-        mesh = Mesh(positions.ctypes.data, None, None, len(positions), triangles.ctypes.data, len(triangles))
+        mesh = Mesh(positions.ctypes.data, None, None, len(positions), triangles.ctypes.data, len(triangles),
+                    None if mask is None else mask.ctypes.data)
         self.handle = library.goffer_body_bind(c.byref(mesh), c.byref(options), c.byref(error))
         if not self.handle:
             raise Fault("This mesh cannot be bent: " + error.text.decode())
@@ -203,16 +205,17 @@ class Store:
             raise self.found
         return self.found
 
-    def body(self, positions, triangles, settings):
+    def body(self, positions, triangles, mask, settings):
         library = self.library()
         options, words = bind_options(library, settings)
         if len(positions) == 0 or len(triangles) == 0:
             raise Fault("This mesh has no faces: there is nothing to bend")
-        name = hashlib.blake2b(positions.tobytes() + triangles.tobytes() + repr(words).encode()).digest()
+        name = hashlib.blake2b(positions.tobytes() + triangles.tobytes() +
+                               (b"" if mask is None else mask.tobytes()) + repr(words).encode()).digest()
         if name in self.bodies:
             self.bodies.move_to_end(name)
             return self.bodies[name]
-        self.bodies[name] = Body(library, positions, triangles, options)
+        self.bodies[name] = Body(library, positions, triangles, mask, options)
         if len(self.bodies) > self.KEPT:
             self.bodies.popitem(last=False)[1].free()
         return self.bodies[name]
@@ -292,6 +295,22 @@ def coordinates(elements):
     return result
 
 
+def mask_of(obj):
+    """How much each vertex wrinkles: its weight in the group that was chosen. None: fully."""
+    name = obj.goffer_bend.mask
+    if not name:
+        return None
+    group = obj.vertex_groups.get(name)
+    if group is None:
+        raise Fault(f"This object has no vertex group '{name}': choose another under Folds, or none")
+    mask = np.zeros(len(obj.data.vertices), np.float32)
+    for vertex in obj.data.vertices:
+        for element in vertex.groups:
+            if element.group == group.index:
+                mask[vertex.index] = element.weight
+    return mask
+
+
 def body_of(obj):
     """The body of the object's rest shape, and the scale that it was bound in."""
     check_object(obj)
@@ -300,7 +319,7 @@ def body_of(obj):
     mesh.calc_loop_triangles()
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return store.body(positions * scale, triangles.astype(np.uint32), obj.goffer_bend), scale
+    return store.body(positions * scale, triangles.astype(np.uint32), mask_of(obj), obj.goffer_bend), scale
 
 
 def poses_of(settings, body):
@@ -482,6 +501,8 @@ class GofferBend(bpy.types.PropertyGroup):
                                            max=1, subtype="FACTOR", update=follow, options=set())
     wrinkle_last: bpy.props.FloatProperty(name="To", description="Above it the surface stays smooth", default=1,
                                           min=0, max=1, subtype="FACTOR", update=follow, options=set())
+    mask: bpy.props.StringProperty(name="Where", description="A vertex group: its weights say how much each vertex "
+                                   "wrinkles; empty: all of them fully", update=follow, options=set())
     onset: bpy.props.FloatProperty(name="Onset", description="Squeeze below which folds set in gently; -1: "
                                    "what suits the body", default=-1, min=-1, max=1, update=follow, options=set())
     axis: bpy.props.EnumProperty(name="Axis", items=AXIS_ITEMS, update=follow, options=set())
@@ -919,6 +940,7 @@ class GOFFER_PT_folds(SubPanel):
             column.prop(settings, "roundness")
         for name in ("onset", "wrinkle_first", "wrinkle_last"):
             column.prop(settings, name)
+        column.prop_search(settings, "mask", context.object, "vertex_groups")
 
 
 class GOFFER_PT_body(SubPanel):

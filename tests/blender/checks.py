@@ -237,6 +237,36 @@ def check_regions():
     check_near(seen(obj), by_command(path, "--angle", "max"), "clamped")
 
 
+def check_mask():
+    """A vertex group is what the command has as a channel of the colors."""
+    obj = tube()
+    height = rest(obj)[:, 2]
+    group = obj.vertex_groups.new(name="folds")
+    obj.vertex_groups.new(name="other")
+    weights = np.clip(1.5 - height / 5, 0, 1)  # vertices above 7.5 are not in the group at all
+    for vertex, weight in enumerate(weights.tolist()):
+        if weight > 0:
+            group.add([vertex], weight, "REPLACE")
+    bend(90)
+    plain = seen(obj)
+    path = written(obj)
+    check_near(plain, by_command(path, "--angle", "90"), "no group")
+    with open(path, encoding="ascii") as file:
+        lines = file.read().splitlines()
+    with open(path, "w", encoding="ascii") as file:
+        for line, weight in zip(lines, weights.tolist()):
+            file.write(f"{line} 0 {weight:.9g} 0\n")
+        file.write("\n".join(lines[len(weights):]) + "\n")
+    obj.goffer_bend.mask = "folds"
+    check_near(seen(obj), by_command(path, "--angle", "90", "--wrinkle-mask", "COLOR_0.g"), "a group")
+    check_differs(seen(obj), plain, "a group")
+    obj.vertex_groups.remove(group)
+    obj.goffer_bend.angles[0] = 1
+    assert "no vertex group 'folds'" in obj.goffer_bend.fault
+    obj.goffer_bend.mask = ""
+    assert obj.goffer_bend.fault == ""
+
+
 def check_bake():
     """Baked keys give the shapes of the command where they stand, play by one property, and need no add-on."""
     obj = imported(FUZE)

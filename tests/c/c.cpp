@@ -194,6 +194,42 @@ TEST_CASE("C: instruction set and stores are the caller's choice") {
     goffer_crowd_free(crowd);
 }
 
+TEST_CASE("C: a mask is the mesh's own") {
+    Random random(78);
+    const TestMesh mesh = random_mesh(random, 12, 2, 24, 257, 0);
+    std::vector<float> mask(mesh.positions.size());
+    for (float& value : mask) value = static_cast<float>(uniform(random, 0, 1));
+    fit::Geometry geometry = mesh.geometry();
+    goffer_mesh from = mesh_of(mesh);
+    geometry.wrinkle_mask = mask;
+    from.wrinkle_mask = mask.data();
+    goffer_error error;
+    goffer_body* body = goffer_body_bind(&from, nullptr, &error);
+    REQUIRE(body != nullptr);
+    const fit::Binding binding = fit::bind(geometry, fit::fit_cylinder(geometry));
+    const goffer_pose pose{1.2f, 0.3f};
+    const bend::Pose same{pose.angle, pose.direction};
+    std::vector<glm::vec3> p(mesh.positions.size()), cp = p;
+    bend::DeformJob job{.body = &binding.body, .poses = std::span(&same, 1)};
+    job.positions = interleaved<3>(&p[0].x, p.size());
+    bend::run(job);
+    goffer_job c_job = goffer_job_defaults();
+    c_job.body = body;
+    c_job.poses = &pose;
+    c_job.pose_count = 1;
+    c_job.positions = {{&cp[0].x, &cp[0].y, &cp[0].z, nullptr}, 3 * sizeof(float), cp.size()};
+    goffer_job_run(&c_job);
+    CHECK(p == cp);
+    const fit::Binding plain = fit::bind(mesh.geometry(), fit::fit_cylinder(mesh.geometry()));
+    job.body = &plain.body;
+    bend::run(job);
+    CHECK_FALSE(p == cp);
+    goffer_body_free(body);
+    mask[5] = 2;
+    CHECK(goffer_body_bind(&from, nullptr, &error) == nullptr);
+    CHECK(std::string(error.text).starts_with("wrinkle mask of vertex 5"));
+}
+
 TEST_CASE("C: what is wrong is said, and null does no harm") {
     Random random(74);
     const Twice twice(random, 1);

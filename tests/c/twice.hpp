@@ -18,8 +18,13 @@
 namespace goffer::test {
 
 inline goffer_mesh mesh_of(const TestMesh& mesh) {
-    return {&mesh.positions[0].x,  &mesh.normals[0].x,    &mesh.tangents[0].x,
-            mesh.positions.size(), mesh.triangles.data(), mesh.triangles.size() / 3};
+    return {&mesh.positions[0].x,
+            &mesh.normals[0].x,
+            &mesh.tangents[0].x,
+            mesh.positions.size(),
+            mesh.triangles.data(),
+            mesh.triangles.size() / 3,
+            nullptr};
 }
 
 /// A mesh bound twice: from C, and from C++.

@@ -80,6 +80,7 @@ typedef struct goffer_mesh {
     size_t vertex_count;
     const uint32_t* triangles; /* 3 vertices each */
     size_t triangle_count;
+    const float* wrinkle_mask; /* null, or how much of its wrinkle each vertex follows, 0 to 1 */
 } goffer_mesh;
 
 enum { GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED, GOFFER_PROFILE_SMOOTH }; /* profiles */

@@ -84,8 +84,12 @@ fit::Geometry goffer::c::geometry_of(const goffer_mesh& mesh) {
     };
     const std::span tangents(reinterpret_cast<const glm::vec4*>(mesh.tangents),
                              mesh.tangents != nullptr ? mesh.vertex_count : 0);
-    return {
-        vectors(mesh.positions), {mesh.triangles, 3 * mesh.triangle_count}, vectors(mesh.normals), tangents};
+    const std::span mask(mesh.wrinkle_mask, mesh.wrinkle_mask != nullptr ? mesh.vertex_count : 0);
+    return {vectors(mesh.positions),
+            {mesh.triangles, 3 * mesh.triangle_count},
+            vectors(mesh.normals),
+            tangents,
+            mask};
 }
 
 const char* goffer_version(void) {
