@@ -146,8 +146,6 @@ void check_moment(Player& player, clip::Frames& frames, const clip::VertexTextur
     }
     CHECK(position <= texture.half_step + 2 * float_rounding(texture));
     CHECK(normal <= normal_half_step + 1e-4);
-    MESSAGE("frame ", moment.frame, ": off by ", position, " of ", texture.half_step, ", and ", normal,
-            " degrees");
 }
 
 void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays) {

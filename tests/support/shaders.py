@@ -3,7 +3,7 @@
 """Compiles goffer's shader files for what engines use, and validates what comes out as SPIR-V.
    shaders.py packed INCLUDE_FOLDER         packed.glsl and packed.hlsl
    shaders.py deform INCLUDE_FOLDER PAGE    deform.glsl, deform.hlsl, and the shaders that the page shows
-   shaders.py clip INCLUDE_FOLDER           vertex_texture.glsl
+   shaders.py clip INCLUDE_FOLDER PAGE      vertex_texture.glsl, and the shaders that the page shows
 Exits with 77 where no compiler is installed."""
 import pathlib
 import re
