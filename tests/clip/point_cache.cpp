@@ -38,8 +38,7 @@ std::filesystem::path saved(Save save, clip::Frames& frames, std::size_t vertice
 
 std::string save_error(Save save, clip::Frames& frames, std::size_t vertices) {
     const Folder folder;
-    const std::string message =
-        message_of<io::Error>([&] { saved(save, frames, vertices, folder / "clip"); });
+    std::string message = message_of<io::Error>([&] { saved(save, frames, vertices, folder / "clip"); });
     CHECK(folder.files() == 0);
     return message;
 }

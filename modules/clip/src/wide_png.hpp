@@ -11,8 +11,8 @@
 
 namespace goffer::clip {
 
-/// A PNG of 16 bits a channel that is written row by row, as fast as a deflate of the rows allows. It has no
-/// chunk about color: the numbers are no colors, and a decoder that is told nothing leaves them alone.
+/// A PNG of 16 bits a channel that is written row by row. It has no chunk about color: the numbers are no
+/// colors, and a decoder that is told nothing leaves them alone.
 class WidePng {
 public:
     /// Begins an image in `out`, which must outlive it; `file` is its name, for errors. The sides are 1 or
