@@ -5,17 +5,12 @@
 
 #include <goffer/clip/point_cache.hpp>
 #include <goffer/io/atomic_file.hpp>
-#include <goffer/io/bytes.hpp>
 #include <goffer/io/error.hpp>
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <bit>
-#include <cstdint>
-#include <cstdlib>
-#include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -211,6 +206,28 @@ TEST_CASE("point cache: files that are cut off or lie about their counts are ref
         CHECK(tells(read_error(with(pc2_bytes, 28, count)), "export it again"));
         CHECK(tells(read_error(with(with(pc2_bytes, 16, count), 28, count)), "export it again"));
     }
+}
+
+TEST_CASE("point cache: whatever bytes are wrong, a cache is read or refused in one line") {
+    const Folder folder(quick_place());
+    std::mt19937 random(4);
+    int read = 0, refused = 0;
+    for (int round = 0; round < 4000; ++round) {
+        std::string bytes = random() % 2 == 0 ? mdd_bytes : pc2_bytes;
+        for (std::size_t i = random() % 3 + 1; i > 0; --i)
+            bytes[random() % bytes.size()] = static_cast<char>(random() % 4 == 0 ? random() : random() % 4);
+        if (random() % 4 == 0) bytes.resize(random() % (2 * bytes.size()), static_cast<char>(random()));
+        const auto file = folder.write("clip", bytes);
+        const std::string message = message_of<io::Error>([&] {
+            clip::PointCache cache = clip::read_point_cache(file);
+            std::vector<glm::vec3> positions(cache.header().points);
+            for (std::size_t frame = 0; frame < cache.header().frames; ++frame) cache.read(frame, positions);
+        });
+        if (!message.empty() && !tells(message, "export")) FAIL_CHECK(message);
+        ++(message.empty() ? read : refused);
+    }
+    CHECK(read > 500);
+    CHECK(refused > 500);
 }
 
 TEST_CASE("point cache: numbers that are none are refused") {
