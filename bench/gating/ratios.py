@@ -8,6 +8,7 @@ then held against them.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import statistics
 from collections.abc import Callable
@@ -60,12 +61,12 @@ def two_programs(program: str, case: str) -> float:
         return Run(program, [case], SECONDS_TOGETHER)
 
     alone = run().counters()[case]["real_time"]
-    both = [run(), run()]
-    try:
+    with contextlib.ExitStack() as at_end:
+        both = []
+        for _ in range(2):
+            both.append(run())
+            at_end.callback(both[-1].stop)
         return 2 * alone / statistics.mean(one.counters()[case]["real_time"] for one in both)
-    finally:
-        for one in both:
-            one.stop()
 
 
 class Binding:
@@ -77,23 +78,19 @@ class Binding:
         self.threads = kind == "two_threads"
         self.best: float | None = None
         self.busy = 0.0  # processors that others kept busy in the quietest try
-        self.excuse = 0.0  # what two programs reached, in a try in which the threads were not much worse than they
+        self.reached = 0.0  # the most that two programs did
         self._case = case
         self._ratio, needs = KINDS[kind]
         self.needs = needs(case)
 
-    def look(self, seen: Counters, busy: float) -> float:
-        """Takes in a try; its ratio."""
-        ratio = self._ratio(self._case, seen)
+    def look(self, seen: Counters, busy: float) -> None:
+        """Takes in a try."""
         self.busy = busy if self.best is None else min(self.busy, busy)
-        self.best = max(self.best or 0, ratio)
-        return ratio
+        self.best = max(self.best or 0, self._ratio(self._case, seen))
 
-    def compare(self, ratio: float, program: str) -> None:
-        """Holds what two programs reach against the ratio of a try of two threads."""
-        reached = two_programs(program, f"{self._case}/1")
-        if ratio >= OF_TWO_PROGRAMS * reached:
-            self.excuse = max(self.excuse, reached)
+    def try_two_programs(self, program: str) -> None:
+        """Takes in what two programs reach where two threads reach too little."""
+        self.reached = max(self.reached, two_programs(program, f"{self._case}/1"))
 
     def is_met(self) -> bool:
         """Whether a try was good enough."""
@@ -106,8 +103,8 @@ class Binding:
             row.verdict, row.remark = Verdict.NOTE, "the program has no such case here"
         elif not self.is_met() and self.threads and self.busy >= BUSY:
             row.verdict, row.remark = Verdict.NOTE, f"the machine is busy: others kept {self.busy:.1f} processors"
-        elif not self.is_met() and self.excuse:
-            row.verdict, row.remark = Verdict.NOTE, f"two programs beside each other reach no more than {self.excuse:.2f}"
+        elif not self.is_met() and self.threads and self.best >= OF_TWO_PROGRAMS * self.reached:
+            row.verdict, row.remark = Verdict.NOTE, f"two programs beside each other reach no more than {self.reached:.2f}"
         elif not self.is_met():
             row.verdict, row.remark = Verdict.REGRESSION, f"below its bound in each of {TRIES} tries"
         return row
@@ -152,7 +149,7 @@ def _try(bounds: list[Binding], program: str, progress: Callable[[str], None]) -
         seen = Run(program, needs, SECONDS).counters()
         busy = others.processors()
         for bound in group:
-            ratio = bound.look(seen, busy)
+            bound.look(seen, busy)
             if bound.threads and not bound.is_met():
                 progress(f"{bound.name}: two programs")
-                bound.compare(ratio, program)
+                bound.try_two_programs(program)

@@ -66,7 +66,6 @@ public:
         std::vector<std::filesystem::path> names;
         for (const Json& file : files) names.emplace_back(file.get<std::string>());
         cli::Wish wish = cli::wish_to_open(std::move(names), controls_, stage_->loaded().wish);
-        wish.bind.wrinkle_range.reset();
         wish.bind.folds.reset();
         put_on_stage(wish, controls_);
         region_ = 0;

@@ -2,8 +2,10 @@
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
+#include <goffer/bend/sockets.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/normals.hpp>
+#include <goffer/fit/sockets.hpp>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -96,26 +98,29 @@ std::string error_of(const std::vector<float>& mask) {
 
 }  // namespace
 
-TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profile, shape and regions") {
+TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profile, amplitude and regions") {
     const Solid solid = fine_tube();
     const std::vector<float> mask =
         mask_of(solid, [](double z, double beta) { return 0.5 + 0.5 * std::sin(7 * z + 2 * beta); });
     for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped, fit::Profile::smooth}) {
-        for (const std::size_t regions : {1u, 3u}) {
-            fit::BindOptions options;
-            options.profile = profile;
-            options.regions.assign(regions, {1.0 / static_cast<double>(regions), std::nullopt});
-            const Bent bare = bent(fit::bind(solid.geometry(), upright(), options), 0),
-                       full = bent(fit::bind(solid.geometry(), upright(), options), 1),
-                       part = bent(fit::bind(masked(solid, mask), upright(), options), 1);
-            double worst = 0, deepest = 0;
-            for (std::size_t i = 0; i < mask.size(); ++i) {
-                const glm::vec3 expected = glm::mix(bare.positions[i], full.positions[i], mask[i]);
-                worst = std::max(worst, double{glm::distance(part.positions[i], expected)});
-                deepest = std::max(deepest, double{glm::distance(bare.positions[i], full.positions[i])});
+        for (const fit::Amplitude amplitude : {fit::Amplitude::paper, fit::Amplitude::mesh}) {
+            for (const std::size_t regions : {1u, 3u}) {
+                fit::BindOptions options;
+                options.profile = profile;
+                options.amplitude = amplitude;
+                options.regions.assign(regions, {1.0 / static_cast<double>(regions), std::nullopt});
+                const fit::Binding plain = fit::bind(solid.geometry(), upright(), options);
+                const Bent bare = bent(plain, 0), full = bent(plain, 1),
+                           part = bent(fit::bind(masked(solid, mask), upright(), options), 1);
+                double worst = 0, deepest = 0;
+                for (std::size_t i = 0; i < mask.size(); ++i) {
+                    const glm::vec3 expected = glm::mix(bare.positions[i], full.positions[i], mask[i]);
+                    worst = std::max(worst, double{glm::distance(part.positions[i], expected)});
+                    deepest = std::max(deepest, double{glm::distance(bare.positions[i], full.positions[i])});
+                }
+                CHECK(worst < 5e-6);
+                CHECK(deepest > 0.1);
             }
-            CHECK(worst < 5e-6);
-            CHECK(deepest > 0.1);
         }
     }
 }
@@ -149,24 +154,52 @@ TEST_CASE("wrinkle mask: around the body, normals lag by depth over width") {
     CHECK(lag < glm::degrees(std::atan(steepest)));
 }
 
-TEST_CASE("wrinkle mask: amplitude mesh keeps the area of what may wrinkle") {
+TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one normal") {
     const Solid solid = fine_tube();
-    const std::vector<float> mask =
-        mask_of(solid, [](double z, double beta) { return z < 0.6 || std::fabs(beta) > 2.4 ? 1 : 0; });
-    const fit::Geometry geometry = masked(solid, mask);
-    for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped}) {
-        fit::BindOptions options;
-        options.amplitude = fit::Amplitude::mesh;
-        options.profile = profile;
-        const fit::Binding binding = fit::bind(geometry, upright(), options);
-        const std::vector<std::uint32_t> inside = fit::triangles_within(geometry, upright(), {});
-        const double area = fit::surface_area(solid.positions, inside);
-        CHECK(area < 0.8 * fit::surface_area(solid.positions, solid.triangles));
-        for (const double angle : {0.5, right_angle}) {
-            const Bent result = bent(binding, 1, angle);
-            CHECK(std::abs(fit::surface_area(result.positions, inside) / area - 1) < 2e-3);
-        }
+    const std::size_t count = solid.positions.size();
+    std::vector<glm::vec3> positions = solid.positions,
+                           normals = fit::make_normals(solid.positions, solid.triangles);
+    std::vector<std::uint32_t> triangles = solid.triangles;
+    positions.insert(positions.end(), solid.positions.begin(), solid.positions.end());
+    normals.resize(2 * count);
+    std::copy_n(normals.begin(), count, normals.begin() + static_cast<std::ptrdiff_t>(count));
+    // A seam around the body, in the middle of the mask's edge.
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        float low = 10;
+        for (std::size_t i = t; i < t + 3; ++i) low = std::min(low, positions[triangles[i]].z);
+        for (std::size_t i = t; i < t + 3; ++i)
+            triangles[i] += low > 4.49f ? static_cast<std::uint32_t>(count) : 0;
     }
+    std::vector<float> mask;
+    for (const glm::vec3& p : positions) mask.push_back(p.z > 4.49f ? 1.0f : 0.0f);
+    const fit::Geometry geometry{positions, triangles, normals, {}, mask};
+    const Bent result = bent(fit::bind(geometry, upright()), 1);
+    double worst = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        worst = std::max(worst, double{glm::distance(result.normals[i], result.normals[count + i])});
+    CHECK(worst < 1e-6);
+}
+
+TEST_CASE("wrinkle mask: a socket goes where its place on the mesh goes") {
+    const Solid solid = fine_tube();
+    const std::vector<float> mask = mask_of(solid, [](double z, double) { return smooth((z - 0.3) / 0.4); });
+    const fit::Geometry geometry = masked(solid, mask);
+    const fit::Binding binding = fit::bind(geometry, upright());
+    const Bent result = bent(binding, 1);
+    const std::vector<bend::Pose> poses{{static_cast<float>(right_angle), 0.4f}};
+    bend::DeformJob job{.body = &binding.body, .poses = poses};
+    double worst = 0, unmasked = 0;
+    for (std::size_t i = 100; i < solid.positions.size(); i += 997) {
+        std::vector<bend::Socket> sockets{
+            fit::socket_near(binding, geometry, glm::dvec3(solid.positions[i])),
+            fit::socket_near(binding, solid.geometry(), glm::dvec3(solid.positions[i]))};
+        bend::SocketFrame frames[2];
+        bend::Sockets::make(binding.body, sockets).value().frames(job, frames);
+        worst = std::max(worst, double{glm::distance(frames[0][3], result.positions[i])});
+        unmasked = std::max(unmasked, double{glm::distance(frames[1][3], result.positions[i])});
+    }
+    CHECK(worst < 2e-5);
+    CHECK(unmasked > 0.05);
 }
 
 TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bare bend") {

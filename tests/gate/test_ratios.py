@@ -55,6 +55,13 @@ class Ratios(support.Case):
                 self.assertEqual(verdicts, [verdict])
         self.assertEqual(part.exit_code, 1)
 
+    def test_one_bad_moment_of_two_programs_is_no_excuse(self):
+        bounds = {"two_threads": {"deform/packed/crowd/avx2": 1.9}}
+        with unittest.mock.patch.object(ratios.Others, "processors", return_value=0), \
+                unittest.mock.patch.object(ratios, "two_programs", side_effect=(2.3, 2.3, 1.2, 2.3)):
+            part = ratios.judge({"ratios": bounds}, self.fake("head", PAIR, spread=0), lambda text: None)
+        self.assertEqual([row.verdict for row in part.rows], [Verdict.REGRESSION])
+
     def test_two_programs(self):
         program = self.fake("head", PAIR, spread=0, change_after=(1, 1.6))  # 2.0 alone, 3.2 beside each other
         self.assertAlmostEqual(ratios.two_programs(program, "deform/packed/crowd/avx2/1"), 1.25)

@@ -15,7 +15,8 @@
  * exception leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to
  * const may be called from several threads at the same time, if they write to different memory. Objects that
  * goffer_.._free takes belong to the caller; null may be freed. Angles are radians, lengths are in the mesh's
- * units. */
+ * units. Structs may grow: set one to 0, or to its defaults, before you fill it, and build against the header
+ * of the library that you load. */
 
 #ifdef _WIN32
 #ifdef GOFFER_BUILDING

@@ -49,21 +49,6 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     return options;
 }
 
-/// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
-std::vector<int> suitable_folds(const fit::Binding& binding, fit::BindOptions options) {
-    options.folds.reset();
-    const std::vector<fit::Stretch> stretches = fit::stretches_of(binding.cylinder, options);
-    const std::size_t regions = binding.regions.size(), of_region = stretches.size() / regions;
-    const double halves = options.profile.kind == fit::Profile::Kind::even ? 2 : 1;
-    std::vector<int> result(regions);
-    for (std::size_t r = 0; r < regions; ++r) {
-        double folds = 0;
-        for (std::size_t i = 0; i < of_region; ++i) folds += halves * stretches[r * of_region + i].folds;
-        result[r] = static_cast<int>(std::round(folds));
-    }
-    return result;
-}
-
 fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& given,
                   const fit::BindOptions& options) {
     const fit::Geometry geometry = geometry_of(mesh);
@@ -115,7 +100,7 @@ goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options
         const goffer_bind_options given = options != nullptr ? *options : goffer_bind_defaults();
         const fit::BindOptions wanted = options_of(given);
         body->binding = bind(*mesh, given, wanted);
-        body->suitable_folds = suitable_folds(*body->binding, wanted);
+        body->suitable_folds = fit::suitable_folds(body->binding->cylinder, wanted);
         body->body = &body->binding->body;
         return body.release();
     });
@@ -162,16 +147,19 @@ const uint32_t* goffer_body_order(const goffer_body* body) {
 
 goffer_base goffer_body_base(const goffer_body* body) {
     if (body == nullptr || !body->binding) return {};
-    const auto& [origin, axis, zero, length, radius, angle, direction, residual, radii] =
-        body->binding->cylinder;
-    return {{origin.x, origin.y, origin.z},
-            {axis.x, axis.y, axis.z},
-            {zero.x, zero.y, zero.z},
-            length,
-            radius,
-            angle,
-            direction,
-            residual};
+    const fit::Cylinder& found = body->binding->cylinder;
+    goffer_base base = {};
+    for (int i = 0; i < 3; ++i) {
+        base.origin[i] = found.origin[i];
+        base.axis[i] = found.axis[i];
+        base.zero[i] = found.zero[i];
+    }
+    base.length = found.length;
+    base.radius = found.radius;
+    base.rest_angle = found.rest_angle;
+    base.rest_direction = found.rest_direction;
+    base.residual = found.residual;
+    return base;
 }
 
 goffer_folds goffer_body_folds(const goffer_body* body, size_t region) {

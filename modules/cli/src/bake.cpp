@@ -153,7 +153,7 @@ std::vector<bend::DrawMaterial> materials_of(std::vector<Level>& levels) {
 }
 
 std::vector<bend::NamedSocket> sockets_on(const BoundModel& model, const std::vector<SocketWords>& words) {
-    const fit::Geometry geometry = geometry_of(model.rest);
+    const fit::Geometry geometry = geometry_of(model);
     std::vector<bend::NamedSocket> sockets;
     sockets.reserve(words.size());
     for (const SocketWords& socket : words) {

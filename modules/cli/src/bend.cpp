@@ -118,12 +118,14 @@ void report_smooth(Report& report, const Request& request, const BoundModel& mod
     const double bent_outside = fit::surface_area(positions, model.rest.triangles) - bent_inside;
     const double change = inside > 0 ? bent_inside / inside - 1 : 0;
     const double cost = outside > 0 ? bent_outside / outside - 1 : 0;
-    nlohmann::ordered_json& json = report.json[mask ? "wrinkle_mask" : "wrinkle_range"];
-    if (mask) json["channel"] = *mask;
-    json["first"] = range.first;
-    json["last"] = range.last;
-    json["area_change_inside"] = change;
-    json["area_change_outside"] = cost;
+    nlohmann::ordered_json said;
+    if (!range.whole()) said["wrinkle_range"] = {{"first", range.first}, {"last", range.last}};
+    if (mask) said["wrinkle_mask"] = {{"channel", *mask}};
+    for (auto& [word, json] : said.items()) {
+        json["area_change_inside"] = change;
+        json["area_change_outside"] = cost;
+        report.json[word] = json;
+    }
     const std::string stretch = number(range.first) + " to " + number(range.last) + " of the length";
     const std::string where = !mask ? stretch : range.whole() ? *mask : *mask + ", " + stretch;
     report.line(mask ? "wrinkle mask" : "wrinkle range",

@@ -44,18 +44,6 @@ int parse_wrinkle_mask(const std::string& text) {
     return static_cast<int>(channel);
 }
 
-/// How many folds suit each region of a body whose mesh is fine enough, counted as the profile counts them.
-std::vector<int> suitable_folds(fit::BindOptions options, const BoundModel& model) {
-    options.folds.reset();
-    for (fit::RegionOptions& region : options.regions) region.folds.reset();
-    const std::vector<fit::Stretch> stretches = fit::stretches_of(model.cylinder, options);
-    const std::size_t regions = model.binding.regions.size(), of_region = stretches.size() / regions;
-    std::vector<int> folds;
-    for (std::size_t r = 0; r < regions; ++r)
-        folds.push_back(fold_count(std::span(stretches).subspan(r * of_region, of_region), options.profile));
-    return folds;
-}
-
 /// What to say of folds that were asked for, and that the mesh cannot carry.
 std::string too_coarse(const fit::Binding& binding, std::size_t region) {
     const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
@@ -321,10 +309,17 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
 
 void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
                    std::span<const double> angles, const std::string& where) {
+    if (const std::vector<float>& mask = model.wrinkle_mask; !mask.empty()) {
+        const auto [least, most] = std::ranges::minmax(mask);
+        if (least == 1 || most == 0)
+            report.warn(where + "--wrinkle-mask: " + request.words.wrinkle_mask.value_or("") + " is " +
+                        (most == 0 ? "0 at every vertex: nothing wrinkles"
+                                   : "1 at every vertex: nothing stays smooth"));
+    }
     const fit::Binding& binding = model.binding;
     const bool even = binding.profile.kind == fit::Profile::Kind::even;
     const bool asked = request.words.folds.has_value(), none = binding.amplitude == fit::Amplitude::none;
-    const std::vector<int> wanted = suitable_folds(request.options, model);
+    const std::vector<int> wanted = fit::suitable_folds(model.cylinder, request.options);
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());
         const std::string few = asked || none ? ""

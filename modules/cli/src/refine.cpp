@@ -76,18 +76,11 @@ std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const f
 
 }  // namespace
 
-int fold_count(std::span<const fit::Stretch> stretches, fit::Profile profile) {
-    const double halves = profile.kind == fit::Profile::Kind::even ? 2 : 1;
-    double folds = 0;
-    for (const fit::Stretch& stretch : stretches) folds += halves * stretch.folds;
-    return static_cast<int>(std::round(folds));
-}
-
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
               const mesh::Limits& limits, bool sparing) {
     Growth growth;
     const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
-    growth.folds = fold_count(wanted, options.profile);
+    growth.folds = fit::fold_count(wanted, options.profile);
     growth.vertices_before = mesh.positions.size();
     growth.triangles_before = mesh::triangle_count(mesh);
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);

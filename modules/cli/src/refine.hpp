@@ -9,7 +9,6 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <cstddef>
-#include <span>
 
 /// A model with as many rows as its folds need: `goffer refine`, and `--refine` of other commands.
 
@@ -21,10 +20,6 @@ struct Growth {
     std::size_t vertices_before = 0, vertices_after = 0;
     std::size_t triangles_before = 0, triangles_after = 0;
 };
-
-/// How many folds `stretches` have together, as `profile` counts them: over the whole length of a region if
-/// it is even, else over half of it.
-[[nodiscard]] int fold_count(std::span<const fit::Stretch> stretches, fit::Profile profile);
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that
 /// suits the body where nobody says. `sparing`: leaves a mesh as it is that would get more than a million

@@ -302,20 +302,17 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places);
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
     if (options.amplitude == paper::Amplitude::mesh) {
-        Geometry wrinkled = geometry;  // what is to keep its area
-        std::vector<std::uint32_t> triangles;
-        if (!geometry.wrinkle_mask.empty()) {
-            triangles = triangles_within(geometry, cylinder, {});
-            wrinkled.triangles = triangles;
-        }
         if (even) {
-            weigh_slices(body, wrinkled, options, draft->mesh, places, found);
+            weigh_slices(body, geometry, options, draft->mesh, places, found);
             draft.emplace(geometry, cylinder, options, onset, places);
             body = make(cylinder, draft->regions, draft->mesh);
         }
         auto& [mesh, plans, regions] = *draft;
+        Geometry wrinkled = geometry;  // what is to keep its area
+        wrinkled.wrinkle_mask = {};
+        std::vector<std::uint32_t> triangles;
         if (!options.wrinkle_range.whole()) {
-            triangles = triangles_within(geometry, cylinder, options.wrinkle_range);
+            triangles = triangles_within(wrinkled, cylinder, options.wrinkle_range);
             wrinkled.triangles = triangles;
         }
         solve_factors(body, wrinkled, mesh.order, regions);
@@ -323,6 +320,10 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
             regions[i].max_angle =
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
         body = make(cylinder, regions, mesh);
+    }
+    if (!geometry.wrinkle_mask.empty()) {  // of the wrinkles that there are without it
+        apply_mask(geometry, cylinder, draft->mesh);
+        body = make(cylinder, draft->regions, draft->mesh);
     }
     return {std::move(body), std::move(found),  std::move(draft->mesh.order), cylinder,
             options.profile, options.amplitude, milliseconds_since(start)};
@@ -335,6 +336,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
         throw Error("rig: its body is empty or does not have its regions; give what bind returned");
     const std::vector<RestRegion> places = rest_regions(rig);
     RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places);
+    apply_mask(level, rig.cylinder, mesh);
     const std::span<const bend::RegionInput> own = rig.body.region_inputs();
     std::vector<bend::RegionInput> regions(own.begin(), own.end());
     std::vector<RegionBinding> found = rig.regions;

@@ -240,7 +240,6 @@ private:
 /// A better factor for a slice that gains `gain` area by `factor` and is `missing` so much without a wrinkle.
 double next_factor(double factor, double gain, double missing, double area) {
     constexpr double least_gain = 2e-3;  // of the area, below which a factor says nothing
-    if (area <= 0) return factor;
     if (missing <= 0) {
         factor *= 0.5;
     } else if (gain > least_gain * area) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "rest.hpp"
+
 #include <goffer/bend/rest_vertex.hpp>
+#include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
-#include <goffer/paper/closed_form.hpp>
 
 #include <cstdint>
 #include <span>
@@ -11,19 +13,33 @@
 
 namespace goffer::fit {
 
-/// Geometry::wrinkle_mask, and how it changes along the body.
+/// Geometry::wrinkle_mask at a point of the surface.
+struct MaskValue {
+    double value = 1;
+    double slope = 0;  ///< by z, 1 / model units
+};
+
+/// The mask of a mesh, and how it changes along the body. `geometry` must outlive it.
 class Mask {
 public:
-    /// `at`: the geometry's vertices, straightened.
-    Mask(const Geometry& geometry, std::span<const paper::Cylindrical> at);
+    Mask(const Geometry& geometry, const Cylinder& cylinder);
 
-    /// Makes the wrinkle of vertex `i` of the geometry so much shallower.
-    void apply(std::size_t i, bend::RestVertex& vertex) const;
+    [[nodiscard]] bool empty() const { return mask_.empty(); }
+    /// At a vertex. `empty` masks have none.
+    [[nodiscard]] MaskValue at(std::size_t vertex) const {
+        return {static_cast<double>(mask_[vertex]), slopes_[vertex]};
+    }
 
 private:
     std::span<const float> mask_;
-    std::vector<double> slopes_;  // dm/dz at each vertex
+    std::vector<double> slopes_;  // of each vertex
 };
+
+/// Multiplies a vertex's wrinkle by the mask there.
+void apply(const MaskValue& mask, bend::RestVertex& vertex);
+
+/// Multiplies the wrinkles of `mesh`, which was made of `geometry`, by its mask if it has one.
+void apply_mask(const Geometry& geometry, const Cylinder& cylinder, RestMesh& mesh);
 
 /// Whether the corners of a triangle follow half of their wrinkle or more, on average.
 [[nodiscard]] bool may_wrinkle(const Geometry& geometry, std::span<const std::uint32_t> corners);

@@ -318,6 +318,26 @@ std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& o
     return stretches;
 }
 
+int fold_count(std::span<const Stretch> stretches, Profile profile) {
+    const double halves = profile.kind == Profile::Kind::even ? 2 : 1;
+    double folds = 0;
+    for (const Stretch& stretch : stretches) folds += halves * stretch.folds;
+    return static_cast<int>(std::round(folds));
+}
+
+std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& options) {
+    BindOptions unsaid = options;
+    unsaid.folds.reset();
+    for (RegionOptions& region : unsaid.regions) region.folds.reset();
+    const std::vector<Stretch> stretches = stretches_of(cylinder, unsaid);
+    const std::size_t regions = regions_of(unsaid).size(), of_region = stretches.size() / regions;
+    std::vector<int> folds;
+    folds.reserve(regions);
+    for (std::size_t r = 0; r < regions; ++r)
+        folds.push_back(fold_count(std::span(stretches).subspan(r * of_region, of_region), unsaid.profile));
+    return folds;
+}
+
 Refinement refine(const Geometry& geometry, std::span<const double> heights,
                   std::span<const Stretch> stretches, const RefineOptions& options) {
     check(geometry);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
 
-#include "mask.hpp"
 #include "text.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
@@ -220,10 +219,9 @@ RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Pr
     mesh.counts.resize(regions.size());
     const std::vector<std::uint32_t> order = region_order(regions, at, mesh.counts);
     Normals normals(geometry);
-    const Mask mask(geometry, at);
     for (const std::uint32_t i : order) {
         const RestRegion& region = regions[region_at(regions, at[i].z)];
-        mask.apply(i, mesh.vertices.emplace_back(rest_vertex(at[i], region, cylinder.radius, profile)));
+        mesh.vertices.push_back(rest_vertex(at[i], region, cylinder.radius, profile));
         mesh.normals.push_back(straightening.normal(glm::normalize(normals[i]), at[i]));
         if (geometry.tangents.empty()) continue;
         const glm::dvec3 tangent(geometry.tangents[i]);

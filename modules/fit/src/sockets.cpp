@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "mask.hpp"
 #include "rest.hpp"
 #include "text.hpp"
 
@@ -48,6 +49,23 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3
     return nearest;
 }
 
+/// The mask at a point of a triangle, given by its three vertices.
+MaskValue mask_on(const Mask& mask, const Geometry& geometry, std::span<const std::uint32_t> triangle,
+                  const glm::dvec3& point) {
+    glm::dvec3 corner[3];
+    for (std::size_t i = 0; i < 3; ++i) corner[i] = geometry.positions[triangle[i]];
+    const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    MaskValue sum{0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 &b = corner[(i + 1) % 3], &c = corner[(i + 2) % 3];
+        const double share = glm::dot(glm::cross(c - b, point - b), normal) / glm::dot(normal, normal);
+        const MaskValue own = mask.at(triangle[i]);
+        sum.value += share * own.value;
+        sum.slope += share * own.slope;
+    }
+    return sum;
+}
+
 }  // namespace
 
 bend::Socket socket_at(const Binding& binding, double z, double beta, double rho) {
@@ -66,6 +84,7 @@ bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
         throw Error("socket: the point is not finite; give finite coordinates");
     glm::dvec3 nearest(0), normal(0);
+    std::span<const std::uint32_t> triangle;
     double distance = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
         glm::dvec3 corner[3];
@@ -75,12 +94,15 @@ bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const
         if (!(glm::distance(on, point) < distance) || !(glm::length(own) > 0)) continue;
         distance = glm::distance(on, point);
         nearest = on;
+        triangle = geometry.triangles.subspan(t, 3);
         normal = glm::normalize(own);
     }
     const Straightening straightening(binding.cylinder);
     paper::Cylindrical at = straightening.vertex(nearest);
     at.z = std::clamp(at.z, 0.0, binding.cylinder.length);
     bend::Socket socket = placed(binding, at);
+    const Mask mask(geometry, binding.cylinder);
+    if (!mask.empty()) apply(mask_on(mask, geometry, triangle, nearest), socket.vertex);
     socket.normal = straightening.normal(normal, at);
     // Toward the tip, in the plane; on a cap, whose plane has no such direction, away from the axis.
     const glm::dvec3 across(socket.normal.rho, socket.normal.beta, socket.normal.z);

@@ -159,7 +159,9 @@ Wish wish_to_open(std::vector<std::filesystem::path> files, const Controls& cont
     other.keep_rest = true;
     other.new_pose = true;
     other.bind.level = 0;
-    other.bind.axis = "auto";
+    other.bind.axis = other.bind.rest = "auto";
+    other.bind.wrinkle_range.reset();
+    other.bind.wrinkle_mask.reset();
     if (other.bind.folds && other.bind.folds->find(',') != std::string::npos) other.bind.folds.reset();
     other.bind.choices.clear();  // were of the files of the command line
     return other;

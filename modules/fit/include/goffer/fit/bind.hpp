@@ -65,8 +65,8 @@ struct BindOptions {
     ShapeMode shape = ShapeMode::automatic;
     /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
     /// body; at an end that is not the body's own they fade within a fold and half a radius.
-    /// Amplitude::mesh keeps the area of what lies inside. Where not even a stretch of the body is to be
-    /// smooth all around, Geometry::wrinkle_mask says so for each vertex.
+    /// Amplitude::mesh keeps the area of what lies inside. What is not to be smooth all around the body is
+    /// said by Geometry::wrinkle_mask, which takes nothing from the depth elsewhere, and adds nothing to it.
     WrinkleRange wrinkle_range = {};
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.

@@ -23,10 +23,10 @@ struct Geometry {
     std::span<const glm::vec3> normals = {};   ///< empty, or one per vertex, of any length
     std::span<const glm::vec4> tangents = {};  ///< empty, or one per vertex, of any length; the sign of w is
                                                ///< that of the bitangent
-    /// Empty, or one per vertex, 0..1: how much of its wrinkle a vertex follows, for a face or a label.
-    /// bind() and bind_level() fold it into the body. Normals follow a mask that changes along the body;
-    /// where it changes around it, they lag behind by up to the angle whose tangent is the wrinkle's depth
-    /// over the width of that change.
+    /// Empty, or one per vertex, 0..1: how much a vertex follows the wrinkle that it would have without a
+    /// mask, for a face or a label. bind() and bind_level() fold it into the body. Normals follow a mask that
+    /// changes along the body; where it changes around it, they are off by up to the angle whose tangent is
+    /// the wrinkle's depth over the width of that change.
     std::span<const float> wrinkle_mask = {};
 };
 

@@ -58,6 +58,14 @@ struct Stretch {
 /// wrinkle_range: beyond that there are none. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
+/// Returns how many folds there are in `stretches`, as `profile` counts them: over the whole length of a
+/// region if it is even, else over half of it. Thread-safe.
+[[nodiscard]] int fold_count(std::span<const Stretch> stretches, Profile profile);
+
+/// Returns how many folds suit each region of a body with that base whose mesh is fine enough, as the profile
+/// counts them, whatever number `options` ask for. Thread-safe.
+[[nodiscard]] std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& options);
+
 /// Thrown where a refined mesh would have more triangles than allowed.
 class SizeError : public Error {
 public:

@@ -36,10 +36,11 @@ inline constexpr std::uint64_t largest_image_side = 16384, most_image_pixels = s
 /// In browsers, what is missing of a JPEG is gray instead, and those of print are shown.
 [[nodiscard]] Image decode_image(std::string_view bytes, std::uint64_t most_pixels = most_image_pixels);
 
-/// The curve of sRGB: a number in proportion to light, 0 to 1, of one as images have it; and back.
+/// Returns the light, 0..1, that a value of an sRGB image stands for, 0..1 too.
 [[nodiscard]] inline float linear_of(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
+/// Returns the value that stands for that much light: the inverse of linear_of().
 [[nodiscard]] inline float encoded_of(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
