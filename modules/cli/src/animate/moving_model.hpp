@@ -13,8 +13,8 @@
 
 namespace goffer::cli {
 
-/// A bound model that moves. Every frame is deformed when it is asked for, and none is kept. Frame k is that of
-/// the time k / rate. Unlike of other Frames, all const functions are thread-safe.
+/// A bound model that moves. Every frame is deformed when it is asked for, and none is kept. Frame k is that
+/// of the time k / rate. Unlike of other Frames, all const functions are thread-safe.
 class MovingModel final : public clip::Frames {
 public:
     /// `model` and `motion`, which is for its regions, must outlive this. Throws InputError where the motion

@@ -17,7 +17,8 @@ std::optional<Pattern> Pattern::read(const std::filesystem::path& file) {
     if (sign == name.npos) return std::nullopt;
     const std::size_t end = std::min(name.find('d', sign), name.size());
     const std::string digits = name.substr(sign + 1, end - sign - 1);
-    const bool plain = digits.empty(), padded = digits.size() == 2 && digits[0] == '0' && digits[1] >= '1' && digits[1] <= '9';
+    const bool plain = digits.empty(),
+               padded = digits.size() == 2 && digits[0] == '0' && digits[1] >= '1' && digits[1] <= '9';
     if (end == name.size() || !(plain || padded) || name.find('%', end) != name.npos)
         throw UsageError("-o: '" + name + "' is no pattern; give it one %d, or %04d for four digits");
     Pattern pattern;
@@ -50,15 +51,15 @@ std::optional<std::size_t> Pattern::number_of(const std::string& name) const {
 bool Pattern::holds(const std::filesystem::path& file) const {
     std::error_code error;
     const auto folder_of = [&](const std::filesystem::path& folder) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder), error);
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder),
+                                                 error);
     };
     return number_of(file.filename().string()) && folder_of(file.parent_path()) == folder_of(folder_);
 }
 
 void Pattern::refuse_longer(std::size_t frames) const {
     std::error_code error;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, error)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, error)) {
         const std::string name = entry.path().filename().string();
         const std::optional<std::size_t> number = number_of(name);
         if (number && (*number < 1 || *number > frames))

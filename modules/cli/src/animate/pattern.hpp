@@ -11,7 +11,8 @@ namespace goffer::cli {
 /// The names of a sequence's files, as in "frames/worm_%04d.obj". Frames count from 1 in them.
 class Pattern {
 public:
-    /// Nothing where the name of `file` has no %d. Throws UsageError where what follows a % is something else.
+    /// Nothing where the name of `file` has no %d. Throws UsageError where what follows a % is something
+    /// else.
     [[nodiscard]] static std::optional<Pattern> read(const std::filesystem::path& file);
 
     /// The file of frame `frame`, which counts from 0.
@@ -20,7 +21,8 @@ public:
     /// Whether `file` lies where a frame of the sequence would, whatever its number.
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
 
-    /// Throws InputError if there are files of the sequence beyond `frames`, which would be taken for its end.
+    /// Throws InputError if there are files of the sequence beyond `frames`, which would be taken for its
+    /// end.
     void refuse_longer(std::size_t frames) const;
 
 private:

@@ -25,11 +25,11 @@ std::uint64_t size_of(const std::filesystem::path& file) {
 template <class Write>
 void for_frames(std::size_t frames, int at_a_time, Write write) {
     std::size_t next = 0;
-    const auto source = tbb::make_filter<void, std::size_t>(
-        tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
-            if (next == frames) control.stop();
-            return next == frames ? frames : next++;
-        });
+    const auto source = tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                                            [&](tbb::flow_control& control) {
+                                                                if (next == frames) control.stop();
+                                                                return next == frames ? frames : next++;
+                                                            });
     const auto sink = tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, [&](std::size_t frame) {
         tbb::this_task_arena::isolate([&] { write(frame); });
     });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "animate/survey.hpp"
 
-#include "arguments.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
 
@@ -27,8 +26,7 @@ double bend_of(const Moment& moment) {
 void look_at_poses(Survey& survey, const Moment& moment, const bend::Body& body) {
     bool clamped = moment.clamped;
     for (std::size_t r = 0; r < body.region_count(); ++r) {
-        survey.largest_angle =
-            std::max(survey.largest_angle, degrees(used_angle(body, r, moment.poses[r])));
+        survey.largest[r] = std::max(survey.largest[r], used_angle(body, r, moment.poses[r]));
         clamped = clamped || std::fabs(moment.poses[r].angle) > body.max_angle(r);
     }
     survey.clamped += clamped ? 1 : 0;
@@ -55,6 +53,7 @@ Survey survey(const MovingModel& frames, const SurveyView* pictures) {
     Survey found;
     const BoundModel& model = frames.model();
     found.area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
+    found.largest.assign(model.binding.body.region_count(), 0);
     if (pictures) found.camera = camera_of(frames, pictures->viewpoint);
     Progress progress("measuring frames", frames.count());
     std::vector<double> times;

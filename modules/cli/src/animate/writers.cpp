@@ -49,7 +49,8 @@ const Writer& writer_for(const std::filesystem::path& output, bool pattern) {
 
 int frames_at_a_time(const BoundModel& model, const mesh::Limits& limits, int threads) {
     const std::uint64_t one = memory_for(model.rest.positions.size(), model.rest.triangles.size() / 3);
-    const std::uint64_t room = limits.memory > one ? (limits.memory - one) / std::max<std::uint64_t>(one, 1) : 0;
+    const std::uint64_t room =
+        limits.memory > one ? (limits.memory - one) / std::max<std::uint64_t>(one, 1) : 0;
     return static_cast<int>(std::clamp<std::uint64_t>(room, 1, static_cast<std::uint64_t>(threads)));
 }
 

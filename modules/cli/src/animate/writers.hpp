@@ -24,7 +24,7 @@ struct Survey {
     double area_before = 0;
     double worst_area_change = 0;  ///< a fraction, of the frame where it is largest, with its sign
     std::size_t worst_frame = 0;   ///< which that is, from 0
-    double largest_angle = 0;      ///< degrees, of a region, as used
+    std::vector<double> largest;   ///< of each region, the angle that it is bent by at most, radians
     std::size_t clamped = 0;       ///< frames in which a region was asked to bend further than it can
     double path_error = 0;         ///< the largest
     double milliseconds = 0;       ///< to deform a frame; the median
