@@ -1,33 +1,52 @@
 // SPDX-License-Identifier: MIT
-#include "clips.hpp"
-#include "support/files.hpp"
-
-#include <goffer/clip/gltf.hpp>
-#include <goffer/io/atomic_file.hpp>
-
-#include <doctest/doctest.h>
+#include "blender.hpp"
+#include "follow.hpp"
+#include "mesh/gltf_valid.hpp"
 
 #include <cstdlib>
-#include <cstdio>
 
 using namespace goffer;
 using namespace goffer::test;
 
-TEST_CASE("measure") {
-    const Folder folder;
-    const std::string command = "\"" GOFFER_CATERPILLAR "\" \"" + (folder / "c.glb").string() + "\"";
+namespace {
+
+constexpr double megabyte = 1e6;
+
+mesh::Mesh caterpillar(const Folder& folder, const char* name) {
+    const std::string command = "\"" GOFFER_CATERPILLAR "\" \"" + (folder / name).string() + "\"";
     REQUIRE(std::system(command.c_str()) == 0);
-    const mesh::Mesh mesh = mesh::load(folder / "c.glb");
-    for (const std::size_t regions : {1u, 3u, 6u, 12u}) {
-        WalkingFrames frames(mesh, 300, regions);
-        for (const std::size_t targets : {0u, 8u, 16u, 32u}) {
-            clip::GltfOptions options;
-            if (targets) options.targets = targets;
-            io::AtomicFiles files;
-            const auto r = clip::save_gltf(mesh, frames, options, folder / "a.glb", files);
-            std::printf("regions %zu: targets %zu bytes %.3f MB size %.3f max %.2e rms %.2e angle %.2f rms %.2f within %d base %zu\n", regions, r.targets,
-                        double(r.bytes) / 1e6, r.size, r.max_error/r.size, r.rms_error/r.size, r.max_angle*57.3, r.rms_angle*57.3, r.within, std::filesystem::file_size(folder / "c.glb"));
-            std::fflush(stdout);
-        }
+    return mesh::load(folder / name);
+}
+
+}  // namespace
+
+TEST_CASE("clip: 300 frames of the caterpillar on its way take less than 5 MB, here and in Blender") {
+    const Folder folder;
+    const mesh::Mesh mesh = caterpillar(folder, "c.glb");
+    WalkingFrames frames(mesh, 300, 6);
+    const clip::GltfReport report = saved_clip(mesh, frames, folder / "clip.glb");
+    MESSAGE(report.targets, " targets, ", report.bytes, " bytes, off by ", report.max_error / report.size,
+            " of the length, on average by ", report.rms_error / report.size, ", normals by ", report.max_angle,
+            " and ", report.rms_angle);
+    CHECK(static_cast<double>(report.bytes) < 5 * megabyte);
+    CHECK(report.within);
+    CHECK(report.max_error <= 2e-3 * report.size);
+    CHECK(report.rms_error <= 3e-4 * report.size);
+    check_valid({folder / "clip.glb"}, true);
+    const Player player(bytes_of(folder / "clip.glb"));
+    for (const std::size_t f : {0u, 17u, 150u, 299u}) {
+        const Off off = off_at(player, mesh, frames, f);
+        CHECK(off.distance <= report.max_error + 1e-6 * report.size);
+        CHECK(off.angle <= report.max_angle + 1e-5);
     }
+    check_in_blender(folder / "clip.glb", mesh, frames, report, {0, 150, 299});
+}
+
+TEST_CASE("clip: Blender shows an OBJ's vertices where goffer has them") {
+    const Folder folder;
+    const mesh::Mesh mesh = caterpillar(folder, "c.obj");
+    WalkingFrames frames(mesh, 60, 2);
+    const clip::GltfReport report = saved_clip(mesh, frames, folder / "clip.gltf", {.max_error = 1e-3});
+    (void)saved_clip(mesh, frames, folder / "clip.glb", {.max_error = 1e-3});
+    check_in_blender(folder / "clip.glb", mesh, frames, report, {3, 30, 59});
 }

@@ -95,8 +95,9 @@ Spread spread_of(Moves& moves, const Capacity& capacity) {
     spread.all = std::max(0.0, gram.trace());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
     const Eigen::VectorXd values = solver.eigenvalues().reverse();
+    const double noise = std::max(1e-14 * before, moves.rest().noise());
     Index rank = 0;
-    while (rank < values.size() && values[rank] > 1e-13 * before) ++rank;
+    while (rank < values.size() && values[rank] > noise) ++rank;
     spread.values = values.head(rank);
     spread.vectors = solver.eigenvectors().rowwise().reverse().leftCols(rank);
     return spread;
@@ -123,7 +124,7 @@ Shapes components_of(Moves& moves, const Spread& spread, std::size_t count, cons
     return out;
 }
 
-Weights weights_of(Moves& moves, const Shapes& components, const Spread& spread) {
+Weights weights_of(Moves& moves, const Shapes& components) {
     const auto rows = static_cast<Index>(3 * moves.rest().entries());
     const auto matrix = components.matrix();
     const Index count = matrix.cols() - 1;
@@ -146,7 +147,7 @@ Weights weights_of(Moves& moves, const Shapes& components, const Spread& spread)
         note(0);
         for (Index k = 0; k < count; ++k) {
             const auto shape = matrix.col(k + 1).head(rows).cast<double>();
-            const double weight = shape.dot(left) / spread.values[k];
+            const double weight = shape.dot(left) / shape.squaredNorm();
             out.of(static_cast<Index>(f), k) = weight;
             left -= weight * shape;
             note(k + 1);

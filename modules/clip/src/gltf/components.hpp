@@ -45,6 +45,6 @@ struct Weights {
     std::vector<double> max_errors;  ///< by the number of components, from 0 on: the largest of all vertices
 };
 
-[[nodiscard]] Weights weights_of(Moves& moves, const Shapes& components, const Spread& spread);
+[[nodiscard]] Weights weights_of(Moves& moves, const Shapes& components);
 
 }  // namespace goffer::clip

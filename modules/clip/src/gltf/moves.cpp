@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace goffer::clip {
@@ -41,7 +42,14 @@ Rest rest_of(const mesh::Mesh& mesh) {
     }
     const glm::dvec3 extent = most - least;
     rest.size = std::max({extent.x, extent.y, extent.z});
+    const glm::dvec3 farthest = glm::max(glm::abs(least), glm::abs(most));
+    rest.reach = std::max({farthest.x, farthest.y, farthest.z});
     return rest;
+}
+
+double Rest::noise() const {
+    const double rounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+    return 3.0 * static_cast<double>(entries()) * rounding * rounding;
 }
 
 Moves::Moves(const Rest& rest, Frames& frames)

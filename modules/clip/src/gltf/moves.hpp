@@ -20,7 +20,12 @@ struct Rest {
     std::vector<glm::vec3> normals;  ///< empty if the mesh has none
     double size = 0;                 ///< largest extent
 
+    double reach = 0;                ///< largest coordinate
+
     [[nodiscard]] std::size_t entries() const { return positions.size(); }
+
+    /// What a principal component may have as its value by the rounding of floats alone.
+    [[nodiscard]] double noise() const;
 };
 
 [[nodiscard]] Rest rest_of(const mesh::Mesh& mesh);

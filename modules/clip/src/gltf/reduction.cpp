@@ -86,7 +86,7 @@ Blend reduce(Moves& moves, const Reduction& how) {
         count = std::min(count, most);
         if (count + 1 >= moves.count() && count + 1 <= capacity.components) return all_frames(moves);
         Shapes components = components_of(moves, spread, count, capacity);
-        const Weights weights = weights_of(moves, components, spread);
+        const Weights weights = weights_of(moves, components);
         const std::size_t used = how.targets ? count : enough(weights.max_errors, how.max_error);
         if (how.targets || count == most || weights.max_errors[used] <= 0.98 * how.max_error)
             return blend_of(std::move(components), weights, used);
