@@ -47,7 +47,8 @@ inline mesh::Mesh bar(int rings = 11) {
 }
 
 /// Bends about the x axis, further up and in later frames more; turns normals with it.
-inline glm::vec3 bending(std::size_t frame, const glm::vec3& position, bool is_normal, const glm::vec3& value) {
+inline glm::vec3 bending(std::size_t frame, const glm::vec3& position, bool is_normal,
+                         const glm::vec3& value) {
     const float angle = 0.1f * std::sin(0.3f * static_cast<float>(frame)) * position.z;
     const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(1, 0, 0)));
     return is_normal ? turn * value : turn * glm::vec3(value.x, value.y, 0) + glm::vec3(0, -angle, value.z);

@@ -7,6 +7,9 @@ import array
 import sys
 
 import bpy
+import numpy
+
+numpy.bool = bool  # the importer of Blender 3.4 asks for it, and NumPy 1.24, with which Debian ships it, has it no more
 
 file, rate, out, *frames = sys.argv[sys.argv.index('--') + 1:]
 bpy.ops.wm.read_homefile(use_empty=True)

@@ -26,8 +26,8 @@ TEST_CASE("clip: 300 frames of the caterpillar on its way take less than 5 MB, h
     WalkingFrames frames(mesh, 300, 6);
     const clip::GltfReport report = saved_clip(mesh, frames, folder / "clip.glb");
     MESSAGE(report.targets, " targets, ", report.bytes, " bytes, off by ", report.max_error / report.size,
-            " of the length, on average by ", report.rms_error / report.size, ", normals by ", report.max_angle,
-            " and ", report.rms_angle);
+            " of the length, on average by ", report.rms_error / report.size, ", normals by ",
+            report.max_angle, " and ", report.rms_angle);
     CHECK(static_cast<double>(report.bytes) < 5 * megabyte);
     CHECK(report.within);
     CHECK(report.max_error <= 2e-3 * report.size);

@@ -89,7 +89,8 @@ public:
 private:
     [[nodiscard]] bend::PathFit along(std::size_t frame, std::span<bend::Pose> poses) const {
         const auto length = static_cast<float>(binding_.body.length());
-        const float begin = 2 * static_cast<float>(frame) / static_cast<float>(std::max<std::size_t>(count_ - 1, 1));
+        const float begin =
+            2 * static_cast<float>(frame) / static_cast<float>(std::max<std::size_t>(count_ - 1, 1));
         std::vector<glm::vec3> points;
         for (int i = 0; i <= 60; ++i) {
             const float t = begin + 1.2f * static_cast<float>(i) / 60;

@@ -67,7 +67,8 @@ inline void check_follows(const std::filesystem::path& file, const mesh::Mesh& m
     Off most;
     double slack = 1e-6 * report.size;
     for (std::size_t f = 0; f < frames.count(); ++f) {
-        slack = std::max(slack, 1e-6 * report.size + 2e-7 * static_cast<double>(glm::length(frames.placement(f)[3])));
+        slack = std::max(
+            slack, 1e-6 * report.size + 2e-7 * static_cast<double>(glm::length(frames.placement(f)[3])));
         const Off off = off_at(player, mesh, frames, f);
         most.distance = std::max(most.distance, off.distance);
         most.angle = std::max(most.angle, off.angle);

@@ -85,8 +85,8 @@ TEST_CASE("clip: one frame") {
 
 TEST_CASE("clip: two frames, which are the targets") {
     const mesh::Mesh mesh = bar();
-    MadeFrames frames(mesh, 2, [](std::size_t f, auto&&... rest) { return bending(3 + 2 * f, rest...); },
-                      circling);
+    MadeFrames frames(
+        mesh, 2, [](std::size_t f, auto&&... rest) { return bending(3 + 2 * f, rest...); }, circling);
     clip::GltfReport report;
     const Player player = written(mesh, frames, report);
     CHECK(report.targets == 2);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -66,10 +67,11 @@ public:
         if (a.contains("sparse")) {
             const auto& s = a["sparse"];
             for (std::size_t i = 0; i < s["count"]; ++i) {
-                const auto to = static_cast<std::size_t>(
-                    component(a, s["indices"], s["indices"]["componentType"], i, 1));
+                const auto to =
+                    static_cast<std::size_t>(component(a, s["indices"], s["indices"]["componentType"], i, 1));
                 for (std::size_t c = 0; c < width; ++c)
-                    values[width * to + c] = component(a, s["values"], a["componentType"], width * i + c, width);
+                    values[width * to + c] =
+                        component(a, s["values"], a["componentType"], width * i + c, width);
             }
         }
         return values;
@@ -97,11 +99,12 @@ private:
         const std::size_t offset = view.value("byteOffset", std::size_t{0}) +
                                    where.value("byteOffset", std::size_t{0}) + i / width * stride +
                                    i % width * size;
-        REQUIRE(offset + size <= bin.size());
+        if (offset + size > bin.size()) throw std::out_of_range("an accessor reaches beyond the buffer");
         const char* at = bin.data() + offset;
         if (type == 5126) return get<float>(at);
         if (type == 5125) return get<std::uint32_t>(at);
-        if (type == 5123) return get<std::uint16_t>(at) / (accessor.value("normalized", false) ? 65535.0 : 1.0);
+        if (type == 5123)
+            return get<std::uint16_t>(at) / (accessor.value("normalized", false) ? 65535.0 : 1.0);
         return get<std::uint8_t>(at) / (accessor.value("normalized", false) ? 255.0 : 1.0);
     }
 
@@ -154,12 +157,14 @@ private:
         return out;
     }
 
-    void walk(std::size_t node, const glm::dmat4& parent, double time, std::vector<PlayedPrimitive>& out) const {
+    void walk(std::size_t node, const glm::dmat4& parent, double time,
+              std::vector<PlayedPrimitive>& out) const {
         const glm::dmat4 world = parent * local(node, time);
         const auto& n = json["nodes"][node];
         if (n.contains("mesh")) {
             const auto& mesh = json["meshes"][n["mesh"].get<std::size_t>()];
-            const auto weights = animated(node, "weights", time, mesh.value("weights", std::vector<double>{}));
+            const auto weights =
+                animated(node, "weights", time, mesh.value("weights", std::vector<double>{}));
             for (const auto& primitive : mesh["primitives"]) {
                 PlayedPrimitive played;
                 played.positions = blended(primitive, "POSITION", weights);

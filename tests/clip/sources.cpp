@@ -40,7 +40,8 @@ void check_source(const char* name) {
     CHECK_FALSE(report.exact);
 }
 
-/// The tetrahedron twice, placed, scaled, sheared and mirrored, in one mesh entry, with an animation of its own.
+/// The tetrahedron twice, placed, scaled, sheared and mirrored, in one mesh entry, with an animation of its
+/// own.
 Document placed_twice() {
     Document document = tetra_with_nodes(R"([
         {"name": "root", "children": [1, 2], "scale": [2, 1, 0.5], "translation": [1, 2, 3]},
@@ -63,8 +64,7 @@ Document skinned() {
     document.json["skins"] = Json::parse(R"([{"joints": [1]}])");
     const std::size_t joints =
         document.accessor(document.view(raw(std::vector<std::uint8_t>(16, 0))), 5121, "VEC4", 4);
-    const std::size_t weights =
-        document.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    const std::size_t weights = document.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
     primitive_of(document)["attributes"]["JOINTS_0"] = joints;
     primitive_of(document)["attributes"]["WEIGHTS_0"] = weights;
     return document;

@@ -11,7 +11,8 @@
 
 namespace goffer::test {
 
-/// Khronos' validator over `files`. What it says goes to the test's output. `strict`: it must not warn either.
+/// Khronos' validator over `files`. What it says goes to the test's output. `strict`: it must not warn
+/// either.
 inline void check_valid(const std::vector<std::filesystem::path>& files, bool strict = false) {
     if (std::system("node --version > /dev/null 2>&1") != 0) {
         MESSAGE("skipped: node is not installed, so Khronos' validator cannot run");

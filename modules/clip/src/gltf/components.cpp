@@ -3,9 +3,9 @@
 
 #include <goffer/mesh/mesh.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -74,10 +74,11 @@ Capacity::Capacity(std::uint64_t memory, std::size_t entries, std::size_t frames
                         by_weights = memory / 8 / (frames * (sizeof(double) + sizeof(float)));
     components = static_cast<std::size_t>(std::min(by_shapes, by_weights));
     if (components < 2 || block < 1 || samples < std::min<std::size_t>(frames, 2)) {
-        const std::uint64_t least = std::max(
-            {8 * per_frame, 4 * per_component, 16 * frames * (sizeof(double) + sizeof(float)), std::uint64_t{4096}});
-        throw mesh::Error("the clip's targets cannot be found in " + std::to_string(memory) + " bytes; allow " +
-                          std::to_string(least) + " or more, or take fewer frames");
+        const std::uint64_t least =
+            std::max({8 * per_frame, 4 * per_component, 16 * frames * (sizeof(double) + sizeof(float)),
+                      std::uint64_t{4096}});
+        throw mesh::Error("the clip's targets cannot be found in " + std::to_string(memory) +
+                          " bytes; allow " + std::to_string(least) + " or more, or take fewer frames");
     }
 }
 

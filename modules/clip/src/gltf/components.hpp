@@ -4,7 +4,6 @@
 #include "shapes.hpp"
 
 #include <Eigen/Core>
-
 #include <cstdint>
 #include <vector>
 
@@ -26,9 +25,9 @@ struct Capacity {
 /// most from it, by the share of the spread that they have.
 struct Spread {
     std::vector<std::size_t> samples;  ///< frames
-    Eigen::VectorXd values;            ///< sums of squares of distances, descending; what is noise is left out
-    Eigen::MatrixXd vectors;           ///< of the samples, a column for each value
-    double all = 0;                    ///< the sum of the squares
+    Eigen::VectorXd values;   ///< sums of squares of distances, descending; what is noise is left out
+    Eigen::MatrixXd vectors;  ///< of the samples, a column for each value
+    double all = 0;           ///< the sum of the squares
 };
 
 /// Looks at positions alone.

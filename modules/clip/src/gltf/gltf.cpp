@@ -64,12 +64,21 @@ GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& 
     std::vector<mesh::MorphTarget> targets;
     targets.reserve(blend.targets.count());
     for (std::size_t k = 0; k < blend.targets.count(); ++k)
-        targets.push_back({std::as_const(blend.targets).positions(k), std::as_const(blend.targets).normals(k)});
+        targets.push_back(
+            {std::as_const(blend.targets).positions(k), std::as_const(blend.targets).normals(k)});
     const Keys keys = keys_of(frames);
     mesh::MorphingFile written = mesh::save_morphing(
         mesh, {targets, keys.times, blend.weights, keys.translations, keys.rotations}, file, files);
-    return {frames.count(), targets.size(),  blend.exact,     error.max <= allowed, rest.size,
-            error.max,      error.rms,       error.max_angle, error.rms_angle,      written.bytes,
+    return {frames.count(),
+            targets.size(),
+            blend.exact,
+            error.max <= allowed,
+            rest.size,
+            error.max,
+            error.rms,
+            error.max_angle,
+            error.rms_angle,
+            written.bytes,
             std::move(written.warnings)};
 }
 

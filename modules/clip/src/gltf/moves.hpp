@@ -13,14 +13,14 @@
 
 namespace goffer::clip {
 
-/// A mesh at rest, as the frames see it: a position, and a normal of unit length, for each entry of its vertex
-/// arrays. A normal without direction is zero.
+/// A mesh at rest, as the frames see it: a position, and a normal of unit length, for each entry of its
+/// vertex arrays. A normal without direction is zero.
 struct Rest {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< empty if the mesh has none
     double size = 0;                 ///< largest extent
 
-    double reach = 0;                ///< largest coordinate
+    double reach = 0;  ///< largest coordinate
 
     [[nodiscard]] std::size_t entries() const { return positions.size(); }
 

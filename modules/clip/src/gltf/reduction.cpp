@@ -60,7 +60,8 @@ Blend blend_of(Shapes components, const Weights& weights, std::size_t count) {
     for (Index f = 0; f < of.rows(); ++f) {
         if (!begins_at_rest) blend.weights.push_back(1.0f);
         for (Index k = 0; k < used; ++k)
-            blend.weights.push_back(std::clamp(static_cast<float>((of(f, k) - least[k]) / range[k]), 0.0f, 1.0f));
+            blend.weights.push_back(
+                std::clamp(static_cast<float>((of(f, k) - least[k]) / range[k]), 0.0f, 1.0f));
     }
     return blend;
 }

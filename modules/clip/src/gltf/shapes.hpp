@@ -3,9 +3,9 @@
 
 #include "moves.hpp"
 
-#include <Eigen/Core>
 #include <glm/vec3.hpp>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -47,7 +47,9 @@ public:
     void shorten(std::size_t count) { values_.resize(count * length_); }
 
     /// Takes the first shape out.
-    void drop_first() { values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(length_)); }
+    void drop_first() {
+        values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(length_));
+    }
 
 private:
     std::size_t entries_, length_;

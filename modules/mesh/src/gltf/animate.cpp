@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    std::size_t add_times(std::vector<float> times);
+    std::size_t add_times(const std::vector<float>& times);
     std::size_t times();
     std::size_t ends();
     std::size_t add_sampler(std::size_t input, std::size_t output);
@@ -55,7 +55,7 @@ private:
     std::optional<std::size_t> times_;
 };
 
-std::size_t Animator::add_times(std::vector<float> times) {
+std::size_t Animator::add_times(const std::vector<float>& times) {
     const std::size_t number = document_.add(bytes_of(times), float_type, "SCALAR", times.size());
     set_bounds(document_.json["accessors"][number], times, 1);
     return number;

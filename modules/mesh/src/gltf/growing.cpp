@@ -66,7 +66,8 @@ std::size_t Growing::add_displacements(const std::vector<float>& values) {
     } else if (!elements.empty()) {
         std::vector<float> kept;
         kept.reserve(3 * elements.size());
-        for (const std::uint32_t i : elements) kept.insert(kept.end(), &values[3 * i], &values[3 * i] + 3);
+        for (const std::size_t i : elements)
+            for (std::size_t c = 0; c < 3; ++c) kept.push_back(values[3 * i + c]);
         Json& sparse = accessor["sparse"];
         sparse["count"] = elements.size();
         sparse["indices"] = {{"bufferView", add_view(index_bytes(elements, type), false)},

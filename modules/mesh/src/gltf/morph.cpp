@@ -22,8 +22,8 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 
 /// The document that save() would write, and its scene. An output that was made anew names no other files.
-std::shared_ptr<const Document> base_document(const Mesh& mesh, const std::filesystem::path& file,
-                                              bool embed, bool& is_made) {
+std::shared_ptr<const Document> base_document(const Mesh& mesh, const std::filesystem::path& file, bool embed,
+                                              bool& is_made) {
     std::optional<Output> kept = rewritten(mesh, file, embed);
     is_made = !kept;
     if (kept) return document_of(std::move(*kept), dynamic_cast<const Document&>(*mesh.source));
@@ -72,7 +72,8 @@ private:
     std::shared_ptr<const Document> base_;
     Scene scene_;
     std::vector<std::uint32_t> entries_;  ///< of the scene's vertices; empty: they are the same
-    Growing document_;
+    Output output_;
+    Growing document_{output_};
 };
 
 Morpher::Morpher(const Mesh& mesh, const Morphing& morphing, const std::filesystem::path& file, bool embed)
@@ -81,7 +82,7 @@ Morpher::Morpher(const Mesh& mesh, const Morphing& morphing, const std::filesyst
     base_ = base_document(mesh, file, embed, is_made);
     scene_ = read_scene(*base_);
     if (is_made) entries_ = entries_of(scene_.mesh, mesh);
-    document_ = {base_->json, base_->buffers.empty() ? std::string() : base_->buffers[0]};
+    output_ = {base_->json, base_->buffers.empty() ? std::string() : base_->buffers[0]};
 }
 
 bool Morpher::moves(const Block& block) const {
@@ -146,7 +147,8 @@ void Morpher::morph(std::size_t first, std::size_t last, std::vector<std::string
     bool had_targets = false;
     for (std::size_t b = first; b < last; ++b) {
         const Block& block = scene_.blocks[b];
-        const Json attributes = document_.json["meshes"][own]["primitives"][block.primitives[0]]["attributes"];
+        const Json attributes =
+            document_.json["meshes"][own]["primitives"][block.primitives[0]]["attributes"];
         const Json targets = targets_of(block, attributes);
         for (const std::size_t i : block.primitives) {
             Json& primitive = document_.json["meshes"][own]["primitives"][i];
@@ -175,7 +177,7 @@ Output Morpher::run(std::vector<std::string>& warnings) && {
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);
-    return {std::move(document_.json), std::move(document_.buffer)};
+    return std::move(output_);
 }
 
 }  // namespace
@@ -188,7 +190,8 @@ template <class T>
 bool all_finite(std::span<const T> values) {
     return std::ranges::all_of(values, [](const T& value) {
         const float* floats = glm::value_ptr(value);
-        return std::all_of(floats, floats + sizeof(T) / sizeof(float), [](float f) { return std::isfinite(f); });
+        return std::all_of(floats, floats + sizeof(T) / sizeof(float),
+                           [](float f) { return std::isfinite(f); });
     });
 }
 
@@ -201,11 +204,11 @@ void check(const Morphing& morphing, std::size_t entries) {
     for (const MorphTarget& target : morphing.targets)
         good = good && target.positions.size() == entries &&
                (target.normals.empty() || target.normals.size() == entries);
-    for (std::size_t key = 1; key < keys; ++key)
-        good = good && morphing.times[key - 1] < morphing.times[key];
+    for (std::size_t key = 1; key < keys; ++key) good = good && morphing.times[key - 1] < morphing.times[key];
     if (!good)
         throw Error("keys and targets do not fit together; give each target a value for all " +
-                    std::to_string(entries) + " entries, and each key, in ascending order, all of its values");
+                    std::to_string(entries) +
+                    " entries, and each key, in ascending order, all of its values");
     const auto finite = [](float value) { return std::isfinite(value); };
     good = std::ranges::all_of(morphing.times, finite) && std::ranges::all_of(morphing.weights, finite) &&
            all_finite(morphing.translations) && all_finite(morphing.rotations);
@@ -220,15 +223,15 @@ MorphingFile save_morphing(const Mesh& mesh, const Morphing& morphing, const std
                            io::AtomicFiles& files) {
     const std::string ending = lower(file.extension().string());
     if (ending != ".glb" && ending != ".gltf")
-        fail(file, "the ending is not that of a format with morph targets; give a name that ends in .glb or "
-                   ".gltf");
+        fail(file,
+             "the ending is not that of a format with morph targets; give a name that ends in .glb or "
+             ".gltf");
     check(mesh, file);
     MorphingFile written;
     std::string bytes;
     try {
         check(morphing, vertex_arrays(mesh).positions.size());
-        gltf::Output output =
-            gltf::Morpher(mesh, morphing, file, ending == ".glb").run(written.warnings);
+        gltf::Output output = gltf::Morpher(mesh, morphing, file, ending == ".glb").run(written.warnings);
         bytes = ending == ".glb" ? gltf::glb_file(std::move(output.json), output.buffer)
                                  : gltf::gltf_file(std::move(output.json), output.buffer);
     } catch (const Error& error) {

@@ -12,10 +12,13 @@
 
 namespace goffer::mesh::gltf {
 
-/// A document that grows: accessors are added behind those that it has, their bytes behind its buffer.
+/// An output that grows: accessors are added behind those that it has, their bytes behind its buffer. Refers
+/// to it.
 struct Growing {
-    Json json;
-    std::string buffer;
+    explicit Growing(Output& output) : json(output.json), buffer(output.buffer) {}
+
+    Json& json;
+    std::string& buffer;
 
     /// Returns the number of a new accessor of `count` elements, which is not for vertices.
     std::size_t add(const std::string& bytes, int component, const char* type, std::size_t count);

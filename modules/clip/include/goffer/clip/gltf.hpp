@@ -35,21 +35,21 @@ struct GltfOptions {
 /// they are those of the values in the file, over all vertices of all frames, before the placement.
 struct GltfReport {
     std::size_t frames = 0;
-    std::size_t targets = 0;     ///< in the file, 0 if nothing moves
-    bool exact = false;          ///< the targets are the frames themselves: nothing is left out
-    bool within = true;          ///< max_error is kept; false where fewer targets were allowed, or fit in memory
-    double size = 0;             ///< the mesh's largest extent at rest
-    double max_error = 0;        ///< largest distance of a vertex from where its frame has it
+    std::size_t targets = 0;  ///< in the file, 0 if nothing moves
+    bool exact = false;       ///< the targets are the frames themselves: nothing is left out
+    bool within = true;       ///< max_error is kept; false where fewer targets were allowed, or fit in memory
+    double size = 0;          ///< the mesh's largest extent at rest
+    double max_error = 0;     ///< largest distance of a vertex from where its frame has it
     double rms_error = 0;
-    double max_angle = 0;        ///< largest angle between a normal and that of its frame; 0 without normals
+    double max_angle = 0;  ///< largest angle between a normal and that of its frame; 0 without normals
     double rms_angle = 0;
-    std::uint64_t bytes = 0;     ///< of the file
+    std::uint64_t bytes = 0;            ///< of the file
     std::vector<std::string> warnings;  ///< what of the mesh's source is left out, a line each
 };
 
 /// Writes `mesh`, which is at rest, with `frames` as a glTF animation into a .glb or .gltf file, as
-/// mesh::save_morphing() does; files.commit() puts it in its place. frames.vertices() is the number of entries
-/// of mesh::vertex_arrays(mesh).
+/// mesh::save_morphing() does; files.commit() puts it in its place. frames.vertices() is the number of
+/// entries of mesh::vertex_arrays(mesh).
 ///
 /// The targets are few shapes of which every frame is a blend: the principal components of how the vertices
 /// move from their mean. One more takes the rest shape to where blending begins, so that all weights are from

@@ -27,9 +27,9 @@ struct MorphTarget {
 /// What happens at which time. Between the keys weights and translations are interpolated linearly, and
 /// rotations along the shortest arc. The caller owns the memory.
 struct Morphing {
-    std::span<const MorphTarget> targets;         ///< may be empty
-    std::span<const float> times;                 ///< of the keys: seconds, ascending, one or more
-    std::span<const float> weights;               ///< one for each key and target: all of a key together
+    std::span<const MorphTarget> targets;          ///< may be empty
+    std::span<const float> times;                  ///< of the keys: seconds, ascending, one or more
+    std::span<const float> weights;                ///< one for each key and target: all of a key together
     std::span<const glm::vec3> translations = {};  ///< one for each key, or empty
     std::span<const glm::quat> rotations = {};     ///< likewise; of unit length
 };
