@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl.hpp"
 
+#include "support/gl_program.hpp"
+
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/draw/offscreen.hpp>
 #include <goffer/gpu/source.hpp>
@@ -88,28 +90,6 @@ std::string text_of(GlApi api) {
     return {};
 }
 
-void check(bool good, const std::string& what) {
-    if (!good) throw std::runtime_error(what);
-}
-
-std::string log_of(GLuint shader, bool program) {
-    char log[4096] = "";
-    program ? glGetProgramInfoLog(shader, sizeof log, nullptr, log)
-            : glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    return log;
-}
-
-GLuint compiled(GLenum stage, const std::string& text) {
-    const GLuint shader = glCreateShader(stage);
-    const char* const source = text.c_str();
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    GLint good = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    check(good != 0, log_of(shader, false));
-    return shader;
-}
-
 GLuint linked(GlApi api) {
     const GLuint program = glCreateProgram();
     glAttachShader(program,
@@ -120,19 +100,8 @@ GLuint linked(GlApi api) {
         const char* const outputs[] = {"bent_position", "bent_normal", "bent_tangent"};
         glTransformFeedbackVaryings(program, 3, outputs, GL_INTERLEAVED_ATTRIBS);
     }
-    glLinkProgram(program);
-    GLint good = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &good);
-    check(good != 0, log_of(program, true));
+    link_program(program);
     return program;
-}
-
-GLuint buffer(GLenum target, std::size_t bytes, const void* data) {
-    GLuint name = 0;
-    glGenBuffers(1, &name);
-    glBindBuffer(target, name);
-    glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-    return name;
 }
 
 void attribute(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {

@@ -3,6 +3,7 @@
 """Compiles goffer's shader files for what engines use, and validates what comes out as SPIR-V.
    shaders.py packed INCLUDE_FOLDER         packed.glsl and packed.hlsl
    shaders.py deform INCLUDE_FOLDER PAGE    deform.glsl, deform.hlsl, and the shaders that the page shows
+   shaders.py clip INCLUDE_FOLDER PAGE      vertex_texture.glsl, and the shaders that the page shows
 Exits with 77 where no compiler is installed."""
 import pathlib
 import re
@@ -76,7 +77,22 @@ Out main(In from) {
     return result;
 }
 """
-VARIABLES = {"packed": "vec3 box_low; vec3 box_high;", "deform": "vec4 rows[34];"}
+CLIP = """
+{uniforms}
+{samplers}
+{location} out vec3 normal;
+#include <goffer/clip/vertex_texture.glsl>
+void main() {{
+    GofferClip clip = GofferClip(width, rows_per_frame, low, high);
+    GofferFrames at = goffer_frames(frame, frames);
+    if (frames > 9) at = goffer_frames_repeated(frame, frames);
+    normal = goffer_normal(shares, vertex, at, clip) + goffer_normal(steps, vertex, at, clip);
+    gl_Position = vec4(goffer_position(shares, vertex, at, clip) + goffer_position(steps, vertex, at, clip), 1.0);
+}}
+"""
+VARIABLES = {"packed": "vec3 box_low; vec3 box_high;", "deform": "vec4 rows[34];",
+             "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int vertex;"}
+SAMPLERS = ("highp sampler2D shares", "highp usampler2D steps")
 TARGETS = {"GLSL 3.30": "#version 330 core", "GLSL 4.60": "#version 460 core", "GLSL ES 3.00": "#version 300 es",
            "GLSL ES 3.20": "#version 320 es", "Vulkan": "#version 450"}
 
@@ -94,15 +110,18 @@ def included(text, folder):
 
 def sources(subject, include, page):
     """For each target: a shader's text, its stage, and options of the compiler."""
-    text, hlsl = {"packed": (PACKED, PACKED_HLSL), "deform": (DEFORM, DEFORM_HLSL)}[subject]
+    text, hlsl = {"packed": (PACKED, PACKED_HLSL), "deform": (DEFORM, DEFORM_HLSL), "clip": (CLIP, None)}[subject]
     for name, version in TARGETS.items():
         uniforms = f"layout(set = 0, binding = 0) uniform Block {{ {VARIABLES[subject]} }};"
         if name != "Vulkan":
             uniforms = re.sub(r"(\S+ [^;]+;)", r"uniform \1", VARIABLES[subject])
         where = "layout(location = 0)" if name == "Vulkan" else ""
-        filled = version + "\n" + text.format(uniforms=uniforms, location=where)
+        bindings = [f"layout(set = 0, binding = {i}) " if name == "Vulkan" else "" for i in (1, 2)]
+        samplers = "\n".join(f"{binding}uniform {sampler};" for binding, sampler in zip(bindings, SAMPLERS))
+        filled = version + "\n" + text.format(uniforms=uniforms, samplers=samplers, location=where)
         yield name, included(filled, include), "vert", ["-V"] if name == "Vulkan" else []
-    yield "HLSL", included(hlsl, include), "vert", ["-D", "-V", "-e", "main"]
+    if hlsl:
+        yield "HLSL", included(hlsl, include), "vert", ["-D", "-V", "-e", "main"]
     shown = re.findall(r"^```glsl\n(.*?)^```", page.read_text(), re.M | re.S) if page else []
     for number, example in enumerate(shown):
         stage = "comp" if "local_size_x" in example else "vert"

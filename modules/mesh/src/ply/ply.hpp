@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "binary.hpp"
 #include "text.hpp"
 
+#include <goffer/io/bytes.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <cstdint>
@@ -18,6 +18,9 @@
 /// mean. (No PLY library that Debian 12 packages gives back properties that it does not know.)
 
 namespace goffer::mesh::ply {
+
+using io::append_bytes;
+using io::from_bytes;
 
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "binary.hpp"
 #include "budget.hpp"
 #include "face_cutter.hpp"
 #include "format.hpp"
 #include "refine.hpp"
 #include "text.hpp"
+
+#include <goffer/io/bytes.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +19,9 @@
 
 namespace goffer::mesh {
 namespace {
+
+using io::append_bytes;
+using io::from_bytes;
 
 constexpr std::size_t header_size = 84, facet_size = 50;
 

@@ -9,7 +9,7 @@
 
 /// Numbers in a file's byte order.
 
-namespace goffer::mesh {
+namespace goffer::io {
 
 /// Returns the number in the first bytes of `bytes`, which must have enough of them.
 template <class T>
@@ -30,4 +30,4 @@ void append_bytes(std::string& out, std::endian order, T... values) {
     (append_one(std::bit_cast<std::array<char, sizeof(T)>>(values)), ...);
 }
 
-}  // namespace goffer::mesh
+}  // namespace goffer::io

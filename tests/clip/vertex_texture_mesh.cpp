@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/gltf_valid.hpp"
+#include "support/models.hpp"
+#include "textures.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace goffer;
+using namespace goffer::test;
+
+TEST_CASE("vertex texture: the mesh beside it has the clip's vertices in their order, with their numbers") {
+    const Folder folder;
+    BendingModel bending(model("wine_bottle.glb"), 2);
+    saved_texture(bending, bending.model, bending.arrays, folder / "a.json");
+    const mesh::Mesh still = mesh::load(folder / "a.glb");
+    REQUIRE(still.positions == bending.arrays.positions);
+    REQUIRE(still.uvs.size() == 2);
+    REQUIRE(still.uvs[1].per_vertex());
+    int wrong = 0;
+    for (std::size_t i = 0; i < still.positions.size(); ++i) {
+        wrong += still.uvs[1].values[i] != glm::vec2(static_cast<float>(i), 1) ? 1 : 0;
+        wrong += farthest({still.uvs[0].values[i], 0}, {bending.arrays.uvs[i], 0}) > 1e-6 ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(mesh::triangles(still) == bending.arrays.triangles);
+    CHECK(still.parts.size() == bending.model.parts.size());
+    CHECK(still.materials.size() == bending.model.materials.size());
+}
+
+TEST_CASE("vertex texture: the mesh beside it has the parts of polygons, and colors") {
+    const Folder folder;
+    mesh::Mesh model;
+    model.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
+    model.corners = {0, 1, 2, 3, 1, 4, 2};
+    model.faces = {4, 3};
+    model.materials = {{"red", {1, 0, 0, 1}}, {"blue", {0, 0, 1, 1}}};
+    model.parts = {{"square", 1, 0, 1}, {"triangle", 0, 1, 1}};
+    model.colors.assign(5, glm::vec4(1));
+    model.colors[4] = {0, 0.5f, 0, 1};
+    MovingPoints points(5, 2, false);
+    saved_texture(points, model, mesh::vertex_arrays(model), folder / "a.json");
+    const mesh::Mesh still = mesh::load(folder / "a.glb");
+    REQUIRE(still.parts.size() == 2);
+    CHECK(still.parts[0].face_count == 2);
+    CHECK(still.parts[1].face_count == 1);
+    CHECK(still.materials.at(static_cast<std::size_t>(still.parts[0].material)).name == "blue");
+    CHECK(still.materials.at(static_cast<std::size_t>(still.parts[1].material)).name == "red");
+    CHECK(still.colors == model.colors);
+}
+
+TEST_CASE("vertex texture: the mesh beside it has no errors in Khronos' validator") {
+    const Folder folder;
+    BendingModel bending(model("wine_bottle.glb"), 2);
+    saved_texture(bending, bending.model, bending.arrays, folder / "a.json");
+    check_valid({folder / "a.glb"});
+}
