@@ -4,6 +4,8 @@
 #include "suitability.hpp"
 #include "threads.hpp"
 
+#include <goffer/io/read_file.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -56,6 +58,14 @@ void report_written(Report& report, const AnimateOptions& options, const Animate
                                number(static_cast<double>(bytes) * 1e-6) + " MB");
 }
 
+/// What was written, in all.
+std::uint64_t bytes_of(const AnimateRequest& request, io::AtomicFiles& outputs) {
+    std::uint64_t bytes = outputs.bytes();
+    for (std::size_t frame = 0; request.pattern && frame < request.frames; ++frame)
+        bytes += io::size_of_file(request.pattern->file(frame));
+    return bytes;
+}
+
 void run_animate(const AnimateOptions& options) {
     ModelFile file(options.model, options.bind.load.limits);
     const AnimateRequest request(options, file);
@@ -81,9 +91,9 @@ void run_animate(const AnimateOptions& options) {
                         outputs,
                         report};
     const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t bytes = in_file(options.model, [&] { return request.writer->write(animation); });
+    in_file(options.model, [&] { request.writer->write(animation); });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    report_written(report, options, request, bytes, taken.count());
+    report_written(report, options, request, bytes_of(request, outputs), taken.count());
     report.finish(outputs);
 }
 
@@ -97,22 +107,28 @@ constexpr const char* keys_help =
     "a table with a first line: time,angle,direction or time,angle1,direction1,angle2,direction2,..\n\n";
 
 constexpr const char* output_help =
-    "\n\n-o decides what is written: a model or a picture for each frame, of a name with %04d, which becomes "
-    "the\n"
-    "frame's number from 1. Files with these numbers are replaced, one by one; the command refuses to\n"
+    "\n\n-o decides what is written: NAME.glb or .gltf, in which few shapes are blended to all frames; a "
+    "point\n"
+    "cache NAME.mdd or .pc2, of the model's vertices in their order; NAME.json, a vertex-animation texture\n"
+    "with its images beside it; or a model or a picture for each frame, of a name with %04d, which becomes\n"
+    "the frame's number from 1. Files with these numbers are replaced, one by one; the command refuses to\n"
     "leave others of the same pattern behind them. Ended early, it leaves whole frames alone.\n"
-    "As many frames are in memory at a time as --max-memory has room for, and at most one a thread.";
+    "Frames are not kept: as many are in memory at a time as --max-memory has room for beside the model,\n"
+    "and at most one a thread.";
 
 }  // namespace
 
 void add_animate(CLI::App& app, Action& action) {
     const auto options = std::make_shared<AnimateOptions>();
-    CLI::App* command = app.add_subcommand("animate", "Move a model, and write it frame by frame");
+    CLI::App* command = app.add_subcommand(
+        "animate", "Move a model, and write that as animated glTF, a point cache, a texture, or frames");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
         ->required();
     command
-        ->add_option("-o,--output", options->output,
-                     "Write it here: NAME_%04d.obj (.ply, .stl, .glb, .gltf) or NAME_%04d.png")
+        ->add_option(
+            "-o,--output", options->output,
+            "Write it here: .glb, .gltf, .mdd, .pc2, .json (a vertex-animation texture), NAME_%04d.obj "
+            "(.ply, .stl, .glb, .gltf) or NAME_%04d.png")
         ->required();
     command->footer(keys_help + std::string(path_help) + output_help);
     add_motion_words(*command, *options);

@@ -7,19 +7,10 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
-#include <system_error>
-
 /// A file for each frame.
 
 namespace goffer::cli {
 namespace {
-
-std::uint64_t size_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uint64_t size = std::filesystem::file_size(file, error);
-    return error ? 0 : size;
-}
 
 /// Calls write(frame) for all frames, of `at_a_time` frames at once.
 template <class Write>
@@ -38,24 +29,21 @@ void for_frames(std::size_t frames, int at_a_time, Write write) {
 
 }  // namespace
 
-std::uint64_t write_models(Animation& animation) {
+void write_models(Animation& animation) {
     const MovingModel& frames = animation.frames;
     const BoundModel& model = frames.model();
     Progress progress("writing frames", frames.count());
-    std::atomic<std::uint64_t> bytes = 0;
     const int at_a_time = frames_at_a_time(model, animation.limits, animation.threads);
     tbb::task_arena(animation.threads).execute([&] {
         for_frames(frames.count(), at_a_time, [&](std::size_t frame) {
             const std::filesystem::path file = animation.pattern->file(frame);
             mesh::save(mesh::with_vertex_arrays(model.mesh, frames.records(frame)), file);
-            bytes += size_of(file);
             progress.advance();
         });
     });
-    return bytes;
 }
 
-std::uint64_t write_pictures(Animation& animation) {
+void write_pictures(Animation& animation) {
     const MovingModel& frames = animation.frames;
     const BoundModel& model = frames.model();
     const std::vector<glm::vec4> colors = vertex_colors(model.file, model.mesh, model.rest);
@@ -65,7 +53,6 @@ std::uint64_t write_pictures(Animation& animation) {
     view::Camera camera = animation.survey.camera;
     camera.also_seen = animation.survey.seen;
     Progress progress("rendering frames", frames.count());
-    std::uint64_t bytes = 0;
     tbb::task_arena(animation.threads).execute([&] {
         for (std::size_t frame = 0; frame < frames.count(); ++frame) {
             const mesh::VertexArrays records = frames.records(frame);
@@ -76,11 +63,9 @@ std::uint64_t write_pictures(Animation& animation) {
             const std::vector<view::Model> parts = part_models(model.mesh, bent, pictured, bent.color);
             const std::filesystem::path file = animation.pattern->file(frame);
             view::save_png(view::render(parts, camera, animation.picture), file);
-            bytes += size_of(file);
             progress.advance();
         }
     });
-    return bytes;
 }
 
 }  // namespace goffer::cli

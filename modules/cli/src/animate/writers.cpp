@@ -23,6 +23,10 @@ const std::vector<Writer>& writers() {
     static const std::vector<Writer> all = {
         {{".obj", ".ply", ".stl", ".glb", ".gltf"}, true, "a model for each frame", write_models},
         {{".png"}, true, "a picture of each frame", write_pictures},
+        {{".glb", ".gltf"}, false, "animated glTF", write_gltf},
+        {{".mdd"}, false, "a point cache", write_mdd},
+        {{".pc2"}, false, "a point cache", write_pc2},
+        {{".json"}, false, "a vertex-animation texture", write_vertex_texture},
     };
     return all;
 }

@@ -45,12 +45,13 @@ struct Animation {
     Report& report;
 };
 
-/// One way of writing: files of these endings, one for each frame or one for all. Returns how many bytes.
+/// One way of writing: files of these endings, one for each frame or one for all. Beside what all have, each
+/// reports what is its own.
 struct Writer {
     std::vector<std::string> endings;
     bool sequence = false;
     std::string what;  ///< for a person
-    std::uint64_t (*write)(Animation& animation) = nullptr;
+    void (*write)(Animation& animation) = nullptr;
 };
 
 /// All there are.
@@ -60,8 +61,12 @@ struct Writer {
 [[nodiscard]] const Writer& writer_for(const std::filesystem::path& output, bool pattern);
 
 /// The functions of writers().
-[[nodiscard]] std::uint64_t write_models(Animation& animation);
-[[nodiscard]] std::uint64_t write_pictures(Animation& animation);
+void write_models(Animation& animation);
+void write_pictures(Animation& animation);
+void write_gltf(Animation& animation);
+void write_mdd(Animation& animation);
+void write_pc2(Animation& animation);
+void write_vertex_texture(Animation& animation);
 
 /// How many frames may be in memory at a time beside the model: at most one per thread, and as many as the
 /// limit of memory has room for; at least one.
