@@ -262,9 +262,7 @@ TEST_CASE("animate: what is refused, in one line, and nothing written") {
     refused(folder, 1, {"bend", "base.ply", "-o", "o.ply", "--path", "path.txt", "--path-start", "300"},
             {"--path-start: 300 is beyond the end"});
     refused(folder, 1, to + Words{"--path", "none.txt"}, {"none.txt"});
-    refused(folder, 1,
-            to + Words{"--keys", "keys.json", "--fps", "1000", "--regions", "0.5,0.5", "-o", "none/f%d.ply"},
-            {"-o"});
+    refused(folder, 1, model + Words{"none/f%d.ply", "--swing", "9"}, {"none/f1.ply", "no such folder"});
     folder.write("f1.json", R"({"keys": [{"time": 0, "angles": [1, 2]}, {"time": 1, "angles": [1, 2, 3]}]})");
     refused(folder, 1, to + Words{"--keys", "f1.json"}, {"f1.json: keys[1]: angles: 3 for 2 regions"});
     refused(folder, 1, to + Words{"--keys", "f1.json", "--regions", "0.2,0.3,0.5"},

@@ -248,8 +248,10 @@ void add_bend(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"area"}));
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, command, &action] {
-        check_path_words(options->path, *command);
-        action = [options] { run_bend(*options); };
+        action = [options, command] {
+            check_path_words(options->path, *command);
+            run_bend(*options);
+        };
     });
 }
 

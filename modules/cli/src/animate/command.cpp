@@ -149,8 +149,10 @@ void add_animate(CLI::App& app, Action& action) {
                         "frames are seen from one place");
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
     command->callback([options, command, &action] {
-        check_path_words(options->path, *command);
-        action = [options] { run_animate(*options); };
+        action = [options, command] {
+            check_path_words(options->path, *command);
+            run_animate(*options);
+        };
     });
 }
 
