@@ -178,7 +178,7 @@ Output Morpher::run(std::vector<std::string>& warnings) && {
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);
-    return std::move(output_);
+    return {std::move(output_.json), std::move(output_.buffer)};
 }
 
 }  // namespace
