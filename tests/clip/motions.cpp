@@ -83,6 +83,24 @@ TEST_CASE("clip: one frame") {
     CHECK_FALSE(player.json.contains("animations"));
 }
 
+TEST_CASE("clip: one frame at rest is the mesh") {
+    const mesh::Mesh mesh = bar();
+    MadeFrames frames(mesh, 1, still, circling);
+    clip::GltfReport report;
+    (void)written(mesh, frames, report);
+    CHECK(report.targets == 0);
+    CHECK(report.within);
+}
+
+TEST_CASE("clip: as near as floats can be") {
+    const mesh::Mesh mesh = bar();
+    MadeFrames frames(mesh, 100, bending);
+    clip::GltfReport report;
+    (void)written(mesh, frames, report, {.max_error = 0});
+    CHECK(report.within);
+    CHECK(report.max_error < 1e-5);
+}
+
 TEST_CASE("clip: two frames, which are the targets") {
     const mesh::Mesh mesh = bar();
     MadeFrames frames(

@@ -104,6 +104,14 @@ TEST_CASE("clip: nodes that share a mesh, are scaled, sheared and mirrored, and 
     CHECK(report.warnings[0].find("animations") != std::string::npos);
 }
 
+TEST_CASE("clip: a file's own animation does not go on where nothing else moves") {
+    const mesh::Mesh mesh = load_document(placed_twice());
+    MadeFrames frames(mesh, 5, [](std::size_t, const glm::vec3&, bool, const glm::vec3& v) { return v; });
+    const Folder folder;
+    CHECK(saved_clip(mesh, frames, folder / "clip.glb").warnings.size() == 1);
+    CHECK_FALSE(Player(bytes_of(folder / "clip.glb")).json.contains("animations"));
+}
+
 TEST_CASE("clip: primitives of one mesh with vertices of their own, one of them without normals") {
     Document document = placed_twice();
     Json second = primitive_of(document);

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -56,7 +57,7 @@ GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& 
                      const std::filesystem::path& file, io::AtomicFiles& files) {
     const Rest rest = rest_of(mesh);
     check(options, frames, rest);
-    const double allowed = options.max_error * rest.size;
+    const double allowed = std::max(options.max_error * rest.size, rest.rounding());
     Moves moves(rest, frames);
     Blend blend = reduce(moves, {allowed, options.targets, options.memory});
     prune(blend, allowed);

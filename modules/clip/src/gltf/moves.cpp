@@ -47,9 +47,12 @@ Rest rest_of(const mesh::Mesh& mesh) {
     return rest;
 }
 
+double Rest::rounding() const {
+    return 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+}
+
 double Rest::noise() const {
-    const double rounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
-    return 3.0 * static_cast<double>(entries()) * rounding * rounding;
+    return 3.0 * static_cast<double>(entries()) * rounding() * rounding();
 }
 
 Moves::Moves(const Rest& rest, Frames& frames)

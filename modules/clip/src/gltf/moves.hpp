@@ -24,6 +24,9 @@ struct Rest {
 
     [[nodiscard]] std::size_t entries() const { return positions.size(); }
 
+    /// What floats of this reach may be off by.
+    [[nodiscard]] double rounding() const;
+
     /// What a principal component may have as its value by the rounding of floats alone.
     [[nodiscard]] double noise() const;
 };

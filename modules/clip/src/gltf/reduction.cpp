@@ -54,7 +54,7 @@ Blend blend_of(Shapes components, const Weights& weights, std::size_t count) {
         matrix.col(k + 1) *= static_cast<float>(range[k]);
     }
     const bool begins_at_rest = matrix.col(0).isZero(0.0f);
-    Blend blend{std::move(components), {}, false};
+    Blend blend{std::move(components), {}, weights.of.rows() == 1};
     if (begins_at_rest) blend.targets.drop_first();
     blend.weights.reserve(static_cast<std::size_t>(of.rows()) * blend.targets.count());
     for (Index f = 0; f < of.rows(); ++f) {
@@ -85,7 +85,8 @@ Blend reduce(Moves& moves, const Reduction& how) {
         how.targets ? std::min(*how.targets - 1, most) : first_guess(spread, moves.rest(), how.max_error);
     for (;;) {
         count = std::min(count, most);
-        if (count + 1 >= moves.count() && count + 1 <= capacity.components) return all_frames(moves);
+        const bool as_many = count > 0 && count + 1 >= moves.count();
+        if (as_many && moves.count() <= capacity.components) return all_frames(moves);
         Shapes components = components_of(moves, spread, count, capacity);
         const Weights weights = weights_of(moves, components);
         const std::size_t used = how.targets ? count : enough(weights.max_errors, how.max_error);

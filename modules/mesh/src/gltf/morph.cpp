@@ -82,7 +82,8 @@ Morpher::Morpher(const Mesh& mesh, const Morphing& morphing, const std::filesyst
     base_ = base_document(mesh, file, embed, is_made);
     scene_ = read_scene(*base_);
     if (is_made) entries_ = entries_of(scene_.mesh, mesh);
-    output_ = {base_->json, base_->buffers.empty() ? std::string() : base_->buffers[0]};
+    output_.json = base_->json;
+    if (!base_->buffers.empty()) output_.buffer = base_->buffers[0];
 }
 
 bool Morpher::moves(const Block& block) const {
@@ -177,7 +178,7 @@ Output Morpher::run(std::vector<std::string>& warnings) && {
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);
-    return std::move(output_);
+    return {std::move(output_.json), std::move(output_.buffer)};
 }
 
 }  // namespace
