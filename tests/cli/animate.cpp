@@ -232,56 +232,6 @@ TEST_CASE("animate: pictures are taken from one place, from which all frames are
     CHECK(bytes_of(folder / "p1.png") != bytes_of(folder / "p3.png"));
 }
 
-TEST_CASE("animate: what is refused, in one line, and nothing written") {
-    const Folder folder;
-    base(folder);
-    write_keys(folder);
-    const Words model{"animate", "base.ply", "-o"};
-    refused(folder, 2, model + Words{"f%d.ply"}, {"--keys FILE, --swing D or --path FILE"});
-    refused(folder, 2, model + Words{"f.ply", "--swing", "9"}, {"f.ply", "f_%04d.ply"});
-    refused(folder, 2, model + Words{"f%d.mdd", "--swing", "9"}, {"all frames in one file"});
-    refused(folder, 2, model + Words{"f%d.fbx", "--swing", "9"}, {"no known ending", "%04d.obj"});
-    for (const std::string name : {"f%x.ply", "f%4d.ply", "f%d%d.ply", "f%00d.ply", "f%.ply"})
-        refused(folder, 2, model + Words{name, "--swing", "9"}, {"is no pattern"});
-    const Words to = model + Words{"f%d.ply"};
-    for (const std::string angle : {"nan", "1,2,3", "far", ""})
-        refused(folder, 2, to + Words{"--swing", angle}, {"--swing"});
-    for (const std::string frames : {"0", "-1", "1000001", "1e9", "99999999999999999999"})
-        refused(folder, 2, to + Words{"--swing", "9", "--frames", frames}, {"--frames"});
-    for (const std::string fps : {"0", "nan", "1e9"})
-        refused(folder, 2, to + Words{"--swing", "9", "--fps", fps}, {"--fps"});
-    refused(folder, 2, to + Words{"--swing", "9", "--keys", "keys.json"}, {"--keys", "--swing"});
-    refused(folder, 2, to + Words{"--keys", "keys.json", "--lag", "1"}, {"--lag", "--swing"});
-    refused(folder, 2, to + Words{"--swing", "9", "--size", "9x9"}, {"--size", "%04d.png"});
-    refused(folder, 2, to + Words{"--swing", "9", "--path-scale", "2"}, {"--path-scale", "--path FILE"});
-    refused(folder, 2, to + Words{"--path", "path.txt", "--path-scale", "fit"}, {"--path-scale"});
-    refused(folder, 2, {"bend", "base.ply", "-o", "o.ply", "--path", "path.txt", "--angle", "3"},
-            {"--path", "--angle"});
-    refused(folder, 2, {"bend", "base.ply", "-o", "o.ply", "--path-start", "3"},
-            {"--path-start", "--path FILE"});
-    refused(folder, 1, {"bend", "base.ply", "-o", "o.ply", "--path", "path.txt", "--path-start", "300"},
-            {"--path-start: 300 is beyond the end"});
-    refused(folder, 1, to + Words{"--path", "none.txt"}, {"none.txt"});
-    refused(folder, 1, model + Words{"none/f%d.ply", "--swing", "9"}, {"none/f1.ply", "no such folder"});
-    folder.write("f1.json", R"({"keys": [{"time": 0, "angles": [1, 2]}, {"time": 1, "angles": [1, 2, 3]}]})");
-    refused(folder, 1, to + Words{"--keys", "f1.json"}, {"f1.json: keys[1]: angles: 3 for 2 regions"});
-    refused(folder, 1, to + Words{"--keys", "f1.json", "--regions", "0.2,0.3,0.5"},
-            {"keys[0]: angles: 2 for 3 regions"});
-    refused(folder, 2, model + Words{"f%d.json", "--keys", "f1.json"}, {"-o"});
-    folder.write("bad.json", "{\"keys\": [{\"time\": 0, \"angle\": NaN}]}");
-    refused(folder, 1, to + Words{"--keys", "bad.json"}, {"bad.json", "is not JSON"});
-    folder.write("huge.json", R"({"keys": [{"time": 0, "angle": 0}, {"time": 1e300, "angle": 5}]})");
-    refused(folder, 1, to + Words{"--keys", "huge.json"}, {"huge.json: keys[1]: time: "});
-    folder.write("long.csv", "time,angle\n0,0\n900000,5\n");
-    refused(folder, 1, to + Words{"--keys", "long.csv"}, {"long.csv", "more than a million frames"});
-    folder.write("nan.csv", "time,angle\n0,0\n1,nan\n");
-    refused(folder, 1, to + Words{"--keys", "nan.csv"}, {"nan.csv: line 3: 'nan' is not a number"});
-    folder.write("short.csv", "time,angle\n0\n");
-    refused(folder, 1, to + Words{"--keys", "short.csv"}, {"line 2: has 1 values for 2 columns"});
-    folder.write("short.txt", "0 0 0\n0 0 9\n");
-    refused(folder, 1, to + Words{"--path", "short.txt"}, {"no room to walk on a path of 9"});
-}
-
 TEST_CASE("animate: a sequence replaces its own frames, and is not left in front of another's") {
     const Folder folder;
     base(folder);

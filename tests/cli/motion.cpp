@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <stdexcept>
 
 /// Documents of motions, and what they say of a body: against closed forms.
 
@@ -50,20 +49,6 @@ glm::dvec2 vector_of(const bend::Pose& pose) {
 void check_vector(const bend::Pose& pose, double x, double y) {
     CHECK(std::abs(vector_of(pose).x - x) < 2e-5);
     CHECK(std::abs(vector_of(pose).y - y) < 2e-5);
-}
-
-void check_refused(const json& document, const std::string& piece, std::size_t regions = 2) {
-    CAPTURE(document.dump());
-    std::string said = "nothing";
-    try {
-        (void)motion_of(document, regions);
-    } catch (const std::runtime_error& error) {
-        said = error.what();
-    }
-    CAPTURE(said);
-    CHECK(said.starts_with("keys.json: "));
-    CHECK(said.find(piece) != said.npos);
-    CHECK(said.find('\n') == said.npos);
 }
 
 json key(double time, double angle, double direction = 0) {
@@ -295,49 +280,6 @@ TEST_CASE("motion: a table says what JSON says") {
     folder.write("path.txt", "# x y z\n0 0 1e1\n1,2,-3\n\t4, 5  6\n");
     CHECK(cli::read_path_file(folder / "path.txt") ==
           json{{0.0, 0.0, 10.0}, {1.0, 2.0, -3.0}, {4.0, 5.0, 6.0}});
-}
-
-TEST_CASE("motion: documents that are refused, in one line that says where") {
-    const auto keys = [](const json& second) { return json{{"keys", {key(0, 0), second}}}; };
-    check_refused(json::array(), "is no JSON object");
-    check_refused(json::object(), "says no motion");
-    check_refused({{"keys", 3}}, "two keys or more");
-    check_refused({{"keys", {key(0, 0)}}}, "two keys or more");
-    check_refused({{"keys", {key(0, 0), 5}}}, "keys[1]: is no JSON object");
-    check_refused(keys({{"angle", 5}}), "keys[1]: has no \"time\"");
-    check_refused(keys({{"time", 1}}), "keys[1]: has no \"angle\"");
-    check_refused(keys(key(0, 5)), "keys[1]: time: is not after the key before it");
-    check_refused({{"keys", {key(2, 0), key(1, 5)}}}, "sort the keys");
-    check_refused(keys(key(-1, 5)), "time: is not a number within 0..1e+06");
-    check_refused(keys(key(1e300, 5)), "time: ");
-    check_refused(keys(key(1, 1e300)), "angle: is not an angle in degrees");
-    check_refused(keys(key(1, NAN)), "angle: is not an angle");
-    check_refused(keys(key(1, 5, 1e300)), "direction: ");
-    check_refused(keys({{"time", 1}, {"angle", "far"}}), "angle: ");
-    check_refused(keys({{"time", 1}, {"angles", {1, 2, 3}}}), "angles: 3 for 2 regions");
-    check_refused(keys({{"time", 1}, {"angles", {1, 2}}, {"directions", {1}}}),
-                  "directions: 1 for 2 regions");
-    check_refused(keys({{"time", 1}, {"angles", 5}}), "angles: is no array");
-    check_refused(keys({{"time", 1}, {"angle", 5}, {"angles", {5, 5}}}), "give one of them");
-    check_refused(keys({{"time", 1}, {"angle", 5}, {"angel", 6}}), "\"angel\" is no field here");
-    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"interpolation", "bouncy"}},
-                  "give one of smooth, linear");
-    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"repeat", true}}, "is not as the first");
-    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"seconds", 3}}, "\"seconds\" is no field here");
-    check_refused({{"keys", {key(0, 0), key(1e-5, 5)}}}, "end within");
-    check_refused({{"swing", 30}}, "has no \"seconds\"");
-    check_refused({{"swing", 30}, {"seconds", 0}}, "seconds: ");
-    check_refused({{"swing", {{"too", 5}}}, {"seconds", 1}}, "swing: has no \"to\"");
-    check_refused({{"path", {{0, 0, 0}}}, {"seconds", 1}}, "fewer than two points");
-    check_refused({{"path", {{0, 0, 0}, {0, 0, 0}}}, {"seconds", 1}}, "all points are the same");
-    check_refused({{"path", {{0, 0, 0}, {0, 1}}}, {"seconds", 1}}, "path[1]: is no point");
-    check_refused({{"path", {{0, 0, 0}, {0, 1, 1e300}}}, {"seconds", 1}}, "path[1]: is not a number");
-    check_refused({{"path", {{"bezier", {{{0, 0, 0}, {1, 1, 1}}}}}}, {"seconds", 1}}, "four control points");
-    check_refused({{"path", {{"points", {{0, 0, 0}, {1, 1, 1}}}, {"curve", "wavy"}}}, {"seconds", 1}},
-                  "curve");
-    const json path{{0, 0, 0}, {0, 0, 9}}, longer{{0, 0, 0}, {0, 0, 9}, {0, 0, 10}};
-    check_refused({{"keys", {{{"time", 0}, {"path", path}}, {{"time", 1}, {"path", longer}}}}},
-                  "is not of as many points");
 }
 
 TEST_CASE("motion: a body without room on its path is refused") {
