@@ -95,3 +95,26 @@ TEST_CASE("vertices that no triangle uses do not matter") {
     ball.normals.emplace_back(0, 0, 1);
     CHECK(test::render({ball}, {80, 60, 2}).rgb == plain.rgb);
 }
+
+TEST_CASE("pictures of a motion stay in place with the points that decide") {
+    const test::Shape near = red_sphere({0, 0, 0}, 0.5f), far = red_sphere({3, 1, 2}, 0.5f);
+    const auto look = [&](const test::Shape& shape, std::span<const glm::vec3> also) {
+        const std::vector<view::Model> models{shape.model()};
+        view::Camera camera;
+        camera.also_seen = also;
+        return view::render(models, camera, {320, 240, 4});
+    };
+    view::Camera camera;
+    std::vector<glm::vec3> seen = view::deciding_points(camera, near.positions, {320, 240, 4});
+    const std::vector<glm::vec3> more = view::deciding_points(camera, far.positions, {320, 240, 4});
+    CHECK(seen.size() + more.size() < 30);
+    seen.insert(seen.end(), more.begin(), more.end());
+    const view::Picture both = test::render({near, far}, {320, 240, 4});
+    const Silhouette a = silhouette(look(near, seen)), b = silhouette(look(far, seen)),
+                     all = silhouette(both);
+    CHECK(std::min(a.left, b.left) == all.left);
+    CHECK(std::max(a.right, b.right) == all.right);
+    CHECK(std::min(a.top, b.top) == all.top);
+    CHECK(std::max(a.bottom, b.bottom) == all.bottom);
+    CHECK(silhouette(look(near, {})).area > 2 * a.area);
+}

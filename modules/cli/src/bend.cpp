@@ -4,6 +4,7 @@
 #include "deformed.hpp"
 #include "local_area.hpp"
 #include "model.hpp"
+#include "motion/path_words.hpp"
 #include "picture.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
@@ -35,6 +36,7 @@ struct BendOptions {
     std::filesystem::path model;
     std::filesystem::path output;
     PoseWords pose;
+    PathOptions path;
     BindWords bind;
     std::filesystem::path fit;
     std::string isa = "auto";
@@ -64,7 +66,8 @@ struct Request {
         check_wanted(options.picture, options.camera.has_value(), "--camera");
         if (!options.fit.empty() && bind.axis)
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
-        check_places({{"MODEL", options.model}, {"--fit", options.fit}},
+        if (options.path.scale != "fit") (void)read_path_scale(options.path.scale);
+        check_places({{"MODEL", options.model}, {"--fit", options.fit}, {"--path", options.path.file}},
                      {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}});
         check_model_output(options.output);
         style.settings = picture_settings(options.picture);
@@ -79,9 +82,10 @@ struct Deformed {
     double microseconds = 0;
 };
 
-Deformed deform(const BoundModel& model, const Request& request, std::span<const bend::Pose> poses) {
+Deformed deform(const BoundModel& model, const Request& request, std::span<const bend::Pose> poses,
+                const glm::mat4x3& transform) {
     Deformed result;
-    const bend::DeformJob job = job_into(result.records, model, poses, request.isa);
+    const bend::DeformJob job = job_into(result.records, model, poses, request.isa, transform);
     tbb::task_arena arena(request.threads);
     std::vector<double> times(9);  // the first run also pays for memory that was never touched
     for (double& time : times) {
@@ -168,13 +172,16 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
 
 void run_bend(const BendOptions& options) {
     ModelFile file(options.model, options.bind.load.limits);
-    const Request request(options, baked_regions(file));
+    const bool along_path = !options.path.file.empty();
+    const Request request(options, along_path && !file.baked ? regions_for_path() : baked_regions(file));
     Report report(options.json);
     const BoundModel model = bind_model(std::move(file), request.bind, options.fit);
     const bend::Body& body = model.binding.body;
-    const std::vector<Target> targets = targets_on(body, request.pose);
+    const Laid laid =
+        along_path ? lay(body, options.path) : Laid{.targets = targets_on(body, request.pose), .fit = {}};
+    const std::vector<Target>& targets = laid.targets;
     const std::vector<bend::Pose> poses = poses_of(targets);
-    const Deformed bent = deform(model, request, poses);
+    const Deformed bent = deform(model, request, poses, laid.fit.transform);
 
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
@@ -182,6 +189,7 @@ void run_bend(const BendOptions& options) {
     if (!model.baked) report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
     report_bend(report, request, model, targets, bent, area_before);
+    if (along_path) report_path(report, laid, options.path);
     in_file(options.model, [&] { report_local_area(report, model, poses, bent.records.positions); });
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
@@ -193,7 +201,7 @@ void run_bend(const BendOptions& options) {
         const Textures textures = show ? Textures{} : textures_of(model.mesh, options.bind.load.limits);
         for (const std::string& warning : textures.warnings) report.warn(warning);
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,
-                       textures, poses[0]},
+                       textures, poses[0], laid.fit.transform},
                       request.style, png, outputs);
         if (show) report_area_colors(report);
         report.line("picture", png.string());
@@ -215,8 +223,16 @@ void add_bend(CLI::App& app, Action& action) {
     command->footer(
         "Angles are absolute: 0 is straight, whatever shape the model has in its file. One that is\n"
         "bent there gets that shape back from the angle and direction that 'goffer inspect' reports,\n"
-        "or from --by 0; --by 30 bends it by 30 degrees more. Angles beyond the largest are clamped.");
+        "or from --by 0; --by 30 bends it by 30 degrees more. Angles beyond the largest are clamped.\n\n" +
+        std::string(path_help));
     add_pose_words(*command, options->pose);
+    add_path_words(*command, options->path);
+    for (const char* option : {"--angle", "--angles", "--by", "--direction", "--directions"})
+        command->get_option("--path")->excludes(option);
+    command
+        ->add_option("--path-start", options->path.start,
+                     "Put the base so far behind the beginning of the path, in the model's units [0]")
+        ->check(number_within(0, 1e9, "a length"));
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "auto");
     command->add_option("--fit", options->fit,
@@ -240,7 +256,12 @@ void add_bend(CLI::App& app, Action& action) {
                      "Color the picture by: area (its change at every vertex; blue: smaller, red: larger)")
         ->check(CLI::IsMember({"area"}));
     command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
-    command->callback([options, &action] { action = [options] { run_bend(*options); }; });
+    command->callback([options, command, &action] {
+        action = [options, command] {
+            check_path_words(options->path, *command);
+            run_bend(*options);
+        };
+    });
 }
 
 }  // namespace goffer::cli

@@ -7,7 +7,7 @@
 namespace goffer::cli {
 
 bend::DeformJob job_into(mesh::VertexArrays& records, const BoundModel& model,
-                         std::span<const bend::Pose> poses, Isa isa) {
+                         std::span<const bend::Pose> poses, Isa isa, const glm::mat4x3& transform) {
     const bend::Body& body = model.binding.body;
     const std::size_t count = body.vertex_count();
     records = model.rest;
@@ -16,6 +16,7 @@ bend::DeformJob job_into(mesh::VertexArrays& records, const BoundModel& model,
     job.body = &body;
     job.poses = poses;
     job.isa = isa;
+    job.transform = transform;
     job.positions = interleaved<3>(&records.positions.front().x, count);
     job.normals = interleaved<3>(&records.normals.front().x, count);
     if (body.has_tangents()) job.tangents = interleaved<4>(&records.tangents.front().x, count);

@@ -5,6 +5,8 @@
 
 #include <goffer/bend/job.hpp>
 
+#include <glm/mat4x3.hpp>
+
 #include <span>
 #include <string>
 
@@ -13,9 +15,11 @@
 namespace goffer::cli {
 
 /// The job that bends `model` into `records`, which become the model's own at rest, with normals; in the
-/// body's order. Throws InputError where there is no such job. `records` and `poses` must outlive it.
+/// body's order, under `transform`. Throws InputError where there is no such job. `records` and `poses` must
+/// outlive it.
 [[nodiscard]] bend::DeformJob job_into(mesh::VertexArrays& records, const BoundModel& model,
-                                       std::span<const bend::Pose> poses, Isa isa = Isa::automatic);
+                                       std::span<const bend::Pose> poses, Isa isa = Isa::automatic,
+                                       const glm::mat4x3& transform = glm::mat4x3(1));
 
 /// Puts what such a job has written into the model's order.
 void put_in_model_order(mesh::VertexArrays& records, const fit::Binding& binding);

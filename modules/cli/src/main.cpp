@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
     add_inspect(app, action);
     add_refine(app, action);
     add_bend(app, action);
+    add_animate(app, action);
     add_bake(app, action);
     add_crowd(app, action);
     add_figures(app, action);

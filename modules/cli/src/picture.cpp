@@ -4,6 +4,8 @@
 #include "arguments.hpp"
 #include "model.hpp"
 
+#include <glm/mat3x3.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -105,17 +107,21 @@ void write_picture(const BentModel& model, const PictureStyle& style, const std:
                            .colors = model.colors};
     std::vector<view::Model> models =
         part_models(model.mesh, bent, PictureTextures(model.textures), bent.color);
+    std::vector<glm::vec3> ghost;
     if (style.ghost) {
+        ghost.reserve(model.rest.positions.size());
+        for (const glm::vec3& position : model.rest.positions)
+            ghost.push_back(model.transform * glm::vec4(position, 1));
         view::Model rest;
-        rest.positions = model.rest.positions;
+        rest.positions = ghost;
         rest.triangles = model.rest.triangles;
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
     const Sight sight = sight_of(model.body, model.pose, style.viewpoint);
     view::Camera camera;
-    camera.toward = sight.toward;
-    camera.up = sight.up;
+    camera.toward = glm::mat3(model.transform) * sight.toward;
+    camera.up = glm::mat3(model.transform) * sight.up;
     view::save_png(view::render(models, camera, style.settings), file, outputs);
 }
 

@@ -10,6 +10,7 @@
 #include <goffer/view/texture.hpp>
 
 #include <CLI/CLI.hpp>
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -53,6 +54,7 @@ struct BentModel {
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
     const Textures& textures;           ///< of the mesh, or none; with colors, these are multiplied
     bend::Pose pose;
+    glm::mat4x3 transform{1.0f};  ///< from where the rest positions are to where the bent ones are
 };
 
 /// Textures as pictures take them. The textures must outlive it.

@@ -5,13 +5,43 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 
 namespace goffer::cli {
+namespace {
 
-Progress::Progress(const std::string& stage) : stage_(io::escaped(stage)) {
+/// "12 s", or "3:05" in minutes and seconds, or "2:03:05".
+std::string time_text(double seconds) {
+    const auto all = static_cast<long long>(std::lround(seconds));
+    char text[64];
+    if (all < 60) {
+        std::snprintf(text, sizeof text, "%lld s", all);
+    } else if (all < 3600) {
+        std::snprintf(text, sizeof text, "%lld:%02lld", all / 60, all % 60);
+    } else {
+        std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", all / 3600, all / 60 % 60, all % 60);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string progress_line(const std::string& stage, std::size_t done, std::size_t steps, double seconds) {
+    if (steps == 0 || done == 0) return stage + " ... " + time_text(seconds);
+    constexpr std::size_t width = 24;
+    done = std::min(done, steps);
+    const double share = static_cast<double>(done) / static_cast<double>(steps);
+    const auto full = static_cast<std::size_t>(share * width);
+    return stage + " [" + std::string(full, '#') + std::string(width - full, '.') + "] " +
+           std::to_string(done) + " of " + std::to_string(steps) + ", " +
+           time_text(seconds * (1 - share) / share) + " left";
+}
+
+Progress::Progress(const std::string& stage, std::size_t steps) : stage_(io::escaped(stage)), steps_(steps) {
     if (isatty(STDERR_FILENO) == 0) return;
     try {
         thread_ = std::thread([this] { show(); });
@@ -36,9 +66,8 @@ void Progress::show() {
     const auto start = std::chrono::steady_clock::now();
     if (wake_.wait_for(lock, 2s, [this] { return done_; })) return;
     do {
-        const auto seconds =
-            std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start);
-        std::fprintf(stderr, "\r%s ... %lld s", stage_.c_str(), static_cast<long long>(seconds.count()));
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        std::fprintf(stderr, "\r%s\033[K", progress_line(stage_, done_steps_, steps_, taken.count()).c_str());
     } while (!wake_.wait_for(lock, 500ms, [this] { return done_; }));
     std::fprintf(stderr, "\r\033[K");
 }

@@ -102,6 +102,20 @@ AtomicFile& AtomicFiles::add(fs::path target) {
     return *files_.emplace_back(std::make_unique<AtomicFile>(std::move(target)));
 }
 
+std::uint64_t AtomicFile::bytes() {
+    flush();
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(beside_, error);
+    if (error) give_up(error.value());
+    return size;
+}
+
+std::uint64_t AtomicFiles::bytes() {
+    std::uint64_t sum = 0;
+    for (const auto& file : files_) sum += file->bytes();
+    return sum;
+}
+
 void AtomicFiles::flush() {
     for (const auto& file : files_) file->flush();
 }

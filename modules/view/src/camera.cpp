@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace goffer::view {
@@ -41,15 +42,8 @@ Fit fit(std::span<const glm::vec3> points, const glm::vec3& axis, const glm::vec
     return {(high - low) / 2, -(high + low) / (2 * tangent)};
 }
 
-}  // namespace
-
-Ray View::ray(const glm::vec2& place) const {
-    const glm::vec3 toward = forward + place.x * tangent.x * right + place.y * tangent.y * up;
-    const glm::vec2 step = pixel * tangent / glm::length(toward);
-    return {eye, glm::normalize(toward), std::numeric_limits<float>::infinity(), step.x * right, step.y * up};
-}
-
-View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {
+/// A camera that has yet to be put in its place.
+View turned(const Camera& camera, float aspect) {
     const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); };
     if (!(length(camera.toward) > 0) || !std::isfinite(length(camera.toward)))
         throw Error("the camera looks nowhere; give a finite vector other than 0 as toward");
@@ -64,7 +58,19 @@ View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect
     view.up = glm::cross(view.right, view.forward);
     view.tangent.y = std::tan(camera.field_of_view / 2);
     view.tangent.x = view.tangent.y * aspect;
+    return view;
+}
 
+}  // namespace
+
+Ray View::ray(const glm::vec2& place) const {
+    const glm::vec3 toward = forward + place.x * tangent.x * right + place.y * tangent.y * up;
+    const glm::vec2 step = pixel * tangent / glm::length(toward);
+    return {eye, glm::normalize(toward), std::numeric_limits<float>::infinity(), step.x * right, step.y * up};
+}
+
+View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect) {
+    View view = turned(camera, aspect);
     const Fit x = fit(points, view.right, view.forward, margin * view.tangent.x);
     const Fit y = fit(points, view.up, view.forward, margin * view.tangent.y);
     float first = std::numeric_limits<float>::infinity();
@@ -72,6 +78,25 @@ View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect
     view.eye =
         x.mid * view.right + y.mid * view.up + std::min({x.depth, y.depth, first - nearest}) * view.forward;
     return view;
+}
+
+std::vector<glm::vec3> deciding_points(const Camera& camera, std::span<const glm::vec3> points,
+                                       float aspect) {
+    const View view = turned(camera, aspect);
+    const glm::dvec3 forward(view.forward), right(view.right), up(view.up);
+    const auto x = static_cast<double>(margin * view.tangent.x),
+               y = static_cast<double>(margin * view.tangent.y);
+    const std::array<glm::dvec3, 11> ways = {
+        right - x * forward, -right - x * forward, up - y * forward, -up - y * forward, -forward,
+        glm::dvec3(1, 0, 0), {-1, 0, 0},           {0, 1, 0},        {0, -1, 0},        {0, 0, 1},
+        {0, 0, -1}};
+    std::vector<glm::vec3> farthest;
+    if (points.empty()) return farthest;
+    farthest.reserve(ways.size());
+    for (const glm::dvec3& way : ways)
+        farthest.push_back(*std::ranges::max_element(
+            points, {}, [&](const glm::vec3& point) { return glm::dot(glm::dvec3(point), way); }));
+    return farthest;
 }
 
 }  // namespace goffer::view

@@ -21,4 +21,9 @@ struct View {
 /// picture's width over its height. Throws Error if the camera has no direction, no up or no field of view.
 [[nodiscard]] View frame(const Camera& camera, std::span<const glm::vec3> points, float aspect);
 
+/// The points among `points` that frame() puts the camera by, and those that are farthest along an axis of
+/// the world. Throws likewise.
+[[nodiscard]] std::vector<glm::vec3> deciding_points(const Camera& camera, std::span<const glm::vec3> points,
+                                                     float aspect);
+
 }  // namespace goffer::view

@@ -26,7 +26,7 @@ void check(const Settings& settings) {
 
 Picture render(std::span<const Model> models, const Camera& camera, const Settings& settings) {
     check(settings);
-    const Scene scene(models);
+    const Scene scene(models, camera.also_seen);
     View view = frame(camera, scene.points(), static_cast<float>(settings.width) / settings.height);
     view.pixel = {2.0f / settings.width, 2.0f / settings.height};
 
@@ -37,6 +37,12 @@ Picture render(std::span<const Model> models, const Camera& camera, const Settin
             Band(scene, view, settings, first, std::min(first + band_rows, settings.height)).render(picture);
     });
     return picture;
+}
+
+std::vector<glm::vec3> deciding_points(const Camera& camera, std::span<const glm::vec3> points,
+                                       const Settings& settings) {
+    check(settings);
+    return deciding_points(camera, points, static_cast<float>(settings.width) / settings.height);
 }
 
 }  // namespace goffer::view

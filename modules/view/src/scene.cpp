@@ -126,11 +126,16 @@ Footprint footprint(const Model& model, const Hit& hit, const Ray& ray, const gl
 
 }  // namespace
 
-Scene::Scene(std::span<const Model> models) {
+Scene::Scene(std::span<const Model> models, std::span<const glm::vec3> also) {
     for (std::size_t i = 0; i < models.size(); ++i) check(models[i], i);
-    const auto [low, high] = bounds(models);
+    auto [low, high] = bounds(models);
     if (!(low.x <= high.x))
         throw Error("nothing to see: the models have no triangles; give one that has some");
+    for (const glm::vec3& point : also) {
+        if (!finite(point)) throw Error("a point that is to be seen too is not finite; leave it out");
+        low = glm::min(low, glm::dvec3(point));
+        high = glm::max(high, glm::dvec3(point));
+    }
     const glm::dvec3 size = high - low;
     const double extent = std::max({size.x, size.y, size.z});
     if (!(extent > 0))
@@ -147,6 +152,8 @@ Scene::Scene(std::span<const Model> models) {
         const RTCScene scene = translucent(models[i]) ? ghosts_.back().get() : solids_.get();
         bodies_[i].points = add(scene, i, 0.5 * (low + high), 2 / extent);
     }
+    for (const glm::vec3& point : also)
+        points_.emplace_back((glm::dvec3(point) - 0.5 * (low + high)) * (2 / extent));
     commit(solids_.get());
     for (const EmbreeScene& ghost : ghosts_) commit(ghost.get());
     if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)

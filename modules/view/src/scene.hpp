@@ -40,9 +40,10 @@ struct Surface {
 /// Error as render() does for models. All const functions are thread-safe.
 class Scene {
 public:
-    explicit Scene(std::span<const Model> models);
+    /// `also` are points that count as if triangles used them, but for that nothing is there.
+    explicit Scene(std::span<const Model> models, std::span<const glm::vec3> also = {});
 
-    /// The vertices that triangles use.
+    /// The vertices that triangles use, and those points.
     [[nodiscard]] std::span<const glm::vec3> points() const { return points_; }
     [[nodiscard]] std::optional<Hit> solid(const Ray& ray) const { return nearest(solids_.get(), ray); }
     [[nodiscard]] bool occluded(const Ray& ray) const;

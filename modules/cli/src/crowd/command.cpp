@@ -195,9 +195,10 @@ void run_crowd(const CrowdOptions& options) {
     const CrowdRequest request(options, baked_regions(files));
     Report report(options.json);
     const std::vector<BoundModel> models = bind_models(std::move(files), request.bind);
-    auto progress = std::make_unique<Progress>("deforming " + counted(options.frames, "frame"));
+    auto progress =
+        std::make_unique<Progress>("deforming " + counted(options.frames, "frame"), options.frames);
     Crowd crowd(models, request.plan);
-    const Timing timing = measure(crowd, options.frames, request.threads);
+    const Timing timing = measure(crowd, options.frames, request.threads, *progress);
     progress.reset();
     report_crowd(report, options, request, crowd, timing);
     report_models(report, request, models);

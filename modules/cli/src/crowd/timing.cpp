@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/timing.hpp"
 
+#include "progress.hpp"
+
 #include <goffer/measure/allocations.hpp>
 #include <goffer/measure/timer.hpp>
 
@@ -18,8 +20,8 @@ constexpr std::size_t frames_per_fill = 8;
 /// Runs frames and keeps what they took.
 class Stopwatch {
 public:
-    Stopwatch(Crowd& crowd, std::size_t frames, int threads)
-        : crowd_(crowd), frames_(frames), threads_(threads) {
+    Stopwatch(Crowd& crowd, std::size_t frames, int threads, Progress& progress)
+        : crowd_(crowd), frames_(frames), threads_(threads), progress_(progress) {
         frame_times_.reserve(frames);
         fill_times_.reserve(frames / frames_per_fill + 1);
     }
@@ -32,6 +34,7 @@ public:
                 run_frame(i);
             }
             time_frame(i);
+            progress_.advance();
         }
     }
 
@@ -69,6 +72,7 @@ private:
     Crowd& crowd_;
     std::size_t frames_;
     int threads_;
+    Progress& progress_;
     std::vector<double> frame_times_;
     std::vector<double> fill_times_;
     std::uint64_t allocations_ = 0;
@@ -77,8 +81,8 @@ private:
 
 }  // namespace
 
-Timing measure(Crowd& crowd, std::size_t frames, int threads) {
-    Stopwatch stopwatch(crowd, frames, threads);
+Timing measure(Crowd& crowd, std::size_t frames, int threads, Progress& progress) {
+    Stopwatch stopwatch(crowd, frames, threads, progress);
     if (threads > 1) {
         tbb::task_arena(threads).execute([&] { stopwatch.run(); });
     } else {

@@ -166,6 +166,12 @@ public:
     [[nodiscard]] glm::vec3 normal_back(const glm::vec3& placed) const;
     [[nodiscard]] glm::vec4 tangent_back(const glm::vec4& placed) const;
 
+    /// What is added to a position, brought back.
+    [[nodiscard]] glm::vec3 shift_back(const glm::vec3& placed) const;
+
+    /// What is added to a normal that is of unit length when placed, and `local` in the node's space.
+    [[nodiscard]] glm::vec3 turn_back(const glm::vec3& placed, const glm::vec3& local) const;
+
 private:
     glm::dmat4 matrix_;
     glm::dmat4 inverse_{1.0};

@@ -63,4 +63,17 @@ glm::vec4 Placement::tangent_back(const glm::vec4& placed) const {
                      mirrored_ ? -placed.w : placed.w);
 }
 
+glm::vec3 Placement::shift_back(const glm::vec3& placed) const {
+    return identity_ ? placed : glm::vec3(glm::dmat3(inverse_) * glm::dvec3(placed));
+}
+
+// The transposed matrix takes the placed normal to the direction of `local`. The factor between the two
+// lengths is the same for all that is added to the normal.
+glm::vec3 Placement::turn_back(const glm::vec3& placed, const glm::vec3& local) const {
+    const glm::dmat3 back = glm::transpose(glm::dmat3(matrix_));
+    const double length = glm::length(glm::dvec3(local)),
+                 whole = identity_ ? 1.0 : glm::length(back * unit(cofactors_ * glm::dvec3(local)));
+    return glm::vec3(back * glm::dvec3(placed) * (whole > 0.0 ? length / whole : 0.0));
+}
+
 }  // namespace goffer::mesh::gltf

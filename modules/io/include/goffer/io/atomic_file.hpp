@@ -3,6 +3,7 @@
 
 #include <goffer/io/error.hpp>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -48,6 +49,9 @@ public:
     /// until the disk has the folder's new entry. To be called once. Throws Error.
     void commit();
 
+    /// Flushes the file, and returns how many bytes it has. Not after commit(). Throws Error.
+    [[nodiscard]] std::uint64_t bytes();
+
 private:
     [[noreturn]] void give_up(int error_number) const;
 
@@ -65,6 +69,10 @@ public:
 
     /// Waits until the disk has the bytes of all of them. Throws Error.
     void flush();
+
+    /// Flushes them, and returns how many bytes they have together. To be called before commit(). Throws
+    /// Error.
+    [[nodiscard]] std::uint64_t bytes();
 
     /// Flushes them all and puts one after the other in its place. To be called once. Throws Error.
     void commit();

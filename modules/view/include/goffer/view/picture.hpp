@@ -40,6 +40,9 @@ struct Camera {
     glm::vec3 up{0, 0, 1};       ///< up in the picture, world space, of any length but 0; where it
                                  ///< is parallel to `toward`, another direction is taken
     float field_of_view = 0.5f;  ///< vertical, radians, 0.01..3
+    /// World space, finite: points that are to be seen like those of the models. Pictures of a motion stay in
+    /// place with those that deciding_points() keeps of all its poses.
+    std::span<const glm::vec3> also_seen = {};
 };
 
 /// The most pixels along a side of a picture, and the most samples of a pixel.
@@ -76,6 +79,12 @@ struct Picture {
 /// in `models`.
 [[nodiscard]] Picture render(std::span<const Model> models, const Camera& camera,
                              const Settings& settings = {});
+
+/// Returns the few of `points` (finite, in world space) that decide where `camera` stands so as to see all of
+/// them, in pictures of `settings`, and how large the scene is. Those of two sets together are among those of
+/// each. Throws Error if the camera has no direction, or a setting is out of range. Thread-safe.
+[[nodiscard]] std::vector<glm::vec3> deciding_points(const Camera& camera, std::span<const glm::vec3> points,
+                                                     const Settings& settings = {});
 
 /// Writes a PNG. The file is written beside its place and renamed: on failure an existing file stays as it
 /// was. Throws Error if the picture is empty or `rgb` is not width x height x 3 bytes, and io::Error if the

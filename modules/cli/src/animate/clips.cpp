@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "animate/writers.hpp"
+#include "arguments.hpp"
+#include "progress.hpp"
+
+#include <goffer/clip/gltf.hpp>
+#include <goffer/clip/point_cache.hpp>
+#include <goffer/clip/vertex_texture.hpp>
+
+#include <system_error>
+
+/// All frames in one file.
+
+namespace goffer::cli {
+namespace {
+
+/// Counts frames as a writer reads them. Each of `passes` over all of them counts.
+class CountedFrames final : public clip::Frames {
+public:
+    CountedFrames(clip::Frames& frames, const std::string& stage, std::size_t passes)
+        : frames_(frames), progress_(stage, passes * frames.count()) {}
+
+    [[nodiscard]] std::size_t count() const noexcept override { return frames_.count(); }
+    [[nodiscard]] double rate() const noexcept override { return frames_.rate(); }
+    [[nodiscard]] std::size_t vertices() const noexcept override { return frames_.vertices(); }
+    [[nodiscard]] glm::mat4x3 placement(std::size_t frame) const override { return frames_.placement(frame); }
+    void read(std::size_t frame, std::span<glm::vec3> positions, std::span<glm::vec3> normals) override {
+        frames_.read(frame, positions, normals);
+        progress_.advance();
+    }
+
+private:
+    clip::Frames& frames_;
+    Progress progress_;
+};
+
+/// How many vertices the model's own file has.
+std::size_t vertices_of_file(const Animation& animation) {
+    return animation.frames.model().mesh.positions.size();
+}
+
+}  // namespace
+
+void write_gltf(Animation& animation) {
+    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 0);
+    clip::GltfOptions options;
+    options.memory = animation.limits.memory / 2;
+    const clip::GltfReport done =
+        clip::save_gltf(animation.frames.model().mesh, frames, options, animation.output, animation.outputs);
+    for (const std::string& warning : done.warnings) animation.report.warn(warning);
+    animation.report.json["gltf"] = {{"targets", done.targets},
+                                     {"max_error", done.max_error},
+                                     {"rms_error", done.rms_error},
+                                     {"max_normal_error", degrees(done.max_angle)},
+                                     {"within", done.within}};
+    animation.report.line("targets", counted(done.targets, "shape") +
+                                         " of which frames are blended, within " + number(done.max_error) +
+                                         " of them");
+    if (!done.within)
+        animation.report.warn("more targets do not fit into memory: frames are off by more than " +
+                              number(100 * options.max_error) +
+                              " % of the size; allow more with --max-memory");
+}
+
+void write_mdd(Animation& animation) {
+    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 1);
+    clip::save_mdd(frames, vertices_of_file(animation), animation.output, animation.outputs);
+}
+
+void write_pc2(Animation& animation) {
+    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 1);
+    clip::save_pc2(frames, vertices_of_file(animation), animation.output, animation.outputs);
+}
+
+void write_vertex_texture(Animation& animation) {
+    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 2);
+    const BoundModel& model = animation.frames.model();
+    const clip::VertexTexture done =
+        clip::save_vertex_texture(frames, model.mesh, model.rest, animation.output, animation.outputs);
+    nlohmann::ordered_json files;
+    std::string names;
+    for (const std::filesystem::path& file : done.files) {
+        files.push_back(file.string());
+        names += (names.empty() ? "" : ", ") + file.filename().string();
+    }
+    animation.report.json["texture"] = {{"width", done.layout.width},
+                                        {"height", done.layout.height},
+                                        {"position_error", done.position_error},
+                                        {"normal_error", done.normal_error},
+                                        {"files", files}};
+    animation.report.line("texture", std::to_string(done.layout.width) + " x " +
+                                         std::to_string(done.layout.height) + " pixels: " + names +
+                                         "; positions within " + number(done.position_error));
+}
+
+}  // namespace goffer::cli

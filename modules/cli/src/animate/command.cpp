@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "animate/request.hpp"
+#include "commands.hpp"
+#include "suitability.hpp"
+#include "threads.hpp"
+
+#include <goffer/io/read_file.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace goffer::cli {
+namespace {
+
+void report_motion(Report& report, const AnimateRequest& request, const AnimateOptions& options,
+                   const Survey& survey, const BoundModel& model) {
+    const double largest = degrees(*std::ranges::max_element(survey.largest));
+    const double seconds = static_cast<double>(request.frames) / options.fps;
+    nlohmann::ordered_json& json = report.json;
+    json["regions"] = model.binding.body.region_count();
+    json["frames"] = request.frames;
+    json["fps"] = options.fps;
+    json["seconds"] = seconds;
+    json["repeats"] = request.motion->repeats();
+    json["largest_angle"] = largest;
+    json["clamped_frames"] = survey.clamped;
+    json["path_error"] = survey.path_error;
+    json["worst_area_change"] = survey.worst_area_change;
+    json["worst_area_frame"] = survey.worst_frame + 1;
+    json["deform_ms"] = survey.milliseconds;
+    report.line("frames", std::to_string(request.frames) + " at " + number(options.fps) +
+                              " a second: " + number(seconds) + " s");
+    report.line("largest angle",
+                number(largest) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
+    if (survey.path_error > 0)
+        report.line("path", "the center line is within " + number(survey.path_error) + " of it");
+    report.line("area change", "at most " + percent(survey.worst_area_change) + ", in frame " +
+                                   std::to_string(survey.worst_frame + 1));
+    if (survey.clamped > 0)
+        report.warn("in " + counted(survey.clamped, "frame") +
+                    " a region is asked to bend further than it can, and is bent as far as it can");
+    if (!model.baked) {
+        const BindRequest bound(options.bind, request.regions);
+        warn_of_folds(report, bound, model, survey.largest);
+    }
+}
+
+void report_written(Report& report, const AnimateOptions& options, const AnimateRequest& request,
+                    std::uint64_t bytes, double milliseconds) {
+    const double each = milliseconds / static_cast<double>(request.frames);
+    report.json["output"] = options.output.string();
+    report.json["bytes"] = bytes;
+    report.json["ms_per_frame"] = each;
+    report.line("time", number(report.json["deform_ms"].get<double>()) + " ms to deform a frame, " +
+                            number(each) + " ms to write it");
+    report.line("written", options.output.string() + ", " + request.writer->what + ": " +
+                               number(static_cast<double>(bytes) * 1e-6) + " MB");
+}
+
+/// What was written, in all.
+std::uint64_t bytes_of(const AnimateRequest& request, io::AtomicFiles& outputs) {
+    std::uint64_t bytes = outputs.bytes();
+    for (std::size_t frame = 0; request.pattern && frame < request.frames; ++frame)
+        bytes += io::size_of_file(request.pattern->file(frame));
+    return bytes;
+}
+
+void run_animate(const AnimateOptions& options) {
+    ModelFile file(options.model, options.bind.load.limits);
+    const AnimateRequest request(options, file);
+    const BindRequest bind(options.bind, request.regions);
+    const Isa isa = parse_isa_option(options.isa);
+    Report report(options.json);
+    const BoundModel model = bind_model(std::move(file), bind);
+    MovingModel frames(model, *request.motion, request.frames, options.fps, isa);
+    if (request.pattern) request.pattern->refuse_longer(request.frames);
+    const Survey seen = survey(frames, request.pictures ? &*request.pictures : nullptr);
+    report_model(report, options.model, model.mesh, seen.area_before);
+    if (!model.baked) report_suitability(report, model);
+    if (model.growth) report_growth(report, *model.growth);
+    report_motion(report, request, options, seen, model);
+    io::AtomicFiles outputs;
+    Animation animation{frames,
+                        seen,
+                        options.output,
+                        request.pattern,
+                        request.picture,
+                        options.bind.load.limits,
+                        usable_threads(options.threads),
+                        outputs,
+                        report};
+    const auto start = std::chrono::steady_clock::now();
+    in_file(options.model, [&] { request.writer->write(animation); });
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+    report_written(report, options, request, bytes_of(request, outputs), taken.count());
+    report.finish(outputs);
+}
+
+constexpr const char* keys_help =
+    "Keys are JSON: {\"interpolation\": \"smooth\", \"repeat\": false, \"keys\": [{\"time\": 0, \"angle\": "
+    "0},\n"
+    "{\"time\": 1.5, \"angles\": [40, -60], \"directions\": [0, 90]}, ..]}: seconds, degrees, \"max\"; one "
+    "\"angle\"\n"
+    "is shared by regions. Instead of angles each key may have a \"path\" that the body lies on. Or they "
+    "are\n"
+    "a table with a first line: time,angle,direction or time,angle1,direction1,angle2,direction2,..\n\n";
+
+constexpr const char* output_help =
+    "\n\n-o decides what is written: NAME.glb or .gltf, in which few shapes are blended to all frames; a "
+    "point\n"
+    "cache NAME.mdd or .pc2, of the model's vertices in their order; NAME.json, a vertex-animation texture\n"
+    "with its images beside it; or a model or a picture for each frame, of a name with %04d, which becomes\n"
+    "the frame's number from 1. Files with these numbers are replaced, one by one; the command refuses to\n"
+    "leave others of the same pattern behind them. Ended early, it leaves whole frames alone.\n"
+    "Frames are not kept: as many are in memory at a time as --max-memory has room for beside the model,\n"
+    "and at most one a thread.";
+
+}  // namespace
+
+void add_animate(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<AnimateOptions>();
+    CLI::App* command = app.add_subcommand(
+        "animate", "Move a model, and write that as animated glTF, a point cache, a texture, or frames");
+    command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
+        ->required();
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "Write it here: .glb, .gltf, .mdd, .pc2, .json (a vertex-animation texture), NAME_%04d.obj "
+            "(.ply, .stl, .glb, .gltf) or NAME_%04d.png")
+        ->required();
+    command->footer(keys_help + std::string(path_help) + output_help);
+    add_motion_words(*command, *options);
+    add_bind_words(*command, options->bind);
+    add_refine_word(*command, options->bind, "auto");
+    options->bind.choices.push_back(command->get_option("--regions"));
+    add_level_word(*command, options->bind.level);
+    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+        ->capture_default_str();
+    command
+        ->add_option("--threads", options->threads,
+                     "Use this many threads, at most the machine's; 0: all of them")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_option("--size", options->size, "Make pictures WIDTHxHEIGHT pixels [1280x960]");
+    command->add_option("--camera", options->camera,
+                        "Look from: side, inner (onto the folds), front, or AZIMUTH,ELEVATION [0,35]; all "
+                        "frames are seen from one place");
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback([options, command, &action] {
+        action = [options, command] {
+            check_path_words(options->path, *command);
+            run_animate(*options);
+        };
+    });
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "animate/survey.hpp"
+#include "animate/writers.hpp"
+#include "body_file.hpp"
+#include "model.hpp"
+#include "motion/motion.hpp"
+#include "motion/path_words.hpp"
+#include "poses.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace goffer::cli {
+
+struct AnimateOptions {
+    std::filesystem::path model;
+    std::filesystem::path output;
+    std::filesystem::path keys;
+    std::optional<std::string> swing;
+    PathOptions path;
+    std::optional<std::string> interpolation;
+    std::optional<double> direction;
+    double lag = 0;
+    bool from_rest = false;
+    std::optional<std::size_t> frames;
+    double fps = 24;
+    PoseWords pose;  ///< of these only the regions
+    BindWords bind;
+    std::string isa = "auto";
+    int threads = 0;
+    std::optional<std::string> size, camera;
+    std::filesystem::path json;
+};
+
+/// Adds what says how a body moves. `options` must outlive `command`.
+void add_motion_words(CLI::App& command, AnimateOptions& options);
+
+/// Such words, understood, and the files of keys and paths. Throws before any work is done.
+struct AnimateRequest {
+    nlohmann::json document;  ///< of the motion, but for the seconds of a swing or a walk
+    std::vector<fit::RegionOptions> regions;
+    std::unique_ptr<const Motion> motion;
+    std::size_t frames = 0;
+    std::optional<Pattern> pattern;
+    const Writer* writer = nullptr;
+    std::optional<SurveyView> pictures;
+    view::Settings picture;
+
+    AnimateRequest(const AnimateOptions& options, const ModelFile& file);
+
+private:
+    void read_outputs(const AnimateOptions& options);
+    void read_document(const AnimateOptions& options);
+    void read_motion_of(const AnimateOptions& options);
+};
+
+}  // namespace goffer::cli

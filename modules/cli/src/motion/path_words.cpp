@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "motion/path_words.hpp"
+
+#include "arguments.hpp"
+#include "model.hpp"
+#include "motion/document.hpp"
+
+#include <goffer/io/error.hpp>
+
+#include <cmath>
+
+namespace goffer::cli {
+namespace {
+
+nlohmann::ordered_json rows_of(const glm::mat4x3& transform) {
+    nlohmann::ordered_json rows;
+    for (int r = 0; r < 3; ++r)
+        rows.push_back({transform[0][r], transform[1][r], transform[2][r], transform[3][r]});
+    return rows;
+}
+
+}  // namespace
+
+void add_path_words(CLI::App& command, PathOptions& words) {
+    command.add_option("--path", words.file, "Bend along the path in this file, and lie on it (see below)");
+    command.add_option("--path-scale", words.scale,
+                       "Multiply the path by this; fit: until it is as long as the body [1]");
+}
+
+void check_path_words(const PathOptions& words, const CLI::App& command) {
+    for (const char* const option : {"--path-start", "--path-scale"}) {
+        const CLI::Option* const known = command.get_option_no_throw(option);
+        if (known && known->count() > 0 && words.file.empty())
+            throw UsageError(std::string(option) + ": belongs to a path; add --path FILE");
+    }
+}
+
+std::vector<fit::RegionOptions> regions_for_path() {
+    constexpr std::size_t regions = 8;
+    return std::vector<fit::RegionOptions>(regions, {1.0 / regions, std::nullopt});
+}
+
+double read_path_scale(const std::string& text) {
+    const std::vector<double> numbers = read_numbers("--path-scale", text);
+    constexpr double least = 1e-9, most = 1e9;
+    if (numbers.size() != 1 || !(numbers[0] >= least && numbers[0] <= most))
+        throw UsageError("--path-scale: '" + text + "' is not a number within 1e-09..1e+09");
+    return numbers[0];
+}
+
+Laid lay(const bend::Body& body, const PathOptions& words) {
+    const std::string where = io::escaped(words.file.string());
+    const nlohmann::json document = read_path_file(words.file);
+    Laid laid;
+    laid.scale = words.scale == "fit" ? body.length() / Path(read_path(document, 1, where), where).length()
+                                      : read_path_scale(words.scale);
+    const Path path(read_path(document, laid.scale, where), where);
+    laid.length = path.length();
+    if (!path.closed() && words.start > path.length())
+        throw InputError("--path-start: " + number(words.start) + " is beyond the end of a path of " +
+                         number(path.length()) + "; give less");
+    std::vector<bend::Pose> poses(body.region_count());
+    laid.fit = path.lay(body, words.start, poses);
+    for (const bend::Pose& pose : poses)
+        laid.targets.push_back(
+            {degrees(static_cast<double>(pose.angle)), degrees(static_cast<double>(pose.direction)), pose});
+    return laid;
+}
+
+void report_path(Report& report, const Laid& laid, const PathOptions& words) {
+    const auto error = static_cast<double>(laid.fit.error);
+    report.json["path"] = {{"file", words.file.string()},
+                           {"length", laid.length},
+                           {"scale", laid.scale},
+                           {"start", words.start},
+                           {"error", error},
+                           {"clamped", laid.fit.clamped},
+                           {"transform", rows_of(laid.fit.transform)}};
+    report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
+                            number(words.start) + ": the center line is within " + number(error) + " of it");
+    if (laid.fit.clamped)
+        report.warn("the path bends more sharply than the body can; regions are bent as far as they can");
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <goffer/clip/frames.hpp>
+#include <goffer/mesh/mesh.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A clip as animated glTF.
+
+namespace goffer::clip {
+
+/// How closely a file has to follow the frames.
+struct GltfOptions {
+    /// What a vertex may be off at most, as a share of the mesh's largest extent at rest, or by
+    /// the rounding of floats if that is more. As few targets are taken as that asks for. Finite and not
+    /// below 0.
+    double max_error = 2e-3;
+
+    /// How many targets there may be at most, 1 or more; the error then is what it is. Unset: as many as
+    /// `max_error` asks for.
+    std::optional<std::size_t> targets = {};
+
+    /// Bytes that finding the targets may take beside the mesh, its vertex arrays and one frame. What does
+    /// not fit is read again: frames are read as often as needed. Building the file takes up to five times
+    /// its size besides.
+    std::uint64_t memory = std::uint64_t{1} << 30;
+};
+
+/// What was written, and how far it is from the frames. Distances are in model units and angles in radians;
+/// they are those of the values in the file, over all vertices of all frames, before the placement.
+struct GltfReport {
+    std::size_t frames = 0;
+    std::size_t targets = 0;  ///< in the file, 0 if nothing moves
+    bool exact = false;       ///< the targets are the frames themselves: nothing is left out
+    bool within = true;       ///< max_error is kept; false where fewer targets were allowed, or fit in memory
+    double size = 0;          ///< the mesh's largest extent at rest
+    double max_error = 0;     ///< largest distance of a vertex from where its frame has it
+    double rms_error = 0;
+    double max_angle = 0;  ///< largest angle between a normal and that of its frame; 0 without normals
+    double rms_angle = 0;
+    std::uint64_t bytes = 0;            ///< of the file
+    std::vector<std::string> warnings;  ///< what of the mesh's source is left out, a line each
+};
+
+/// Writes `mesh`, which is at rest, with `frames` as a glTF animation into a .glb or .gltf file, as
+/// mesh::save_morphing() does; files.commit() puts it in its place. frames.vertices() is the number of
+/// entries of mesh::vertex_arrays(mesh).
+///
+/// The targets are few shapes of which every frame is a blend: the principal components of how the vertices
+/// move from their mean. One more takes the rest shape to where blending begins, so that all weights are from
+/// 0 to 1, to which programs clamp them, and so that weights of 0 are the mesh at rest. Normals follow by the
+/// same weights, as closely as these can. Tangents are left as they are at rest: normal maps are lit a little
+/// wrong where the surface turns. There are never more targets than frames; where it takes as many, they are
+/// the frames themselves. Of more than 1024 frames, or fewer where `memory` asks for it, the components are
+/// those of evenly spaced ones; all frames are measured.
+///
+/// The placement becomes a node above the scene, with a key per frame unless it stays the same.
+///
+/// Throws mesh::Error if the ending or the options are not these, entries do not fit, a frame is not finite,
+/// or `memory` is too little for one target and two frames; and what save_morphing() throws.
+[[nodiscard]] GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& options,
+                                   const std::filesystem::path& file, io::AtomicFiles& files);
+
+}  // namespace goffer::clip
