@@ -72,8 +72,9 @@ private:
     std::shared_ptr<const Document> base_;
     Scene scene_;
     std::vector<std::uint32_t> entries_;  ///< of the scene's vertices; empty: they are the same
-    Output output_;
-    Growing document_{output_};
+    Json json_;
+    std::string buffer_;
+    Growing document_{json_, buffer_};
 };
 
 Morpher::Morpher(const Mesh& mesh, const Morphing& morphing, const std::filesystem::path& file, bool embed)
@@ -82,8 +83,8 @@ Morpher::Morpher(const Mesh& mesh, const Morphing& morphing, const std::filesyst
     base_ = base_document(mesh, file, embed, is_made);
     scene_ = read_scene(*base_);
     if (is_made) entries_ = entries_of(scene_.mesh, mesh);
-    output_.json = base_->json;
-    if (!base_->buffers.empty()) output_.buffer = base_->buffers[0];
+    json_ = base_->json;
+    if (!base_->buffers.empty()) buffer_ = base_->buffers[0];
 }
 
 bool Morpher::moves(const Block& block) const {
@@ -178,7 +179,7 @@ Output Morpher::run(std::vector<std::string>& warnings) && {
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);
-    return {std::move(output_.json), std::move(output_.buffer)};
+    return {std::move(json_), std::move(buffer_)};
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 
 namespace goffer::mesh::gltf {
 
-/// An output that grows: accessors are added behind those that it has, their bytes behind its buffer. Refers
+/// A document that grows: accessors are added behind those that it has, their bytes behind its buffer. Refers
 /// to it.
 struct Growing {
-    explicit Growing(Output& output) : json(output.json), buffer(output.buffer) {}
+    Growing(Json& its_json, std::string& its_buffer) : json(its_json), buffer(its_buffer) {}
 
     Json& json;
     std::string& buffer;
