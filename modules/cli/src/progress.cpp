@@ -10,6 +10,22 @@
 #include <system_error>
 
 namespace goffer::cli {
+namespace {
+
+/// "; 34 %, 2 min 5 s left", once enough is done to tell.
+std::string left_text(double share, double seconds) {
+    constexpr double little = 0.001;
+    if (!(share > little)) return {};
+    const auto left = static_cast<long long>(seconds * (1 - share) / share);
+    constexpr long long minute = 60, hour = 60 * minute;
+    std::string time;
+    if (left >= hour) time += std::to_string(left / hour) + " h ";
+    if (left >= minute) time += std::to_string(left % hour / minute) + " min ";
+    if (left < hour) time += std::to_string(left % minute) + " s ";
+    return "; " + std::to_string(static_cast<int>(100 * share)) + " %, " + time + "left";
+}
+
+}  // namespace
 
 Progress::Progress(const std::string& stage) : stage_(io::escaped(stage)) {
     if (isatty(STDERR_FILENO) == 0) return;
@@ -36,9 +52,9 @@ void Progress::show() {
     const auto start = std::chrono::steady_clock::now();
     if (wake_.wait_for(lock, 2s, [this] { return done_; })) return;
     do {
-        const auto seconds =
-            std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start);
-        std::fprintf(stderr, "\r%s ... %lld s", stage_.c_str(), static_cast<long long>(seconds.count()));
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        std::fprintf(stderr, "\r\033[K%s ... %lld s%s", stage_.c_str(),
+                     static_cast<long long>(seconds.count()), left_text(share_, seconds.count()).c_str());
     } while (!wake_.wait_for(lock, 500ms, [this] { return done_; }));
     std::fprintf(stderr, "\r\033[K");
 }

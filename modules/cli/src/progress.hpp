@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -17,10 +18,14 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Says how much is done, 0..1: the time that is left is then shown too. From any thread.
+    void reached(double share) noexcept { share_ = share; }
+
 private:
     void show();
 
     std::string stage_;
+    std::atomic<double> share_ = 0;
     std::mutex mutex_;
     std::condition_variable wake_;
     bool done_ = false;
