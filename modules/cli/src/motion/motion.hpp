@@ -19,6 +19,8 @@ namespace goffer::cli {
 struct Moment {
     std::vector<bend::Pose> poses;  ///< one per region
     glm::mat4x3 transform{1.0f};    ///< from model space to the scene's: a rotation and a shift
+    bool clamped = false;           ///< a path asks for more than a region can, which `poses` do not show
+    double path_error = 0;          ///< how far the center line is from the path that it follows, if any
 };
 
 /// A movement of bodies with a certain number of regions. Immutable and thread-safe.
@@ -31,7 +33,7 @@ public:
 
     /// Returns the moment `seconds` after the beginning, for `body`, which has the regions that the motion
     /// was made for. Before the beginning and after the end: as there, or, where it repeats, as in another
-    /// round.
+    /// round. Throws InputError where the body has no room on a path.
     [[nodiscard]] virtual Moment at(double seconds, const bend::Body& body) const = 0;
 };
 

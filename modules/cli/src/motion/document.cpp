@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "motion/document.hpp"
+
+#include "arguments.hpp"
+
+#include <goffer/io/error.hpp>
+#include <goffer/io/read_file.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace goffer::cli {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+    throw InputError(io::about(file, what));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    constexpr std::uint64_t most = std::uint64_t{64} << 20;
+    if (io::size_of_file(file) > most)
+        refuse(file, "has more than " + io::size_text(most) + "; give fewer keys or points");
+    std::string text = io::read_file(file);
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    return text;
+}
+
+bool is_json(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != text.npos && (text[first] == '{' || text[first] == '[');
+}
+
+json parse(const std::filesystem::path& file, const std::string& text) {
+    try {
+        return json::parse(text);
+    } catch (const json::exception& error) {
+        const std::string what = error.what();
+        const std::size_t end = what.find("] ");
+        refuse(file,
+               "is not JSON as it should be (" + (end == what.npos ? what : what.substr(end + 2)) + ")");
+    }
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == text.npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// A line of a table, as its cells.
+struct Row {
+    std::size_t line = 0;  ///< from 1
+    std::vector<std::string> cells;
+};
+
+/// Cells stand between commas or, where `spaces`, between blanks too. Lines that are empty or begin with #
+/// are left out.
+std::vector<Row> rows_of(const std::string& text, bool spaces) {
+    std::vector<Row> rows;
+    std::istringstream lines(text);
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++count;
+        if (spaces)
+            std::ranges::replace_if(
+                line, [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
+        const std::string_view content = trimmed(line);
+        if (content.empty() || content.front() == '#') continue;
+        Row& row = rows.emplace_back();
+        row.line = count;
+        std::istringstream cells(std::string(content) + (spaces ? "" : ","));
+        for (std::string cell;
+             spaces ? static_cast<bool>(cells >> cell) : static_cast<bool>(std::getline(cells, cell, ','));)
+            row.cells.emplace_back(trimmed(cell));
+    }
+    return rows;
+}
+
+/// A number or, where `or_max`, the words max and -max.
+json read_cell(const std::filesystem::path& file, const Row& row, const std::string& cell, bool or_max) {
+    if (or_max && (cell == "max" || cell == "-max")) return cell;
+    double value = 0;
+    const char* const end = cell.data() + cell.size();
+    const auto [next, error] = std::from_chars(cell.data() + (cell.starts_with('+') ? 1 : 0), end, value);
+    if (error != std::errc() || next != end || !std::isfinite(value))
+        refuse(file, "line " + std::to_string(row.line) + ": '" + cell + "' is not a number");
+    return value;
+}
+
+/// What a column of keys holds.
+struct Column {
+    std::string field;       ///< time, angle or direction
+    std::size_t region = 0;  ///< from 1; 0: of all together
+};
+
+Column read_column(const std::filesystem::path& file, std::string name) {
+    std::erase_if(name, [](unsigned char c) { return std::isspace(c) != 0 || c == '_' || c == '"'; });
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    Column column;
+    const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
+    column.field = name.substr(0, digits);
+    const char* const end = name.data() + name.size();
+    const auto [next, error] = std::from_chars(name.data() + digits, end, column.region);
+    const bool numbered = digits < name.size();
+    const bool known =
+        column.field == "time" ? !numbered : column.field == "angle" || column.field == "direction";
+    if (!known || (numbered && (error != std::errc() || next != end || column.region == 0)))
+        refuse(file, "its first line names a column '" + name +
+                         "'; there are time, angle, direction, and angle1, direction1, angle2, ..");
+    return column;
+}
+
+/// Puts a cell where JSON has it.
+void put(json& key, const Column& column, json value) {
+    if (column.region == 0) {
+        key[column.field] = std::move(value);
+    } else {
+        key[column.field + "s"][column.region - 1] = std::move(value);
+    }
+}
+
+std::vector<Column> read_columns(const std::filesystem::path& file, const Row& head) {
+    constexpr std::size_t most = 100;
+    if (head.cells.size() > most) refuse(file, "has more than 100 columns");
+    std::vector<Column> columns;
+    columns.reserve(head.cells.size());
+    for (const std::string& name : head.cells) {
+        columns.push_back(read_column(file, name));
+        const Column& added = columns.back();
+        const auto same = [&](const Column& other) {
+            return other.field == added.field && other.region == added.region;
+        };
+        if (std::ranges::count_if(columns, same) > 1) refuse(file, "has two columns '" + name + "'");
+        if (added.region > head.cells.size())
+            refuse(file, "has a column '" + name + "', and not all before it");
+    }
+    return columns;
+}
+
+json keys_of(const std::filesystem::path& file, const std::string& text) {
+    const std::vector<Row> rows = rows_of(text, false);
+    if (rows.empty())
+        refuse(file, "is empty; give JSON, or a table whose first line is time,angle,direction");
+    const std::vector<Column> columns = read_columns(file, rows.front());
+    json keys = json::array();
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        if (row.cells.size() != columns.size())
+            refuse(file, "line " + std::to_string(row.line) + ": has " + std::to_string(row.cells.size()) +
+                             " values for " + std::to_string(columns.size()) + " columns");
+        json key = json::object();
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            put(key, columns[c], read_cell(file, row, row.cells[c], columns[c].field == "angle"));
+        keys.push_back(std::move(key));
+    }
+    return {{"keys", std::move(keys)}};
+}
+
+}  // namespace
+
+json read_keys_file(const std::filesystem::path& file) {
+    const std::string text = read_text(file);
+    return is_json(text) ? parse(file, text) : keys_of(file, text);
+}
+
+json read_path_file(const std::filesystem::path& file) {
+    const std::string text = read_text(file);
+    if (is_json(text)) return parse(file, text);
+    json points = json::array();
+    for (const Row& row : rows_of(text, true)) {
+        json point = json::array();
+        for (const std::string& cell : row.cells) point.push_back(read_cell(file, row, cell, false));
+        if (point.size() != 3)
+            refuse(file,
+                   "line " + std::to_string(row.line) + ": is no point; give three numbers a line, or JSON");
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
+}  // namespace goffer::cli

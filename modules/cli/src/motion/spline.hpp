@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motion/path.hpp"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace goffer::cli {
+
+/// The points of a polyline that stands for a path: its own where it is straight from point to point; else
+/// points on its Bezier curves, or on a centripetal Catmull-Rom curve through its points, so many that
+/// neighbors differ little in direction. A closed path's last point is not its first, unless it is said so.
+[[nodiscard]] std::vector<glm::dvec3> sampled(const PathWords& words);
+
+}  // namespace goffer::cli
