@@ -6,6 +6,7 @@
 #include "cache/members.hpp"
 #include "poses.hpp"
 
+#include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <algorithm>

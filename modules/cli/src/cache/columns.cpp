@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 
+#include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "report.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/error.hpp>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

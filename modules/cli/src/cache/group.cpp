@@ -3,6 +3,8 @@
 
 #include "arguments.hpp"
 
+#include <goffer/io/error.hpp>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>

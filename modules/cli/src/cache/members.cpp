@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 
+#include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <algorithm>
@@ -57,7 +58,8 @@ nlohmann::json read_document(const std::filesystem::path& file, std::uint64_t mo
     }
 }
 
-Members::Members(const nlohmann::json& object, std::string where) : object_(&object), where_(std::move(where)) {
+Members::Members(const nlohmann::json& object, std::string where)
+    : object_(&object), where_(std::move(where)) {
     if (!object.is_object())
         throw InputError(where_ + ": is " + object.type_name() + ", and should be an object {..}");
 }

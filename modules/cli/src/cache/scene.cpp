@@ -6,6 +6,8 @@
 #include "cache/group.hpp"
 #include "motion/document.hpp"
 
+#include <goffer/io/error.hpp>
+
 #include <algorithm>
 
 namespace goffer::cli {

@@ -3,6 +3,8 @@
 
 #include "cache/members.hpp"
 
+#include <goffer/io/error.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 #include "cache/cache.hpp"
-#include "cache/members.hpp"
 #include "cache/manifest.hpp"
+#include "cache/members.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <tbb/parallel_for.h>

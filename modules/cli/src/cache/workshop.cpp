@@ -6,6 +6,7 @@
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <algorithm>
