@@ -102,6 +102,9 @@ TEST_CASE("cache: folders and words that are none") {
     folder.write("other/letter.txt", "kept");
     refused(folder, 1, cache_words("file"), {"file", "no folder"});
     refused(folder, 1, cache_words("other"), {"other", "letter.txt"});
+    std::filesystem::create_directories(folder / "linked/bodies");
+    std::filesystem::create_symlink(folder / "file", folder / "linked/bodies/worm.goffer");
+    refused(folder, 1, cache_words("linked"), {"linked/bodies/worm.goffer", "no file of a cache"});
     refused(folder, 2, {"cache", "scene.json"}, {"-o"});
     for (const std::string share : {"0/3", "4/3", "3", "1/0", "a/b", "-1/3", "1/3x", ""})
         refused(folder, 2, cache_words("cache", {"--shard", share}), {"--shard"});

@@ -5,29 +5,43 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 
 namespace goffer::cli {
 namespace {
 
-/// "; 34 %, 2 min 5 s left", once enough is done to tell.
-std::string left_text(double share, double seconds) {
-    constexpr double little = 0.001;
-    if (!(share > little)) return {};
-    const auto left = static_cast<long long>(seconds * (1 - share) / share);
-    constexpr long long minute = 60, hour = 60 * minute;
-    std::string time;
-    if (left >= hour) time += std::to_string(left / hour) + " h ";
-    if (left >= minute) time += std::to_string(left % hour / minute) + " min ";
-    if (left < hour) time += std::to_string(left % minute) + " s ";
-    return "; " + std::to_string(static_cast<int>(100 * share)) + " %, " + time + "left";
+/// "12 s", or "3:05" in minutes and seconds, or "2:03:05".
+std::string time_text(double seconds) {
+    const auto all = static_cast<long long>(std::lround(seconds));
+    char text[64];
+    if (all < 60) {
+        std::snprintf(text, sizeof text, "%lld s", all);
+    } else if (all < 3600) {
+        std::snprintf(text, sizeof text, "%lld:%02lld", all / 60, all % 60);
+    } else {
+        std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", all / 3600, all / 60 % 60, all % 60);
+    }
+    return text;
 }
 
 }  // namespace
 
-Progress::Progress(const std::string& stage) : stage_(io::escaped(stage)) {
+std::string progress_line(const std::string& stage, std::size_t done, std::size_t steps, double seconds) {
+    if (steps == 0 || done == 0) return stage + " ... " + time_text(seconds);
+    constexpr std::size_t width = 24;
+    done = std::min(done, steps);
+    const double share = static_cast<double>(done) / static_cast<double>(steps);
+    const auto full = static_cast<std::size_t>(share * width);
+    return stage + " [" + std::string(full, '#') + std::string(width - full, '.') + "] " +
+           std::to_string(done) + " of " + std::to_string(steps) + ", " +
+           time_text(seconds * (1 - share) / share) + " left";
+}
+
+Progress::Progress(const std::string& stage, std::size_t steps) : stage_(io::escaped(stage)), steps_(steps) {
     if (isatty(STDERR_FILENO) == 0) return;
     try {
         thread_ = std::thread([this] { show(); });
@@ -52,9 +66,8 @@ void Progress::show() {
     const auto start = std::chrono::steady_clock::now();
     if (wake_.wait_for(lock, 2s, [this] { return done_; })) return;
     do {
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        std::fprintf(stderr, "\r\033[K%s ... %lld s%s", stage_.c_str(),
-                     static_cast<long long>(seconds.count()), left_text(share_, seconds.count()).c_str());
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        std::fprintf(stderr, "\r%s\033[K", progress_line(stage_, done_steps_, steps_, taken.count()).c_str());
     } while (!wake_.wait_for(lock, 500ms, [this] { return done_; }));
     std::fprintf(stderr, "\r\033[K");
 }

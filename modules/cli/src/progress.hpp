@@ -3,33 +3,42 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <thread>
 
 namespace goffer::cli {
 
-/// Says on the terminal what is going on, once it has taken two seconds; nothing at all when standard error
-/// is no terminal. Gone without a trace when it goes out of scope.
+/// Says on the terminal what is going on, once it has taken two seconds, and how long it may still take where
+/// its steps are counted; nothing at all when standard error is no terminal. Gone without a trace when it
+/// goes out of scope.
 class Progress {
 public:
-    explicit Progress(const std::string& stage);
+    /// `steps`: how many calls of advance() there will be; 0: nobody knows.
+    explicit Progress(const std::string& stage, std::size_t steps = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Says how much is done, 0..1: the time that is left is then shown too. From any thread.
-    void reached(double share) noexcept { share_ = share; }
+    /// A step is done. Thread-safe; costs next to nothing.
+    void advance() noexcept { done_steps_.fetch_add(1, std::memory_order_relaxed); }
 
 private:
     void show();
 
     std::string stage_;
-    std::atomic<double> share_ = 0;
+    std::size_t steps_;
+    std::atomic<std::size_t> done_steps_ = 0;
     std::mutex mutex_;
     std::condition_variable wake_;
     bool done_ = false;
     std::thread thread_;
 };
+
+/// What a terminal shows of a stage after `seconds`: how long it has taken or, once some of its `steps` are
+/// done, a bar and the time that the others will take if they are as quick.
+[[nodiscard]] std::string progress_line(const std::string& stage, std::size_t done, std::size_t steps,
+                                        double seconds);
 
 }  // namespace goffer::cli

@@ -35,10 +35,10 @@ public:
     /// The whole header of a shard but for its checksum.
     [[nodiscard]] ShardHeader header(std::uint64_t index) const;
 
-    /// Writes a shard in the place of whatever is there. Calls `written` with numbers of bytes, as they come.
-    /// Throws an error that names the file at fault, here or of the scene.
+    /// Writes a shard in the place of whatever is there. Calls `frame_done` after each frame. Throws
+    /// an error that names the file at fault, here or of the scene.
     ShardFile bake(std::uint64_t index, const std::filesystem::path& file,
-                   const std::function<void(std::uint64_t)>& written);
+                   const std::function<void()>& frame_done);
 
     /// What became of the poses so far, each instance counted in each frame.
     [[nodiscard]] const bend::CrowdResult& result() const noexcept { return result_; }
@@ -59,11 +59,15 @@ private:
     };
 
     [[nodiscard]] std::vector<ShardInstance> instances_of(const ShardRange& range) const;
+    [[nodiscard]] static std::vector<Piece> pieces_of(std::span<const ShardInstance> instances,
+                                                      std::uint64_t frame_bytes);
     void make_piece(const ShardRange& range, std::uint64_t frame, const Piece& piece,
                     std::span<const ShardInstance> instances, std::span<std::byte> blocks);
     void write_poses(const Piece& piece, std::span<const ShardInstance> instances,
                      std::span<std::byte> blocks) const;
-    void deform(const Piece& piece, std::span<const ShardInstance> instances, std::span<std::byte> blocks);
+    void gather(const Piece& piece, std::span<const ShardInstance> instances, std::span<std::byte> blocks);
+    [[nodiscard]] std::vector<bend::Batch> batches_into(std::span<std::byte> blocks);
+    void deform(std::span<std::byte> blocks);
 
     const Plan& plan_;
     const Cast& cast_;

@@ -25,7 +25,7 @@ public:
     }
 
     BindRequest request(const Members& fields, const nlohmann::json& options, const mesh::LoadOptions& load) {
-        const std::string where = fields.place();
+        const std::string& where = fields.place();
         std::vector<std::string> arguments;
         for (const auto& [name, value] : options.items())
             arguments.push_back(word_of(fields, name) + "=" + text_of(fields, name, value));
@@ -72,7 +72,7 @@ private:
 
 std::string body_bytes(const Scene& scene, const SceneBody& body, const mesh::LoadOptions& options) {
     const Members fields(body.options, io::about(scene.file, "bodies." + body.name));
-    const std::string where = fields.place();
+    const std::string& where = fields.place();
     if (is_body_file(body.file)) {
         fields.allow({"file", "level"});  // the others were decided when it was baked
         if (io::size_of_file(body.file) > options.limits.memory / 4)  // as read_body_file() has it

@@ -13,7 +13,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
 #include <chrono>
 #include <system_error>
 
@@ -30,7 +29,6 @@ struct Work {
     std::size_t wrong = 0;              ///< of the missing, those that were there, but not as they should be
     std::uint64_t bytes = 0;            ///< that were written
     double frames = 0;                  ///< that were baked, counted as whole frames
-    double vertices = 0;
     double seconds = 0;
 };
 
@@ -41,8 +39,7 @@ Work look(const CacheRequest& request, const Plan& plan, const Baker& baker) {
         work.shards.push_back(shard);
     work.files.resize(work.shards.size());
     std::vector<std::uint8_t> good(work.shards.size()), there(work.shards.size());
-    Progress progress("looking at what is there");
-    std::atomic<std::size_t> done = 0;
+    Progress progress("looking at what is there", work.shards.size());
     tbb::parallel_for(std::size_t{0}, work.shards.size(), [&](std::size_t i) {
         const fs::path file = request.folder / shard_name(work.shards[i]);
         const ShardHeader header = baker.header(work.shards[i]);
@@ -50,7 +47,7 @@ Work look(const CacheRequest& request, const Plan& plan, const Baker& baker) {
         there[i] = fs::exists(file, error);
         good[i] = there[i] && !fault_in_shard(file, header, &work.files[i].checksum);
         work.files[i].bytes = header.bytes;
-        progress.reached(static_cast<double>(++done) / static_cast<double>(work.shards.size()));
+        progress.advance();
     });
     for (std::size_t i = 0; i < good.size(); ++i) {
         if (good[i]) continue;
@@ -63,16 +60,12 @@ Work look(const CacheRequest& request, const Plan& plan, const Baker& baker) {
 /// Bakes what is missing.
 void bake(const CacheRequest& request, const Plan& plan, Baker& baker, Work& work) {
     const auto start = std::chrono::steady_clock::now();
-    double wanted = 0;
-    for (const std::size_t i : work.missing) wanted += static_cast<double>(work.files[i].bytes);
-    Progress progress("baking " + counted(work.missing.size(), "shard"));
-    std::uint64_t written = 0;
+    std::uint64_t frames = 0;
+    for (const std::size_t i : work.missing) frames += plan.range(work.shards[i]).frames;
+    Progress progress("baking " + counted(work.missing.size(), "shard"), frames);
     for (const std::size_t i : work.missing) {
-        work.files[i] =
-            baker.bake(work.shards[i], request.folder / shard_name(work.shards[i]), [&](std::uint64_t bytes) {
-                written += bytes;
-                progress.reached(static_cast<double>(written) / wanted);
-            });
+        work.files[i] = baker.bake(work.shards[i], request.folder / shard_name(work.shards[i]),
+                                   [&] { progress.advance(); });
         const ShardRange range = plan.range(work.shards[i]);
         work.bytes += work.files[i].bytes;
         work.frames += static_cast<double>(range.frames) * static_cast<double>(range.instances) /

@@ -14,7 +14,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
 namespace goffer::cli {
@@ -45,11 +44,10 @@ std::string fault_in(const fs::path& file, const Manifest& manifest, std::uint64
 std::vector<std::string> faults_in(const fs::path& folder, const Manifest& manifest) {
     const std::size_t shards = manifest.shards.size();
     std::vector<std::string> found(shards), faults;
-    Progress progress("verifying " + counted(shards, "shard"));
-    std::atomic<std::size_t> done = 0;
+    Progress progress("verifying " + counted(shards, "shard"), shards);
     tbb::parallel_for(std::size_t{0}, shards, [&](std::size_t i) {
         found[i] = fault_in(folder / shard_name(i), manifest, i);
-        progress.reached(static_cast<double>(++done) / static_cast<double>(shards));
+        progress.advance();
     });
     for (std::size_t i = 0; i < shards; ++i) {
         if (!found[i].empty()) faults.push_back(shard_name(i) + ": " + found[i]);

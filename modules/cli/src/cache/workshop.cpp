@@ -19,6 +19,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t usual_size = std::uint64_t{256} << 20;
 
+/// Whether a cache has such a file. Links lead elsewhere, where nothing is to be written.
+bool ours(const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    const bool known = name == plan_name || name == manifest_name || name == "bodies" ||
+                       name.starts_with(".goffer-") || name.ends_with(".goffer") || shard_number(name);
+    return known && !entry.is_symlink();
+}
+
 /// Refuses a folder that has files which are no cache's.
 void check_folder(const fs::path& folder) {
     std::error_code error;
@@ -26,16 +34,15 @@ void check_folder(const fs::path& folder) {
     if (!fs::exists(status)) return;
     if (!fs::is_directory(status))
         throw InputError(io::about(folder, "is no folder; give another name to -o"));
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        const bool ours = name == plan_name || name == manifest_name || name == "bodies" ||
-                          name.starts_with(".goffer-") || shard_number(name);
-        if (!ours)
-            throw InputError(io::about(
-                folder,
-                "has '" + io::escaped(name) + "', which is no file of a cache; give a new folder to -o"));
+    for (const fs::path& place : {folder, folder / "bodies"}) {
+        if (!fs::exists(place, error)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
+            if (!ours(entry))
+                throw InputError(io::about(
+                    entry.path(), "is no file of a cache; give a new folder to -o, or take it away"));
+        }
+        if (error) throw InputError(io::about(place, "cannot be read: " + error.message()));
     }
-    if (error) throw InputError(io::about(folder, "cannot be read: " + error.message()));
 }
 
 /// The plan that a folder has; nothing where it has none that can be read, so that it gets a new one.
