@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <numbers>
 #include <thread>
@@ -38,17 +39,20 @@ std::vector<float> pose_file(const Folder& folder, std::size_t count) {
     return angles;
 }
 
-/// 3 frames of 2 instances that such a file moves.
-void write_posed_scene(const Folder& folder) {
+/// 3 frames of 2 instances that such a file moves, all of them carried by `transform`.
+void write_posed_scene(const Folder& folder, const nlohmann::json& transform) {
     base(folder, "worm.ply", {"--columns", "8", "--rows", "33"});
     folder.write("places.csv", "1,0,0 0,1,0 0,0,1 0,0,0\n0,1,0 -1,0,0 0,0,1 5,6,7\n");
-    const nlohmann::json scene{
-        {"version", 1},
-        {"fps", 24},
-        {"frames", 3},
-        {"bodies", {{"worm", {{"file", "worm.ply"}, {"refine", "off"}}}}},
-        {"instances",
-         {{{"body", "worm"}, {"poses", "poses.f32"}, {"count", 2}, {"transforms", "places.csv"}}}}};
+    const nlohmann::json scene{{"version", 1},
+                               {"fps", 24},
+                               {"frames", 3},
+                               {"bodies", {{"worm", {{"file", "worm.ply"}, {"refine", "off"}}}}},
+                               {"instances",
+                                {{{"body", "worm"},
+                                  {"poses", "poses.f32"},
+                                  {"count", 2},
+                                  {"transforms", "places.csv"},
+                                  {"transform", transform}}}}};
     write(folder, scene);
 }
 
@@ -133,7 +137,7 @@ TEST_CASE("cache: frames and instances have the same bits however they are cut i
 TEST_CASE("cache: a shard has the bits of the kernels, where its page says") {
     const Folder folder;
     const std::vector<float> angles = pose_file(folder, 3 * 2);
-    write_posed_scene(folder);
+    write_posed_scene(folder, {0, 1, 0, -1, 0, 0, 0, 0, 1, 10, 20, 30});
     const auto made = report(folder, cache_words("cache"));
     const auto file = bend::load_file((folder / "cache/bodies/worm.goffer").c_str());
     REQUIRE(file);
@@ -143,7 +147,8 @@ TEST_CASE("cache: a shard has the bits of the kernels, where its page says") {
     std::memcpy(&data, &shard[88], sizeof data);
     std::memcpy(&frame_bytes, &shard[96], sizeof frame_bytes);
     CHECK(data == 192);
-    const glm::mat4x3 places[2] = {glm::mat4x3(1), {0, 1, 0, -1, 0, 0, 0, 0, 1, 5, 6, 7}};
+    const glm::mat4x3 places[2] = {{0, 1, 0, -1, 0, 0, 0, 0, 1, 10, 20, 30},
+                                   {-1, 0, 0, 0, -1, 0, 0, 0, 1, 4, 25, 37}};
     for (std::size_t i = 0; i < 6; ++i) {
         std::vector<glm::vec3> positions(body.vertex_count());
         bend::DeformJob job{.body = &body, .pose = {angles[2 * i], angles[2 * i + 1]}};
@@ -163,7 +168,7 @@ TEST_CASE("cache: a shard has the bits of the kernels, where its page says") {
 TEST_CASE("cache: an instance taken out is what goffer bend makes of the body, bit for bit") {
     const Folder folder;
     (void)pose_file(folder, 3 * 2);
-    write_posed_scene(folder);
+    write_posed_scene(folder, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
     well(folder, cache_words("raw"));
     well(folder, cache_words("lazy", {"--format", "poses"}));
     well(folder, cache_words("packed", {"--format", "packed"}));
@@ -324,4 +329,19 @@ TEST_CASE("cache: memory does not grow with the shard") {
     CHECK(status == 0);
     CHECK(std::filesystem::file_size(folder / "cache/shard-000000.gofferc") > 400'000'000);
     CHECK(usage.ru_maxrss < 100'000);  // kB: what samples/farm/README.md says
+}
+
+TEST_CASE("cache: the commands of its page") {
+    const std::filesystem::path farm = std::filesystem::path(GOFFER_SOURCE_DIR) / "samples/farm";
+    const std::string page = bytes_of(farm / "README.md"), fence = "```sh\n";
+    const std::size_t begin = page.find(fence) + fence.size();
+    const Folder folder;
+    folder.write("commands.sh", page.substr(begin, page.find("```", begin) - begin));
+    for (const char* name : {"crowd.json", "places.csv"}) std::filesystem::copy(farm / name, folder / name);
+    const std::string words = "cd " + (folder / ".").string() +
+                              " && PATH=" + std::filesystem::path(GOFFER_COMMAND).parent_path().string() +
+                              ":$PATH sh -e commands.sh >/dev/null";
+    CHECK(std::system(words.c_str()) == 0);
+    CHECK(files_in(folder / "cache").size() == 24 + 2 + 2);
+    CHECK(mesh::load(folder / "worm_995.obj").positions.size() == 204);
 }
