@@ -77,16 +77,16 @@ pid_t start(const Folder& folder, const std::vector<const char*>& words) {
     _exit(98);
 }
 
-/// A scene whose cache has some 500 MB in one shard.
+/// A scene whose cache has 499 MB, a quarter of them in a frame.
 void write_large_scene(const Folder& folder) {
     base(folder, "worm.ply", {"--columns", "16", "--rows", "65"});
     nlohmann::json scene{
         {"version", 1},
         {"fps", 24},
-        {"frames", 100},
+        {"frames", 4},
         {"bodies", {{"worm", {{"file", "worm.ply"}, {"refine", "off"}}}}},
         {"motions", {{"sway", {{"swing", 70}, {"seconds", 2}}}}},
-        {"instances", {{{"body", "worm"}, {"motion", "sway"}, {"grid", {20, 20}}, {"spacing", {3, 3}}}}}};
+        {"instances", {{{"body", "worm"}, {"motion", "sway"}, {"grid", {100, 100}}, {"spacing", {3, 3}}}}}};
     write(folder, scene);
 }
 
