@@ -86,6 +86,18 @@ TEST_CASE("cache: columns that do not fit, or are no numbers") {
     folder.write("poses.f32", "12345");
     refused(folder, 1, cache_words("cache"), {"poses.f32", "5 bytes"});
     std::string bytes(18 * 4, '\0');
+    scene["instances"][0]["transforms"] = "far.csv";
+    scene["instances"][0]["scale"] = 1e10;
+    write(folder, scene);
+    folder.write("poses.f32", bytes);
+    folder.write("far.csv", "1,0,0 0,1,0 0,0,1e9 0,0,0");
+    for (const std::string format : {"positions", "poses"}) {
+        const Result far = run(folder, cache_words("far", {"--format", format}));
+        CHECK(far.code == 1);
+        CHECK(far.err.find("instances[0]: number 0 of it") != std::string::npos);
+    }
+    scene["instances"][0].erase("transforms");
+    write(folder, scene);
     bytes[4 * 7 + 3] = '\x7f', bytes[4 * 7 + 2] = '\x80';  // infinity
     folder.write("poses.f32", bytes);
     const Result result = run(folder, cache_words("cache"));

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace goffer::cli {
@@ -21,6 +22,18 @@ constexpr std::uint64_t floats_per_transform = 12, floats_per_pose = 2;
 glm::dmat4x3 composed(const glm::dmat4x3& outer, const glm::dmat4x3& inner) {
     const glm::dmat3 linear(outer[0], outer[1], outer[2]);
     return {linear * inner[0], linear * inner[1], linear * inner[2], linear * inner[3] + outer[3]};
+}
+
+/// A job takes no transform with larger numbers.
+void refuse_far(const glm::dmat4x3& place, const SceneGroup& group, std::uint64_t instance,
+                std::uint64_t frame) {
+    constexpr double most = 1e18;
+    for (int column = 0; column < 4; ++column) {
+        const glm::dvec3& own = place[column];
+        if (std::fabs(own.x) <= most && std::fabs(own.y) <= most && std::fabs(own.z) <= most) continue;
+        throw InputError(group.where + ": number " + std::to_string(instance) + " of it is carried, or " +
+                         "scaled, beyond 1e18 in frame " + std::to_string(frame));
+    }
 }
 
 [[noreturn]] void refuse_count(const NumberFile& file, const std::string& wanted) {
@@ -167,6 +180,7 @@ void Cast::read_one(const Stretch& stretch, std::uint64_t index, Moments& moment
     } else {
         std::ranges::copy(rest_[which], poses.begin());
     }
+    refuse_far(place, group, instance, stretch.frame);
     moments.transforms[at] = glm::mat4x3(place);
     moments.weights[at] = group.weight;
 }

@@ -84,9 +84,12 @@ void remove_strays(const fs::path& folder, std::uint64_t shards) {
 }
 
 void report_plan(Report& report, const CacheRequest& request, const Plan& plan, const Baker& baker) {
+    const std::uint64_t parts = plan.firsts.size(), blocks = plan.shards() / parts;
     double bytes = 0;
-    for (std::uint64_t shard = 0; shard < plan.shards(); ++shard)
-        bytes += static_cast<double>(baker.header(shard).bytes);
+    for (std::uint64_t part = 0; part < parts; ++part) {
+        const ShardHeader header = baker.header(part);
+        bytes += static_cast<double>(blocks * header.data + plan.frames * header.frame_bytes);
+    }
     nlohmann::ordered_json& json = report.json;
     json["scene"] = request.scene.string();
     json["folder"] = request.folder.string();
