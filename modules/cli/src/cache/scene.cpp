@@ -114,8 +114,7 @@ Scene read_scene(const std::filesystem::path& file, const mesh::LoadOptions& opt
     if (fields.has("motions")) read_motions(scene, fields.at("motions"), files);
     read_groups(scene, fields.at("instances"), files);
     std::ranges::sort(scene.files);
-    const auto twice = std::ranges::unique(scene.files);
-    scene.files.erase(twice.begin(), twice.end());
+    scene.files.erase(std::unique(scene.files.begin(), scene.files.end()), scene.files.end());
     return scene;
 }
 
