@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-
 #include <goffer/bend/checksum.hpp>
 #include <goffer/engine/columns.hpp>
 

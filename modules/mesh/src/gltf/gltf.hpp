@@ -71,8 +71,8 @@ struct Document : Source {
 
     Json json;
     std::vector<std::string> buffers;
-    io::NamedFiles files;    ///< of the file
-    Limits limits = {};  ///< that it was loaded with, for images in files of their own
+    io::NamedFiles files;  ///< of the file
+    Limits limits = {};    ///< that it was loaded with, for images in files of their own
 
     [[nodiscard]] Value root() const { return Value(json); }
     [[nodiscard]] std::size_t count(const char* list) const;
