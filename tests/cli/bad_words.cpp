@@ -93,8 +93,8 @@ TEST_CASE("bad words: what does not go together") {
 TEST_CASE("bad words: no or another command, unknown options, too many words") {
     const Place place;
     refused(place.folder, 2, {},
-            {"give a command: base, inspect, refine, bend, animate, bake, crowd, figures, view; see goffer "
-             "--help"});
+            {"give a command: base, inspect, refine, bend, animate, bake, crowd, cache, figures, view; see "
+             "goffer --help"});
     refused(place.folder, 2, {"fold", "base.ply"}, {"no command fold", "see goffer --help"});
     refused(place.folder, 2, {"bend"}, {"required"});
     refused(place.folder, 2, {"bent", "base.ply"}, {"no command bent; did you mean bend?"});

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "file/checksum.hpp"
-
+#include <goffer/bend/checksum.hpp>
 #include <goffer/engine/columns.hpp>
 
 #include <algorithm>

@@ -13,6 +13,7 @@ void add_inspect(CLI::App& app, Action& action);
 void add_refine(CLI::App& app, Action& action);
 void add_bend(CLI::App& app, Action& action);
 void add_animate(CLI::App& app, Action& action);
+void add_cache(CLI::App& app, Action& action);
 void add_crowd(CLI::App& app, Action& action);
 void add_figures(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);

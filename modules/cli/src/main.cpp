@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
     add_animate(app, action);
     add_bake(app, action);
     add_crowd(app, action);
+    add_cache(app, action);
     add_figures(app, action);
     add_view(app, action);
     try {

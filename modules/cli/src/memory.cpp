@@ -34,7 +34,9 @@ std::optional<std::uint64_t> container() {
 // GLB, 0.66 GB as OBJ, and 0.85 GB with --png and --ghost (x86-64).
 constexpr std::uint64_t bytes_per_vertex = 300, bytes_per_triangle = 300;
 
-/// CLI11 alone takes -1 for the largest number.
+}  // namespace
+
+// CLI11 alone takes -1 for the largest number.
 CLI::Validator size_word() {
     constexpr std::size_t most_digits = 15;
     const auto read = [](std::string& word) {
@@ -45,8 +47,6 @@ CLI::Validator size_word() {
     };
     return {read, "SIZE"};
 }
-
-}  // namespace
 
 std::optional<std::uint64_t> free_memory() {
     const std::optional<std::uint64_t> free = machine();

@@ -15,6 +15,9 @@ namespace goffer::cli {
 /// (it does on Linux). Asking for more often succeeds, and using it ends the program.
 [[nodiscard]] std::optional<std::uint64_t> free_memory();
 
+/// Takes a size as 500M or 8G, and makes a number of bytes of it.
+[[nodiscard]] CLI::Validator size_word();
+
 /// Adds --max-memory, the one limit that the command has: numbers of vertices and triangles follow from it.
 /// `limits` must outlive `command`.
 void add_memory_word(CLI::App& command, mesh::Limits& limits);

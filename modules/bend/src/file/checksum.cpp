@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "file/checksum.hpp"
+#include <goffer/bend/checksum.hpp>
 
 #include <bit>
 #include <cassert>

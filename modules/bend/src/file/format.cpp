@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "file/format.hpp"
 
-#include "file/checksum.hpp"
+#include <goffer/bend/checksum.hpp>
 
 #include <algorithm>
 #include <cstring>

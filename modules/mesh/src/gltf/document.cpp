@@ -100,13 +100,13 @@ void check_version(const Value& root) {
     }
 }
 
-std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t size, Budget& budget) {
+std::string read_outer(const Value& uri, const io::NamedFiles& files, std::uint64_t size, Budget& budget) {
     if (uri.text().empty() || has_scheme(uri.text())) {
         uri.fail("is " + mesh::quoted(uri.text()) +
                  "; only paths are read, so put the file beside the document");
     }
     const std::optional<std::filesystem::path> place = files.find(path_of(uri.text()));
-    if (!place) uri.fail("names " + mesh::quoted(uri.text()) + NamedFiles::outside);
+    if (!place) uri.fail("names " + mesh::quoted(uri.text()) + io::NamedFiles::outside);
     const std::filesystem::path& file = *place;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
@@ -126,7 +126,7 @@ std::string read_outer(const Value& uri, const NamedFiles& files, std::uint64_t 
     return bytes;
 }
 
-std::string read_buffer(const Value& buffer, bool first, const Container& parts, const NamedFiles& files,
+std::string read_buffer(const Value& buffer, bool first, const Container& parts, const io::NamedFiles& files,
                         Budget& budget) {
     const std::uint64_t size = buffer["byteLength"].whole();
     const bool named = buffer.has("uri");
@@ -200,7 +200,7 @@ std::string_view Document::view(const Value& buffer_view) const {
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
                                               const LoadOptions& options, Budget& budget) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
-    const auto document = std::make_shared<Document>(NamedFiles(file, options.allow_outside));
+    const auto document = std::make_shared<Document>(io::NamedFiles(file, options.allow_outside));
     document->limits = options.limits;
     document->json = parse(parts.json, budget);
     const Value root = document->root();
@@ -226,7 +226,7 @@ std::vector<std::string> missing_images(const Document& document) {
         const std::string names = uri.path() + " names " + mesh::quoted(uri.text());
         const std::optional<std::filesystem::path> place = document.files.find(path_of(uri.text()));
         if (!place) {
-            missing.push_back("a texture is not looked at: " + names + NamedFiles::outside);
+            missing.push_back("a texture is not looked at: " + names + io::NamedFiles::outside);
         } else if (!std::filesystem::is_regular_file(*place, error)) {
             missing.push_back("a texture is missing: " + names +
                               ", which is not there; put it beside the document");

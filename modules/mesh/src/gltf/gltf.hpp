@@ -2,8 +2,8 @@
 #pragma once
 
 #include "budget.hpp"
-#include "named_files.hpp"
 
+#include <goffer/io/named_files.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -65,14 +65,14 @@ private:
 
 /// A file as read: the JSON and the bytes of its buffers. All buffer views are known to lie in their buffers.
 struct Document : Source {
-    explicit Document(NamedFiles named) : files(std::move(named)) {}
+    explicit Document(io::NamedFiles named) : files(std::move(named)) {}
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
     Json json;
     std::vector<std::string> buffers;
-    NamedFiles files;    ///< of the file
-    Limits limits = {};  ///< that it was loaded with, for images in files of their own
+    io::NamedFiles files;  ///< of the file
+    Limits limits = {};    ///< that it was loaded with, for images in files of their own
 
     [[nodiscard]] Value root() const { return Value(json); }
     [[nodiscard]] std::size_t count(const char* list) const;

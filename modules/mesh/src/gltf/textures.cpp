@@ -34,7 +34,7 @@ public:
             uri.fail("is not a well-formed data URI; export the file again");
         }
         const std::optional<std::filesystem::path> file = file_of(*document_, uri.text());
-        if (!file) uri.fail("names " + mesh::quoted(uri.text()) + NamedFiles::outside);
+        if (!file) uri.fail("names " + mesh::quoted(uri.text()) + io::NamedFiles::outside);
         return image_in(*file, document_->limits)->bytes();
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "budget.hpp"
 #include "format.hpp"
-#include "named_files.hpp"
 #include "obj.hpp"
 
 #include <goffer/io/error.hpp>
+#include <goffer/io/named_files.hpp>
 
 #include <tiny_obj_loader.h>
 
@@ -53,7 +53,7 @@ private:
     const std::filesystem::path& file_;
     std::string_view text_;
     const LoadOptions& options_;
-    NamedFiles files_;
+    io::NamedFiles files_;
     Budget& budget_;
     Mesh mesh_;
     Counts total_, seen_;
@@ -286,7 +286,7 @@ Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<co
 /// Finds the images of map_Kd that are there and may be read, each once.
 void ObjReader::find_textures(const std::filesystem::path& library,
                               std::span<const tinyobj::material_t> materials) {
-    const NamedFiles files(library, options_.allow_outside);
+    const io::NamedFiles files(library, options_.allow_outside);
     std::set<std::string> outside;
     for (const tinyobj::material_t& material : materials) {
         const std::string name = with_slashes(material.diffuse_texname);
@@ -294,7 +294,7 @@ void ObjReader::find_textures(const std::filesystem::path& library,
         const auto place = name.empty() ? std::nullopt : files.find(name);
         if (!name.empty() && !place && outside.insert(name).second)
             mesh_.warnings.push_back("a texture is not looked at: " + io::about(library, "names ") +
-                                     mesh::quoted(name) + NamedFiles::outside);
+                                     mesh::quoted(name) + io::NamedFiles::outside);
         if (place && images_.find(*place) == images_.end() && std::filesystem::is_regular_file(*place, error))
             images_.emplace(*place, image_in(*place, options_.limits));
         const auto image = place ? images_.find(*place) : images_.end();
@@ -308,7 +308,7 @@ void ObjReader::find_textures(const std::filesystem::path& library,
 /// for.
 void ObjReader::warn_of_textures(const std::filesystem::path& library,
                                  std::span<const tinyobj::material_t> materials) {
-    const NamedFiles files(library, false);
+    const io::NamedFiles files(library, false);
     std::set<std::string> missing;
     for (const tinyobj::material_t& material : materials) {
         for (const auto texture :
@@ -349,7 +349,7 @@ std::vector<tinyobj::material_t> ObjReader::read_libraries() {
             const std::optional<std::filesystem::path> library = files_.find(name);
             if (!library) {
                 mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
-                                         ": mtllib names " + quoted(name) + NamedFiles::outside);
+                                         ": mtllib names " + quoted(name) + io::NamedFiles::outside);
             } else if (read.insert(*library).second) {
                 read_library(*library, found);
             }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "named_files.hpp"
+#include <goffer/io/named_files.hpp>
 
 #include <algorithm>
 #include <system_error>
 
-namespace goffer::mesh {
+namespace goffer::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,4 +29,4 @@ std::optional<fs::path> NamedFiles::find(const fs::path& name) const {
     return file;
 }
 
-}  // namespace goffer::mesh
+}  // namespace goffer::io

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace goffer::mesh {
+namespace goffer::io {
 
 /// The files that a document names, by ways from the folder that it is in, and which of them may be read: a
 /// document that somebody else made must not decide that a private file goes into the output. A link that
@@ -30,4 +30,4 @@ private:
     bool allow_outside_;
 };
 
-}  // namespace goffer::mesh
+}  // namespace goffer::io

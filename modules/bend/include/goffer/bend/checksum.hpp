@@ -9,12 +9,13 @@
 namespace goffer::bend {
 
 /// XXH64 with seed 0, as its specification has it (xxHash, doc/xxhash_spec.md), of bytes that come piece by
-/// piece. Finds accidents, not forgeries.
+/// piece: what goffer's files are checked by. Finds accidents, not forgeries. A plain value.
 class Checksum {
 public:
-    /// All pieces but the last one are of a multiple of 32 bytes.
+    /// Appends `bytes`. All pieces but the last one are of a multiple of 32 bytes.
     void add(std::span<const std::byte> bytes) noexcept;
 
+    /// Returns the checksum of all that was added.
     [[nodiscard]] std::uint64_t value() const noexcept;
 
     /// Of the specification's five primes.

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+#include "cache/cache.hpp"
+#include "commands.hpp"
+#include "memory.hpp"
+#include "model.hpp"
+#include "threads.hpp"
+
+#include <charconv>
+#include <memory>
+#include <utility>
+
+namespace goffer::cli {
+namespace {
+
+struct CacheOptions {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    std::optional<std::string> format, isa, shard, extract;
+    std::optional<std::uint64_t> shard_size, shard_frames, shard_instances;
+    bool prepare = false, verify = false;
+    int threads = 0;
+    mesh::LoadOptions load;
+    std::filesystem::path json;
+};
+
+/// Two whole numbers with `between` between them.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> two_numbers(const std::string& text, char between) {
+    std::pair<std::uint64_t, std::uint64_t> two;
+    const char* end = text.data() + text.size();
+    const auto [middle, fault] = std::from_chars(text.data(), end, two.first);
+    if (fault != std::errc() || middle == end || *middle != between) return std::nullopt;
+    const auto [last, error] = std::from_chars(middle + 1, end, two.second);
+    if (error != std::errc() || last != end) return std::nullopt;
+    return two;
+}
+
+void refuse_words(const CLI::App& command, std::initializer_list<const char*> words, const char* with) {
+    for (const char* word : words) {
+        if (command.get_option(word)->count() > 0)
+            throw UsageError(std::string(word) + " is of no use with " + with);
+    }
+}
+
+void require_output(const CacheOptions& options, const char* what) {
+    if (options.output.empty()) throw UsageError(std::string("-o is missing: ") + what);
+}
+
+void run_extract(const CacheOptions& options) {
+    require_output(options, "where the model is to be written");
+    const auto place = two_numbers(*options.extract, ',');
+    if (!place)
+        throw UsageError("--extract: '" + *options.extract +
+                         "' is not the numbers of a frame and an instance, as in 0,12");
+    extract({options.input, options.output, place->first, place->second, options.load, options.json});
+}
+
+void run_make(const CacheOptions& options) {
+    require_output(options, "the folder of the cache");
+    CacheRequest request;
+    request.scene = options.input;
+    request.folder = options.output;
+    request.shard_size = options.shard_size;
+    request.shard_frames = options.shard_frames;
+    request.shard_instances = options.shard_instances;
+    request.prepare = options.prepare;
+    request.threads = usable_threads(options.threads);
+    request.load = options.load;
+    request.json = options.json;
+    if (options.format) request.format = parse_format(*options.format);
+    if (options.isa) request.isa = parse_isa_option(*options.isa);
+    if (options.shard) {
+        const auto share = two_numbers(*options.shard, '/');
+        if (!share || share->first < 1 || share->first > share->second || share->second > most_shards)
+            throw UsageError("--shard: '" + *options.shard + "' is no share of the shards, as in 1/8 to 8/8");
+        request.share = share->first;
+        request.shares = share->second;
+        request.whole = false;
+    }
+    check_places({{"SCENE", options.input}}, {{"-o", options.output}, {"--json", options.json}});
+    make_cache(request);
+}
+
+void run_cache(const CLI::App& command, const CacheOptions& options) {
+    const auto making = {"--format",          "--isa",    "--shard", "--shard-size", "--shard-frames",
+                         "--shard-instances", "--prepare"};
+    if (options.verify) {
+        refuse_words(command, making, "--verify");
+        refuse_words(command, {"--output", "--extract"}, "--verify");
+        return verify_cache(options.input, options.json, usable_threads(options.threads));
+    }
+    if (options.extract) {
+        refuse_words(command, making, "--extract");
+        return run_extract(options);
+    }
+    if (options.prepare) refuse_words(command, {"--shard"}, "--prepare");
+    run_make(options);
+}
+
+void add_shape_words(CLI::App& command, CacheOptions& options) {
+    command
+        .add_option("--format", options.format,
+                    "Keep positions (3 floats a vertex), packed (position and normal in 12 bytes), or poses, "
+                    "which are deformed when they are read (default: positions)")
+        ->check(CLI::IsMember({"positions", "packed", "poses"}));
+    command.add_option("--isa", options.isa,
+                       "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon (default: auto)");
+    command
+        .add_option("--shard-size", options.shard_size,
+                    "Make shards of at most this size, as 64M or 1G, but of one instance in one frame at "
+                    "least (default: 256 MiB)")
+        ->transform(size_word())
+        ->type_name("SIZE");
+    constexpr std::uint64_t least = 1;
+    command.add_option("--shard-frames", options.shard_frames, "Put so many frames into a shard")
+        ->check(CLI::Range(least, most_frames));
+    command
+        .add_option("--shard-instances", options.shard_instances,
+                    "Put at most so many instances into a shard")
+        ->check(CLI::Range(least, most_instances));
+}
+
+}  // namespace
+
+void add_cache(CLI::App& app, Action& action) {
+    const auto options = std::make_shared<CacheOptions>();
+    CLI::App* command = app.add_subcommand(
+        "cache",
+        "Bake a crowd over time to files, in shards that several machines can share. What is there and right "
+        "is kept; what is not said is as the folder has it");
+    command->add_option("input", options->input, "Scene: JSON; with --verify or --extract the cache's folder")
+        ->required();
+    command->add_option("-o,--output", options->output,
+                        "Write the cache into this folder; with --extract a model: .glb, .obj, .ply or .stl");
+    add_shape_words(*command, *options);
+    command->add_option("--shard", options->shard,
+                        "Bake the I-th of N shares of the shards alone, as 1/8, and no manifest");
+    command->add_flag("--prepare", options->prepare, "Bind the bodies and write the plan, but no shard");
+    command->add_flag("--verify", options->verify,
+                      "Read the whole cache; one line for each fault, and exit code 1 if there is any");
+    command->add_option("--extract", options->extract, "Write instance I in frame F as a model: F,I");
+    command
+        ->add_option("--threads", options->threads,
+                     "Use this many threads, at most the machine's (default: all of them)")
+        ->check(CLI::Range(1, 1024));
+    add_load_words(*command, options->load);
+    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    command->callback(
+        [options, command, &action] { action = [options, command] { run_cache(*command, *options); }; });
+}
+
+}  // namespace goffer::cli

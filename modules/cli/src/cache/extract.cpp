@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+#include "body_file.hpp"
+#include "cache/cache.hpp"
+#include "cache/members.hpp"
+#include "deformed.hpp"
+#include "report.hpp"
+
+#include <goffer/io/atomic_file.hpp>
+#include <goffer/io/error.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <cmath>
+#include <cstring>
+
+namespace goffer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An instance in a frame, as its shard has it.
+struct Block {
+    std::size_t body = 0;
+    std::vector<std::byte> bytes;
+
+    template <class T>
+    [[nodiscard]] T at(std::uint64_t offset) const {
+        T value;
+        std::memcpy(&value, &bytes[static_cast<std::size_t>(offset)], sizeof value);
+        return value;
+    }
+};
+
+/// Reads a block out of a shard, all of which is looked at first: what is read is what was written.
+Block read_block(const ExtractRequest& request, const Plan& plan) {
+    const std::uint64_t index = plan.shard_of(request.frame, request.instance);
+    const fs::path file = request.folder / shard_name(index);
+    ShardHeader header = plan.header(index);
+    std::error_code error;
+    header.bytes = fs::file_size(file, error);
+    if (!error && header.bytes >= header.data)
+        header.frame_bytes = (header.bytes - header.data) / header.frame_count;
+    if (const auto fault = fault_in_shard(file, header, nullptr)) throw InputError(io::about(file, *fault));
+    const InputFile shard(file);
+    ShardInstance instance;
+    const std::uint64_t place = request.instance - header.first_instance;
+    shard.read(sizeof header + place * sizeof instance, std::as_writable_bytes(std::span(&instance, 1)));
+    const std::string damaged = "has an instance of a body that the plan does not have";
+    if (instance.body >= plan.bodies.size()) throw InputError(io::about(file, damaged));
+    const PlanBody& body = plan.bodies[instance.body];
+    const std::uint64_t bytes = block_bytes(plan.format, body.vertices, body.regions);
+    if (instance.vertices != body.vertices || bytes > header.frame_bytes ||
+        instance.offset > header.frame_bytes - bytes)
+        throw InputError(io::about(file, damaged));
+    Block block{instance.body, std::vector<std::byte>(static_cast<std::size_t>(bytes))};
+    const std::uint64_t frame = request.frame - header.first_frame;
+    shard.read(header.data + frame * header.frame_bytes + instance.offset, block.bytes);
+    return block;
+}
+
+BoundModel read_body(const ExtractRequest& request, const PlanBody& body) {
+    BindWords words;
+    words.load = request.load;
+    words.level = static_cast<std::size_t>(body.level);
+    const fs::path file = request.folder / body.file();
+    ModelFile model(file, request.load.limits);
+    if (!model.baked || hash_of_file(file) != body.checksum)
+        throw InputError(io::about(file, "is not the body that the shards were made with"));
+    const std::vector<fit::RegionOptions> regions = baked_regions(model);
+    return bind_model(std::move(model), BindRequest(words, regions));
+}
+
+/// As packed.glsl decodes them.
+glm::vec3 decoded_normal(const std::int16_t (&octant)[2]) {
+    constexpr float steps = 32767;
+    glm::vec2 side = glm::max(glm::vec2(octant[0], octant[1]) / steps, glm::vec2(-1));
+    const float up = 1 - std::fabs(side.x) - std::fabs(side.y), fold = std::max(-up, 0.0f);
+    side.x += side.x >= 0 ? -fold : fold;
+    side.y += side.y >= 0 ? -fold : fold;
+    return glm::normalize(glm::vec3(side, up));
+}
+
+void unpack(const Block& block, mesh::VertexArrays& records) {
+    constexpr float steps = 65535;
+    const auto low = block.at<glm::vec3>(0), high = block.at<glm::vec3>(sizeof(glm::vec3));
+    for (std::size_t i = 0; i < records.positions.size(); ++i) {
+        const auto vertex = block.at<bend::PackedVertex>(bounds_bytes + i * vertex_bytes);
+        const glm::vec3 share = glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / steps;
+        records.positions[i] = low + share * (high - low);
+        records.normals[i] = decoded_normal(vertex.normal);
+    }
+}
+
+void deform(const Block& block, const BoundModel& model, Isa isa, mesh::VertexArrays& records) {
+    std::vector<bend::Pose> poses(model.binding.body.region_count());
+    for (std::size_t r = 0; r < poses.size(); ++r)
+        poses[r] = block.at<bend::Pose>(placing_bytes + r * sizeof(bend::Pose));
+    bend::DeformJob job = job_into(records, model, poses, runs_here(isa) ? isa : Isa::automatic);
+    job.transform = block.at<glm::mat4x3>(0);
+    job.wrinkle_weight = block.at<float>(sizeof(glm::mat4x3));
+    bend::run(job);
+}
+
+/// The model as the block has it. Positions alone say nothing of normals, which are then left out.
+mesh::Mesh mesh_of(const Block& block, const BoundModel& model, const Plan& plan) {
+    mesh::VertexArrays records = model.rest;
+    records.normals.resize(records.positions.size());
+    switch (plan.format) {
+        case CacheFormat::positions:
+            std::memcpy(records.positions.data(), block.bytes.data(),
+                        records.positions.size() * sizeof(glm::vec3));
+            records.normals.clear();
+            break;
+        case CacheFormat::packed:
+            unpack(block, records);
+            break;
+        case CacheFormat::poses:
+            deform(block, model, plan.isa, records);
+            break;
+    }
+    mesh::Mesh bare = model.mesh;
+    if (records.normals.empty()) bare.normals = {};
+    bare.tangents = {};
+    records.tangents.clear();
+    return mesh::with_vertex_arrays(bare, records);
+}
+
+}  // namespace
+
+void extract(const ExtractRequest& request) {
+    check_model_output(request.output);
+    Report report(request.json);
+    const Plan plan = read_plan(request.folder / plan_name);
+    if (request.frame >= plan.frames || request.instance >= plan.instances)
+        throw InputError(io::about(
+            request.folder, "has frames 0.." + std::to_string(plan.frames - 1) + " and instances 0.." +
+                                std::to_string(plan.instances - 1) + ", and not " +
+                                std::to_string(request.frame) + "," + std::to_string(request.instance)));
+    const Block block = read_block(request, plan);
+    const PlanBody& body = plan.bodies[block.body];
+    const BoundModel model = read_body(request, body);
+    if (model.rest.positions.size() != body.vertices)
+        throw InputError(io::about(request.folder / body.file(), "has not the vertices that the plan says"));
+    io::AtomicFiles outputs;
+    mesh::save(mesh_of(block, model, plan), request.output, outputs);
+    report.json["body"] = body.name;
+    report.json["frame"] = request.frame;
+    report.json["instance"] = request.instance;
+    report.json["shard"] = shard_name(plan.shard_of(request.frame, request.instance));
+    report.json["vertices"] = body.vertices;
+    report.line("instance", std::to_string(request.instance) + " in frame " + std::to_string(request.frame) +
+                                ": body " + body.name + ", " + std::to_string(body.vertices) + " vertices");
+    report.line("written", request.output.string());
+    report.finish(outputs);
+}
+
+}  // namespace goffer::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cache/baker.hpp"
+#include "cache/plan.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace goffer::cli {
+
+/// What a whole cache consists of.
+struct Manifest {
+    Plan plan;
+    std::vector<ShardFile> shards;
+};
+
+/// Writes the manifest into `folder`, unless it is there already. Throws io::Error.
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// Reads the manifest of a folder. Throws an error that names it where it is missing or cannot be one.
+[[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
+
+}  // namespace goffer::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "cache/members.hpp"
+
+#include "arguments.hpp"
+
+#include <goffer/io/error.hpp>
+#include <goffer/io/read_file.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace goffer::cli {
+namespace {
+
+constexpr int deepest = 32;
+
+/// Refuses, while it is read, what nothing of goffer's is like.
+class Guard {
+public:
+    explicit Guard(const std::filesystem::path& file) : file_(file) {}
+
+    bool operator()(int depth, nlohmann::json::parse_event_t, nlohmann::json&) const {
+        if (depth > deepest)
+            throw InputError(io::about(file_, "has lists within lists, more than " + std::to_string(deepest) +
+                                                  " deep; nothing that goffer reads is so deep"));
+        return true;
+    }
+
+private:
+    const std::filesystem::path& file_;
+};
+
+/// Without the library's own "[json.exception..] ".
+std::string reason(const nlohmann::json::exception& error) {
+    const std::string text = error.what();
+    const std::size_t end = text.find("] ");
+    return end == text.npos ? text : text.substr(end + 2);
+}
+
+std::string text_of(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+}  // namespace
+
+nlohmann::json read_document(const std::filesystem::path& file, std::uint64_t most) {
+    if (io::size_of_file(file) > most)
+        throw InputError(io::about(
+            file, "has more than " + io::size_text(most) + ", which is more than such a document needs"));
+    try {
+        return nlohmann::json::parse(io::read_file(file), Guard(file));
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(io::about(file, "is no JSON: " + io::escaped(reason(error))));
+    }
+}
+
+Members::Members(const nlohmann::json& object, std::string where)
+    : object_(&object), where_(std::move(where)) {
+    if (!object.is_object())
+        throw InputError(where_ + ": is " + object.type_name() + ", and should be an object {..}");
+}
+
+void Members::allow(std::initializer_list<std::string_view> names) const {
+    for (const auto& [name, value] : object_->items()) {
+        if (std::ranges::find(names, std::string_view(name)) != names.end()) continue;
+        std::string known;
+        for (const std::string_view other : names) known.append(known.empty() ? "" : ", ").append(other);
+        throw InputError(where_ + ": has no field '" + io::escaped(name) + "'; there are " + known);
+    }
+}
+
+void Members::refuse(const std::string& name, const std::string& what) const {
+    throw InputError(where(name) + ": " + what);
+}
+
+const nlohmann::json& Members::at(const char* name) const {
+    const auto found = object_->find(name);
+    if (found == object_->end()) throw InputError(where_ + ": lacks '" + name + "'");
+    return *found;
+}
+
+double Members::number(const char* name, double low, double high) const {
+    const nlohmann::json& value = at(name);
+    const double number = value.is_number() ? value.get<double>() : std::nan("");
+    if (!(number >= low && number <= high))
+        refuse(name, "is not a number within " + text_of(low) + ".." + text_of(high));
+    return number;
+}
+
+double Members::number(const char* name, double low, double high, double usual) const {
+    return has(name) ? number(name, low, high) : usual;
+}
+
+std::uint64_t Members::whole(const char* name, std::uint64_t low, std::uint64_t high) const {
+    const nlohmann::json& value = at(name);
+    const bool fits =
+        value.is_number_unsigned() && value.get<std::uint64_t>() >= low && value.get<std::uint64_t>() <= high;
+    if (!fits)
+        refuse(name, "is not a whole number within " + std::to_string(low) + ".." + std::to_string(high));
+    return value.get<std::uint64_t>();
+}
+
+std::string Members::text(const char* name) const {
+    constexpr std::size_t longest = 4096;
+    const nlohmann::json& value = at(name);
+    if (!value.is_string() || value.get_ref<const std::string&>().empty() ||
+        value.get_ref<const std::string&>().size() > longest)
+        refuse(name, "is not a text of 1 to " + std::to_string(longest) + " bytes");
+    return value.get<std::string>();
+}
+
+std::vector<std::string> Members::texts(const char* name) const {
+    if (!at(name).is_array()) return {text(name)};
+    std::vector<std::string> all;
+    for (const nlohmann::json& value : at(name)) {
+        if (!value.is_string()) refuse(name, "is neither a text nor a list of texts");
+        all.push_back(value.get<std::string>());
+    }
+    if (all.empty()) refuse(name, "is an empty list");
+    return all;
+}
+
+std::vector<double> Members::numbers(const char* name, std::size_t count) const {
+    std::optional<std::vector<double>> list = list_of(at(name), count);
+    if (!list) refuse(name, "is not a list of " + std::to_string(count) + " numbers within -1e18..1e18");
+    return std::move(*list);
+}
+
+std::uint64_t Members::hash(const char* name) const {
+    const std::string digits = text(name);
+    std::uint64_t number = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [next, error] = std::from_chars(digits.data(), end, number, 16);
+    if (digits.size() != 16 || error != std::errc() || next != end)
+        refuse(name, "is not 16 hexadecimal digits");
+    return number;
+}
+
+std::optional<std::vector<double>> list_of(const nlohmann::json& list, std::size_t count) {
+    constexpr double most = 1e18;
+    if (!list.is_array() || list.size() != count) return std::nullopt;
+    std::vector<double> numbers;
+    numbers.reserve(count);
+    for (const nlohmann::json& value : list) {
+        if (!value.is_number() || !(std::fabs(value.get<double>()) <= most)) return std::nullopt;
+        numbers.push_back(value.get<double>());
+    }
+    return numbers;
+}
+
+std::string hex(std::uint64_t number) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+    return text;
+}
+
+}  // namespace goffer::cli
