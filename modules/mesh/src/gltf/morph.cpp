@@ -27,7 +27,7 @@ std::shared_ptr<const Document> base_document(const Mesh& mesh, const std::files
     std::optional<Output> kept = rewritten(mesh, file, embed);
     is_made = !kept;
     if (kept) return document_of(std::move(*kept), dynamic_cast<const Document&>(*mesh.source));
-    return document_of(made(mesh), Document(NamedFiles(file, false)));
+    return document_of(made(mesh), Document(io::NamedFiles(file, false)));
 }
 
 /// For each vertex of a scene that was made of `mesh`, its entry of vertex_arrays(mesh): both have the same
