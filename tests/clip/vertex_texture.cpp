@@ -11,6 +11,7 @@
 #include <array>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -140,11 +141,19 @@ TEST_CASE("vertex texture: frames are rows, as many as they need, within what gr
     check(16384, 16384, 16384, 1);
     check(100'000, 1000, 6250, 16);
     check(std::size_t{1} << 24, 16, 16384, 1024);
+    check(16385, 8192, 8193, 2);
+    check(32768, 8192, 16384, 2);
+    CHECK(!vertex_texture_layout(16385, 8193));  // frames share no rows: there is room for 8192 only
+    CHECK(!vertex_texture_layout(32769, 8192));
+    CHECK(!vertex_texture_layout(std::size_t{1} << 24, 17));
     CHECK(!vertex_texture_layout(1, 16385));
     CHECK(!vertex_texture_layout(16385, 16384));
     CHECK(!vertex_texture_layout((std::size_t{1} << 24) + 1, 1));
     CHECK(!vertex_texture_layout(std::numeric_limits<std::size_t>::max(), 1));
     CHECK(!vertex_texture_layout(1, std::numeric_limits<std::size_t>::max()));
+    CHECK(!vertex_texture_layout(0, 2));
+    CHECK(!vertex_texture_layout(2, 0));
+    CHECK(!vertex_texture_layout(0, 0));
 }
 
 TEST_CASE("vertex texture: moving points are within half a step of 16 bits") {
@@ -202,7 +211,7 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     CHECK(json["version"] == 1);
     CHECK(json["positions"] == "worm.vat.positions.png");
     CHECK(json["normals"] == "worm.vat.normals.png");
-    CHECK(json["mesh"] == "worm.vat.glb");
+    CHECK(json["mesh"] == "worm.vat.mesh.glb");
     CHECK(json["shader"] == "worm.vat.glsl");
     CHECK(json["vertices"] == 300);
     CHECK(json["frames"] == 9);
@@ -217,6 +226,19 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     const std::filesystem::path source =
         GOFFER_SOURCE_DIR "/modules/clip/include/goffer/clip/vertex_texture.glsl";
     CHECK(bytes_of(folder / "worm.vat.glsl") == bytes_of(source));
+}
+
+TEST_CASE("vertex texture: an image that is cut off is no image") {
+    const Folder folder;
+    const mesh::Mesh model = strip(900);
+    MovingPoints points(900, 9, true);
+    const VertexTexture texture = saved_texture(points, model, mesh::vertex_arrays(model), folder / "a.json");
+    const std::string bytes = bytes_of(texture.files[1]);
+    for (const std::size_t size : {std::size_t{0}, std::size_t{20}, bytes.size() / 2}) {
+        const auto cut = folder.write("cut.png", bytes.substr(0, size));
+        CHECK(message_of<std::runtime_error>([&] { (void)read_wide_image(cut); }) == "cut off");
+    }
+    CHECK(read_wide_image(folder.write("cut.png", bytes)).height == 9);
 }
 
 TEST_CASE("vertex texture: a clip that is flat, or stands still, has no step where it has no size") {
@@ -254,7 +276,15 @@ TEST_CASE("vertex texture: what no texture can hold is refused, and nothing is l
     MovingPoints points(9, 3, false), long_clip(9, 16385, false);
     CHECK(tells(texture_error(points, 9, "a.png"), "not .json"));
     CHECK(tells(texture_error(points, 8), "the clip has 9 vertices, and its mesh 8"));
-    CHECK(tells(texture_error(long_clip, 9), "16385 frames of 9 vertices do not fit"));
+    CHECK(tells(texture_error(long_clip, 9),
+                "16385 frames of 9 vertices do not fit 16384 rows of 16384 "
+                "texels: each of these frames takes 1 row, so that 16384 fit"));
+    MovingPoints wide(16385, 8193, false), none(0, 3, false), still(9, 0, false),
+        countless((std::size_t{1} << 24) + 1, 1, false);
+    CHECK(tells(texture_error(wide, 16385), "takes 2 rows, so that 8192 fit; give it fewer"));
+    CHECK(tells(texture_error(none, 0), "3 frames of 0 vertices make no texture; give it 1 or more of both"));
+    CHECK(tells(texture_error(still, 9), "0 frames of 9 vertices make no texture"));
+    CHECK(tells(texture_error(countless, 9), "16777217 vertices are more than the 16777216 that a float"));
     Far lost(std::numeric_limits<float>::quiet_NaN(), 0), far(3e38f, -3e38f);
     CHECK(tells(texture_error(lost, 9), "frame 0, vertex 4 (counted from 0) is not finite"));
     CHECK(tells(texture_error(far, 9), "too large"));

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,15 @@ GLuint program_for(Api api) {
     return program;
 }
 
+/// What a loader makes of an image that turns it upside down.
+WideImage upside_down(WideImage image) {
+    const auto row = static_cast<std::ptrdiff_t>(3 * image.width);
+    for (auto top = image.rgb.begin(), bottom = image.rgb.end() - row; top < bottom;
+         top += row, bottom -= row)
+        std::swap_ranges(top, top + row, bottom);
+    return image;
+}
+
 void upload(Api api, GLenum unit, const WideImage& image) {
     GLuint texture = 0;
     glGenTextures(1, &texture);
@@ -74,15 +84,19 @@ void upload(Api api, GLenum unit, const WideImage& image) {
 /// Plays the files of a texture. Its context must be current.
 class Player {
 public:
-    Player(Api api, const clip::VertexTexture& texture, std::size_t vertices, std::size_t frames)
+    Player(Api api, const clip::VertexTexture& texture, std::size_t vertices, std::size_t frames,
+           bool turned = false)
         : program_(program_for(api)), vertices_(vertices) {
         glUseProgram(program_);
-        upload(api, GL_TEXTURE0, read_wide_image(texture.files[1]));
-        upload(api, GL_TEXTURE1, read_wide_image(texture.files[2]));
+        for (const GLenum image : {0u, 1u}) {
+            const WideImage stored = read_wide_image(texture.files[1 + image]);
+            upload(api, GL_TEXTURE0 + image, turned ? upside_down(stored) : stored);
+        }
         glUniform1i(at("positions"), 0);
         glUniform1i(at("normals"), 1);
         glUniform1i(at("clip.width"), static_cast<GLint>(texture.layout.width));
         glUniform1i(at("clip.rows_per_frame"), static_cast<GLint>(texture.layout.rows_per_frame));
+        glUniform1i(at("clip.height"), turned ? static_cast<GLint>(texture.layout.height) : 0);
         glUniform3fv(at("clip.low"), 1, &texture.low.x);
         glUniform3fv(at("clip.high"), 1, &texture.high.x);
         glUniform1i(at("frames"), static_cast<GLint>(frames));
@@ -148,7 +162,8 @@ void check_moment(Player& player, clip::Frames& frames, const clip::VertexTextur
     CHECK(normal <= normal_half_step + 1e-4);
 }
 
-void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays) {
+void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays,
+                  bool turned) {
     std::string why;
     const draw::OffscreenContext context(api, why);
     if (!context) {
@@ -157,7 +172,7 @@ void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const 
     }
     const Folder folder;
     const clip::VertexTexture texture = saved_texture(frames, model, arrays, folder / "clip.json");
-    Player player(api, texture, frames.vertices(), frames.count());
+    Player player(api, texture, frames.vertices(), frames.count(), turned);
     const std::size_t last = frames.count() - 1;
     const auto end = static_cast<float>(last);
     for (const Moment& moment :
@@ -169,12 +184,12 @@ void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const 
         check_moment(player, frames, texture, moment);
 }
 
-void check_both(Api api) {
+void check_both(Api api, bool turned = false) {
     MovingPoints points(5000, 7, true);  // three rows a frame
     const mesh::Mesh model = strip(5000);
-    check_played(api, points, model, mesh::vertex_arrays(model));
+    check_played(api, points, model, mesh::vertex_arrays(model), turned);
     BendingModel bending(test::model("insect_leg.glb"), 12);
-    check_played(api, bending, bending.model, bending.arrays);
+    check_played(api, bending, bending.model, bending.arrays, turned);
 }
 
 }  // namespace
@@ -185,6 +200,11 @@ TEST_CASE("vertex texture: OpenGL 3.3 plays the clip within its error, between f
 
 TEST_CASE("vertex texture: OpenGL ES 3.0 plays the clip within its error, between frames too") {
     check_both(Api::es30);
+}
+
+TEST_CASE("vertex texture: images that a loader turned upside down are played by their height") {
+    check_both(Api::core33, true);
+    check_both(Api::es30, true);
 }
 
 TEST_CASE("vertex texture: a clip of one frame stands still") {

@@ -83,15 +83,15 @@ CLIP = """
 {location} out vec3 normal;
 #include <goffer/clip/vertex_texture.glsl>
 void main() {{
-    GofferClip clip = GofferClip(width, rows_per_frame, low, high);
+    GofferClip clip = GofferClip(width, rows_per_frame, low, high, height);
     GofferFrames at = goffer_frames(frame, frames);
     if (frames > 9) at = goffer_frames_repeated(frame, frames);
-    normal = goffer_normal(shares, vertex, at, clip) + goffer_normal(steps, vertex, at, clip);
-    gl_Position = vec4(goffer_position(shares, vertex, at, clip) + goffer_position(steps, vertex, at, clip), 1.0);
+    normal = goffer_normal(shares, {vertex}, at, clip) + goffer_normal(steps, {vertex}, at, clip);
+    gl_Position = vec4(goffer_position(shares, {vertex}, at, clip) + goffer_position(steps, {vertex}, at, clip), 1.0);
 }}
 """
 VARIABLES = {"packed": "vec3 box_low; vec3 box_high;", "deform": "vec4 rows[34];",
-             "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int vertex;"}
+             "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int height;"}
 SAMPLERS = ("highp sampler2D shares", "highp usampler2D steps")
 TARGETS = {"GLSL 3.30": "#version 330 core", "GLSL 4.60": "#version 460 core", "GLSL ES 3.00": "#version 300 es",
            "GLSL ES 3.20": "#version 320 es", "Vulkan": "#version 450"}
@@ -118,7 +118,8 @@ def sources(subject, include, page):
         where = "layout(location = 0)" if name == "Vulkan" else ""
         bindings = [f"layout(set = 0, binding = {i}) " if name == "Vulkan" else "" for i in (1, 2)]
         samplers = "\n".join(f"{binding}uniform {sampler};" for binding, sampler in zip(bindings, SAMPLERS))
-        filled = version + "\n" + text.format(uniforms=uniforms, samplers=samplers, location=where)
+        vertex = "gl_VertexIndex" if name == "Vulkan" else "gl_VertexID"
+        filled = version + "\n" + text.format(uniforms=uniforms, samplers=samplers, location=where, vertex=vertex)
         yield name, included(filled, include), "vert", ["-V"] if name == "Vulkan" else []
     if hlsl:
         yield "HLSL", included(hlsl, include), "vert", ["-D", "-V", "-e", "main"]

@@ -40,9 +40,11 @@ struct Names {
         };
         positions = beside(".positions.png");
         normals = beside(".normals.png");
-        mesh = beside(".glb");
+        mesh = beside(".mesh.glb");
         shader = beside(".glsl");
     }
+
+    [[nodiscard]] std::vector<fs::path> all() const { return {json, positions, normals, mesh, shader}; }
 };
 
 /// Numbers of a channel, and what a shader makes of them.
@@ -196,39 +198,68 @@ nlohmann::ordered_json description(const Frames& frames, const Names& names, con
     return json;
 }
 
+std::size_t divided(std::size_t a, std::size_t b) noexcept {
+    return (a + b - 1) / b;
+}
+
+/// How many rows a frame takes at least.
+std::size_t fewest_rows(std::size_t vertices) noexcept {
+    return divided(vertices, VertexTextureLayout::largest_side);
+}
+
+/// Says why there is no layout.
+[[noreturn]] void refuse(const fs::path& file, std::size_t vertices, std::size_t frames) {
+    const std::string clip = std::to_string(frames) + " frames of " + std::to_string(vertices) + " vertices";
+    if (vertices == 0 || frames == 0) fail(file, clip + " make no texture; give it 1 or more of both");
+    if (vertices > VertexTextureLayout::most_vertices)
+        fail(file, std::to_string(vertices) + " vertices are more than the " +
+                       std::to_string(VertexTextureLayout::most_vertices) +
+                       " that a float can number; use a smaller mesh");
+    const std::size_t rows = fewest_rows(vertices), most_rows = VertexTextureLayout::largest_side;
+    const std::string side = std::to_string(most_rows);
+    fail(file, clip + " do not fit " + side + " rows of " + side + " texels: each of these frames takes " +
+                   std::to_string(rows) + (rows == 1 ? " row" : " rows") + ", so that " +
+                   std::to_string(most_rows / rows) + " fit; give it fewer frames or vertices");
+}
+
 }  // namespace
 
 std::optional<VertexTextureLayout> vertex_texture_layout(std::size_t vertices, std::size_t frames) noexcept {
     constexpr std::size_t side = VertexTextureLayout::largest_side;
-    const auto divided = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
-    if (frames > side || vertices > VertexTextureLayout::most_vertices) return std::nullopt;
+    if (vertices == 0 || vertices > VertexTextureLayout::most_vertices) return std::nullopt;
+    if (frames == 0 || frames > side / fewest_rows(vertices)) return std::nullopt;
     const std::size_t wanted = divided(vertices, VertexTextureLayout::handy_width);
     const std::size_t rows = std::min(wanted, side / frames);
     const std::size_t width = divided(vertices, rows);
-    if (width > side) return std::nullopt;
     return VertexTextureLayout{width, divided(vertices, width) * frames, divided(vertices, width)};
+}
+
+std::vector<fs::path> vertex_texture_files(const fs::path& file) {
+    return Names(file).all();
 }
 
 VertexTexture save_vertex_texture(Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays,
                                   const fs::path& file, io::AtomicFiles& files, TexturePlacement placement) {
     const Names names(file);
+    const auto layout = vertex_texture_layout(frames.vertices(), frames.count());
+    if (!layout) refuse(file, frames.vertices(), frames.count());
     if (frames.vertices() != arrays.positions.size())
         fail(file, "the clip has " + std::to_string(frames.vertices()) + " vertices, and its mesh " +
                        std::to_string(arrays.positions.size()) + "; give the arrays that it was made from");
-    const auto layout = vertex_texture_layout(frames.vertices(), frames.count());
-    if (!layout)
-        fail(file, std::to_string(frames.count()) + " frames of " + std::to_string(frames.vertices()) +
-                       " vertices do not fit a texture of 16384 x 16384; give it fewer of either");
     VertexTexture result;
     result.layout = *layout;
-    result.files = {file, names.positions, names.normals, names.mesh, names.shader};
-    io::AtomicFile& json = files.add(file);  // first, to be refused before the work
+    result.files = names.all();
+    // These two first, to be refused before the work.
+    io::AtomicFile& json = files.add(file);
+    mesh::save(texture_mesh(model, arrays), names.mesh, files);
     Reader reader(frames, placement, file);
     find_bounds(reader, frames.count(), result, file);
     write_images(reader, frames.count(), names, files, result);
-    mesh::save(texture_mesh(model, arrays), names.mesh, files);
     files.add(names.shader).write(vertex_texture_glsl());
-    json.write(description(frames, names, result, placement).dump(2) + "\n");
+    // A file name need not be UTF-8; what is not is replaced.
+    json.write(description(frames, names, result, placement)
+                   .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+               "\n");
     return result;
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-/// A moving mesh, as those read it who write it to a file.
+/// A moving mesh, frame by frame, for whatever writes it to a file.
 
 namespace goffer::clip {
 

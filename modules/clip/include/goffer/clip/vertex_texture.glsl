@@ -2,17 +2,19 @@
 // Plays a vertex-animation texture that goffer wrote: NAME.positions.png and NAME.normals.png, which NAME.json describes.
 //   - Load the images with 16 bits a channel, as numbers: no sRGB, no compression, no mipmaps, no filter. They are
 //     RGB16 for a sampler2D or, as in ES 3.00 and WebGL 2, which have no RGB16, RGB16UI for a usampler2D.
-//   - Row 0 is the image's first, its uppermost. Where a loader turns images upside down, row r is height - 1 - r.
-//   - `vertex` is gl_VertexID where NAME.glb is drawn with its vertices in their order, else int(TEXCOORD_1.x + 0.5).
+//   - Row 0 is the image's first, its uppermost. Where a loader turns images upside down, give GofferClip their height.
+//   - `vertex` is gl_VertexID, in Vulkan gl_VertexIndex, where NAME.mesh.glb is drawn with its vertices in their order,
+//     else int(TEXCOORD_1.x + 0.5).
 // For GLSL 3.30 and ES 3.00 and later, and Vulkan. A fragment shader in ES must say
 // "precision highp float; precision highp int;" first.
 
-// What NAME.json says under the same names.
+// What NAME.json says under the same names, but for `height`.
 struct GofferClip {
     int width;
     int rows_per_frame;
     vec3 low;
     vec3 high;
+    int height; // 0, or that of NAME.json where the loader turned the images upside down
 };
 
 // Two frames, and how far between them a moment is: 0 at the first one, 1 at the second.
@@ -38,7 +40,8 @@ GofferFrames goffer_frames_repeated(float frame, int frames) {
 
 // Where a vertex is in both images.
 ivec2 goffer_texel(int vertex, int frame, GofferClip clip) {
-    return ivec2(vertex % clip.width, frame * clip.rows_per_frame + vertex / clip.width);
+    int row = frame * clip.rows_per_frame + vertex / clip.width;
+    return ivec2(vertex % clip.width, clip.height == 0 ? row : clip.height - 1 - row);
 }
 
 // `texel` has channels of 0 to 1.

@@ -36,11 +36,13 @@ struct VertexTextureLayout {
 
     static constexpr std::size_t largest_side = 16384;  ///< what graphics cards take
     static constexpr std::size_t handy_width = 2048;    ///< what the smallest take: not exceeded without need
-    static constexpr std::size_t most_vertices = std::size_t{1} << 24;  ///< a float counts so many
+    /// Floats hold every whole number up to it, and so the number of each vertex.
+    static constexpr std::size_t most_vertices = std::size_t{1} << 24;
 };
 
-/// Returns the layout of `frames` frames of `vertices` vertices, both 1 or more; nothing where they do not
-/// fit into `largest_side` squared, or are more than `most_vertices`.
+/// Returns the layout of `frames` frames of `vertices` vertices; nothing where either is 0, there are more
+/// than `most_vertices`, or the images would need more than `largest_side` rows. Frames share no rows: each
+/// takes vertices / `largest_side` of them, rounded up, or more. Thread-safe.
 [[nodiscard]] std::optional<VertexTextureLayout> vertex_texture_layout(std::size_t vertices,
                                                                        std::size_t frames) noexcept;
 
@@ -61,15 +63,24 @@ struct VertexTexture {
     std::vector<std::filesystem::path> files;  ///< all of them, `file` first
 };
 
+/// Returns the files that save_vertex_texture() writes for `file`, in the order of VertexTexture::files: to
+/// refuse an output that would replace an input, before any work is done. Touches none of them. Throws
+/// io::Error if the name of `file` does not end in .json.
+[[nodiscard]] std::vector<std::filesystem::path> vertex_texture_files(const std::filesystem::path& file);
+
 /// Writes `frames` as a vertex-animation texture. `file` is the JSON that describes it, NAME.json; beside it
-/// are NAME.positions.png, NAME.normals.png, NAME.glb and NAME.glsl: the two images, the mesh at rest, and
-/// the text of vertex_texture.glsl. `arrays` are those of `model` that the frames are of: by vertex_arrays(),
-/// or by vertex_arrays_with_uvs() to keep texture coordinates. The GLB has its entries in their order, once
-/// each, their coordinates as TEXCOORD_0, and their numbers as the first component of TEXCOORD_1.
+/// are NAME.positions.png, NAME.normals.png, NAME.mesh.glb and NAME.glsl: the two images, the mesh at rest,
+/// and the text of vertex_texture.glsl. Files that are there are replaced. The JSON has U+FFFD in the place
+/// of bytes of their names that are not UTF-8.
+///
+/// `arrays` are those of `model` that the frames are of: by vertex_arrays(), or by vertex_arrays_with_uvs()
+/// to keep texture coordinates. The GLB has its entries in their order, once each, their coordinates as
+/// TEXCOORD_0, and their numbers as the first component of TEXCOORD_1.
 ///
 /// Frames are read twice, for the bounds and for the texels; one is in memory at a time. Files are `files`'
 /// to put in their places. Throws io::Error if a file cannot be written, its name does not end in .json,
-/// frames do not fit the arrays or the layout, or a position is not finite.
+/// frames do not fit the arrays, vertex_texture_layout() has nothing for them, or a position is not finite;
+/// and mesh::Error, before any frame is read, if mesh::save() refuses the mesh at rest.
 VertexTexture save_vertex_texture(Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays,
                                   const std::filesystem::path& file, io::AtomicFiles& files,
                                   TexturePlacement placement = TexturePlacement::baked);
