@@ -142,8 +142,8 @@ SceneGroup read_group(const Members& fields, const Scene& scene, const io::Named
 
 glm::dmat4x3 place_in(const SceneGroup& group, std::uint64_t index) {
     glm::dmat4x3 place = group.place;
-    place[3] += static_cast<double>(index % group.columns) * group.right +
-                static_cast<double>(index / group.columns) * group.back;
+    const std::uint64_t column = index % group.columns, row = index / group.columns;
+    place[3] += static_cast<double>(column) * group.right + static_cast<double>(row) * group.back;
     return place;
 }
 
