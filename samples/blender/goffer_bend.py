@@ -346,11 +346,6 @@ def poses_of(settings, body):
     return [(settings.angles[r], settings.directions[r]) for r in body.regions]
 
 
-def bent(obj, poses):
-    body, scale = body_of(obj)
-    return body.bend(poses, obj.goffer_bend.wrinkles) / scale
-
-
 def add_key(obj, name, positions):
     settings = obj.goffer_bend
     if obj.data.shape_keys is None:
@@ -425,7 +420,7 @@ def describe(obj, body, poses):
     if any(abs(angle) > limit for (angle, _), limit in zip(poses, body.limits)):
         warnings.append("The angle is beyond the largest, and is taken for that")
     for r in body.regions:
-        text, by_rows = too_few(body, r, settings)
+        text, by_rows = too_few(body.folds[r], settings)
         if text:
             warnings.append(f"Region {r + 1}: {text}" if len(body.regions) > 1 else text)
         mended = mended or by_rows
@@ -436,23 +431,15 @@ def describe(obj, body, poses):
     settings.facts, settings.warnings, settings.needs_rows = "\n".join(facts), "\n".join(warnings), mended
 
 
-def wants_folds(r, settings):
-    """Whether any are asked for, of as much of the region as From and To leave."""
-    shares = shares_of(settings) or [1]
-    low = sum(shares[:r])
-    left = min(low + shares[r], settings.wrinkle_last) - max(low, settings.wrinkle_first)
-    return settings.amplitude != "NONE" and settings.folds != 0 and left > 1e-6
-
-
 def is_ranged(settings):
     return settings.wrinkle_first > 0 or settings.wrinkle_last < 1
 
 
-def too_few(body, r, settings):
+def too_few(folds, settings):
     """What to say of a region with too few folds, and whether more rows may mend it. The command warns of the same."""
-    folds, even, asked = body.folds[r], settings.profile == "EVEN", settings.folds > 0
+    even, asked = settings.profile == "EVEN", settings.folds > 0
     wanted = settings.folds if asked else folds.suitable
-    if not wants_folds(r, settings) or wanted == 0:
+    if settings.amplitude == "NONE" or settings.folds == 0 or wanted == 0:
         return "", False
     if is_ranged(settings) and not asked:
         return ("", False) if folds.made > 0 else (
@@ -466,10 +453,9 @@ def too_few(body, r, settings):
             "or Blender's Subdivide", True)
 
 
-def lacks_folds(body, r, settings):
+def lacks_folds(folds, settings):
     """Whether more rows might make more folds, few enough to warn of or not."""
-    folds = body.folds[r]
-    if not wants_folds(r, settings) or folds.suitable == 0:
+    if settings.amplitude == "NONE" or settings.folds == 0 or folds.suitable == 0:
         return False
     if settings.folds > 0:
         return folds.capacity < settings.folds
@@ -660,7 +646,7 @@ class GOFFER_OT_bend(Operator):
             for r, share in enumerate(shares_of(settings) or [1]):
                 settings.angles[r], settings.directions[r] = self.angle * share, self.direction
             body, _ = body_of(obj)
-            bent(obj, poses_of(settings, body))
+            body.bend(poses_of(settings, body), settings.wrinkles)  # refuses what show() would
         except Fault:
             for name, value in before.items():
                 setattr(settings, name, value)
@@ -751,7 +737,8 @@ class GOFFER_OT_bake(Operator):
         target = poses_of(obj.goffer_bend, body)
 
         def at(t):
-            return bent(obj, [pose_between(rest, pose, t) for rest, pose in zip(body.rest, target)])
+            poses = [pose_between(rest, pose, t) for rest, pose in zip(body.rest, target)]
+            return body.bend(poses, obj.goffer_bend.wrinkles) / scale
 
         shapes = [rest_of(obj.data)]
         shapes += [at((k + 1) / self.count) for k in range(self.count)]
@@ -947,7 +934,7 @@ class GOFFER_OT_add_rows(Operator):
         settings, (body, scale) = obj.goffer_bend, body_of(obj)
 
         def lacking():
-            return any(lacks_folds(body, r, settings) for r in body.regions)
+            return any(lacks_folds(folds, settings) for folds in body.folds)
 
         def carried():
             return sum(min(folds.capacity, settings.folds) if settings.folds > 0 else folds.made

@@ -79,7 +79,7 @@ def limit_second_pass(obj):
 
 
 def check_range():
-    """Folds that find no room between From and To are not blamed on the mesh alone; rows that do not help are not kept."""
+    """Folds that find no room between From and To are not blamed on the mesh alone; rows that help nothing go."""
     obj = tube(rows=257)
     bend(60)
     settings = obj.goffer_bend
