@@ -3,6 +3,7 @@
 
 The deformation is libgoffer's (modules/c/include/goffer.h), called by ctypes and NumPy. The rest shape is the mesh's
 own Basis, which bending never writes; what is bent lies in a shape key, so that Blender saves, undoes and copies it.
+All is in one file, since that is what Blender installs.
 """
 
 import collections
@@ -647,7 +648,7 @@ class GOFFER_OT_bend(Operator):
                 settings.angles[r], settings.directions[r] = self.angle * share, self.direction
             body, _ = body_of(obj)
             body.bend(poses_of(settings, body), settings.wrinkles)  # refuses what show() would
-        except Fault:
+        except Exception:
             for name, value in before.items():
                 setattr(settings, name, value)
             settings.active = was_active
