@@ -3,6 +3,7 @@
 
 The deformation is libgoffer's (modules/c/include/goffer.h), called by ctypes and NumPy. The rest shape is the mesh's
 own Basis, which bending never writes; what is bent lies in a shape key, so that Blender saves, undoes and copies it.
+All is in one file, since that is what Blender installs.
 """
 
 import collections
@@ -184,13 +185,14 @@ class Body:
 
 
 class Store:
-    """The library, and the bodies of last use. They are known by their contents, so that undo, a reload and other
-    objects find the right one or none."""
+    """The library, the body of each object that is bent, and the KEPT others of last use. They are known by their
+    contents, so that undo, a reload and other objects find the right one or none."""
 
     KEPT = 8
 
     def __init__(self):
         self.path, self.found, self.bodies = None, None, collections.OrderedDict()
+        self.of_object = {}  # by its name, what its body is known by
 
     def library(self):
         path = preferred_path()
@@ -205,25 +207,38 @@ class Store:
             raise self.found
         return self.found
 
-    def body(self, positions, triangles, mask, settings):
+    def body(self, positions, triangles, mask, settings, user=None):
+        """`user` names the object that the body is of."""
         library = self.library()
         options, words = bind_options(library, settings)
         if len(positions) == 0 or len(triangles) == 0:
             raise Fault("This mesh has no faces: there is nothing to bend")
         name = hashlib.blake2b(positions.tobytes() + triangles.tobytes() +
                                (b"" if mask is None else mask.tobytes()) + repr(words).encode()).digest()
-        if name in self.bodies:
-            self.bodies.move_to_end(name)
-            return self.bodies[name]
-        self.bodies[name] = Body(library, positions, triangles, mask, options)
-        if len(self.bodies) > self.KEPT:
-            self.bodies.popitem(last=False)[1].free()
+        known = name in self.bodies
+        if not known:
+            self.bodies[name] = Body(library, positions, triangles, mask, options)
+        self.bodies.move_to_end(name)
+        if user is not None:
+            self.of_object[user] = name
+        if not known:
+            self.trim()
         return self.bodies[name]
+
+    def trim(self):
+        """Frees those that no object is bent by, but for the KEPT last."""
+        objects = ((user, bpy.data.objects.get(user)) for user in list(self.of_object))
+        self.of_object = {user: self.of_object[user] for user, obj in objects
+                          if obj is not None and obj.goffer_bend.active}
+        used = set(self.of_object.values())
+        for name in [name for name in self.bodies if name not in used][:-self.KEPT]:
+            self.bodies.pop(name).free()
 
     def clear(self):
         for body in self.bodies.values():
             body.free()
         self.bodies.clear()
+        self.of_object.clear()
         self.path = self.found = None
 
 
@@ -295,40 +310,41 @@ def coordinates(elements):
     return result
 
 
-def mask_of(obj):
-    """How much each vertex wrinkles: its weight in the group that was chosen. None: fully."""
+def rest_of(mesh):
+    return coordinates(mesh.shape_keys.key_blocks[0].data if mesh.shape_keys else mesh.vertices)
+
+
+def mask_of(obj, mesh):
+    """How much each vertex of `mesh` wrinkles: its weight in the object's group that was chosen. None: fully."""
     name = obj.goffer_bend.mask
     if not name:
         return None
     group = obj.vertex_groups.get(name)
     if group is None:
         raise Fault(f"This object has no vertex group '{name}': choose another under Folds, or none")
-    mask = np.zeros(len(obj.data.vertices), np.float32)
-    for vertex in obj.data.vertices:
+    mask, wanted = np.zeros(len(mesh.vertices), np.float32), group.index
+    for i, vertex in enumerate(mesh.vertices):  # foreach_get has no weights, and nothing says that they have changed
         for element in vertex.groups:
-            if element.group == group.index:
-                mask[vertex.index] = element.weight
+            if element.group == wanted:
+                mask[i] = element.weight
+                break
     return mask
 
 
-def body_of(obj):
-    """The body of the object's rest shape, and the scale that it was bound in."""
+def body_of(obj, trial=None):
+    """The body of the object's rest shape, or of a `trial` mesh in its place, and the scale that it was bound in."""
     check_object(obj)
-    mesh, scale = obj.data, scale_of(obj)
-    positions = coordinates(mesh.shape_keys.key_blocks[0].data if mesh.shape_keys else mesh.vertices)
+    mesh, scale = trial or obj.data, scale_of(obj)
+    positions = rest_of(mesh)
     mesh.calc_loop_triangles()
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return store.body(positions * scale, triangles.astype(np.uint32), mask_of(obj), obj.goffer_bend), scale
+    return store.body(positions * scale, triangles.astype(np.uint32), mask_of(obj, mesh), obj.goffer_bend,
+                      None if trial else obj.name), scale
 
 
 def poses_of(settings, body):
     return [(settings.angles[r], settings.directions[r]) for r in body.regions]
-
-
-def bent(obj, poses):
-    body, scale = body_of(obj)
-    return body.bend(poses, obj.goffer_bend.wrinkles) / scale
 
 
 def add_key(obj, name, positions):
@@ -368,6 +384,27 @@ def remove_property(obj):
     del obj[BENT]
 
 
+def remove_animation(obj):
+    """Removes what animates the sliders. Returns the names of actions that others play too, which keep it."""
+    animation, prefix, shared = obj.animation_data, "goffer_bend.", set()
+    if animation is None:
+        return []
+    for driver in [driver for driver in animation.drivers if driver.data_path.startswith(prefix)]:
+        animation.drivers.remove(driver)
+    strips = [strip for track in animation.nla_tracks for strip in track.strips]
+    actions = [action for action in (animation.action, *(strip.action for strip in strips)) if action is not None]
+    for action in dict.fromkeys(actions):
+        curves = [curve for curve in action.fcurves if curve.data_path.startswith(prefix)]
+        if curves and action.users - action.use_fake_user > actions.count(action):
+            shared.add(action.name)
+            continue
+        for curve in curves:
+            action.fcurves.remove(curve)
+        if curves and not action.fcurves and action == animation.action:
+            animation.action = None
+    return sorted(shared)
+
+
 def degrees(radians):
     return f"{math.degrees(radians):.4g}\u00b0"
 
@@ -380,38 +417,50 @@ def describe(obj, body, poses):
     facts = [f"Length {base.length:.4g}", f"Radius {base.radius:.4g}", f"Largest angle {largest}", f"Folds {made}"]
     if base.rest_angle:
         facts.append(f"At rest bent by {degrees(base.rest_angle)} toward {degrees(base.rest_direction)}")
-    warnings = []
+    warnings, mended = [], False
     if any(abs(angle) > limit for (angle, _), limit in zip(poses, body.limits)):
         warnings.append("The angle is beyond the largest, and is taken for that")
-    if settings.amplitude != "NONE":
-        coarse = [r for r in body.regions if too_coarse(body.folds[r], settings)]
-        for r in coarse:
-            folds, where = body.folds[r], f"Region {r + 1}: " if len(body.regions) > 1 else ""
-            wanted = max(settings.folds, 0) or folds.suitable
-            warnings.append(f"{where}{folds.made} folds; {wanted} need a finer mesh, this one has vertices for "
-                            f"{folds.capacity}. Add Rows, or Blender's Subdivide")
+    for r in body.regions:
+        text, by_rows = too_few(body.folds[r], settings)
+        if text:
+            warnings.append(f"Region {r + 1}: {text}" if len(body.regions) > 1 else text)
+        mended = mended or by_rows
     if base.residual > 0.6:
         warnings.append("The body is no cylinder and may look odd when bent: try another axis")
     if (scale_of(obj) != 1).any():
         warnings.append("The object's scale is uneven: it is bent as it looks. Apply the scale to be rid of this")
-    settings.facts, settings.warnings = "\n".join(facts), "\n".join(warnings)
+    settings.facts, settings.warnings, settings.needs_rows = "\n".join(facts), "\n".join(warnings), mended
 
 
-def too_coarse(folds, settings):
-    """The command warns of the same."""
-    if settings.folds > 0:
-        return folds.capacity < settings.folds
-    if settings.folds == 0:
-        return False
-    least = 2 * folds.suitable / 3 if settings.profile == "EVEN" else 1
-    return folds.made < min(folds.suitable, least)
+def is_ranged(settings):
+    return settings.wrinkle_first > 0 or settings.wrinkle_last < 1
+
+
+def too_few(folds, settings):
+    """What to say of a region with too few folds, and whether more rows may mend it. The command warns of the same."""
+    even, asked = settings.profile == "EVEN", settings.folds > 0
+    wanted = settings.folds if asked else folds.suitable
+    if settings.amplitude == "NONE" or settings.folds == 0 or wanted == 0:
+        return "", False
+    if is_ranged(settings) and not asked:
+        return ("", False) if folds.made > 0 else (
+            "0 folds: what From and To leave is too short for them to fade in, or its rows are too far apart. "
+            "Take more of the length, or Add Rows", True)
+    if even and not asked and folds.made == 0 and folds.capacity >= wanted:
+        return "0 folds: in so long a body they would be longer than 2.5 radii. Give it Regions, under Body", False
+    if folds.capacity >= wanted if asked else 3 * folds.made >= 2 * wanted if even else folds.made > 0:
+        return "", False
+    return (f"{folds.made} folds; {wanted} need a finer mesh, this one has vertices for {folds.capacity}. Add Rows, "
+            "or Blender's Subdivide", True)
 
 
 def lacks_folds(folds, settings):
-    """Whether more rows would make more folds, few enough to warn of or not."""
-    if settings.amplitude == "NONE" or settings.folds >= 0:
-        return settings.amplitude != "NONE" and too_coarse(folds, settings)
-    return folds.made < folds.suitable
+    """Whether more rows might make more folds, few enough to warn of or not."""
+    if settings.amplitude == "NONE" or settings.folds == 0 or folds.suitable == 0:
+        return False
+    if settings.folds > 0:
+        return folds.capacity < settings.folds
+    return folds.made == 0 if is_ranged(settings) else folds.made < folds.suitable
 
 
 def show(obj, evaluated=None):
@@ -478,6 +527,7 @@ class GofferBend(bpy.types.PropertyGroup):
     made_basis: bpy.props.BoolProperty(options=set())
     facts: bpy.props.StringProperty()
     warnings: bpy.props.StringProperty()
+    needs_rows: bpy.props.BoolProperty(options=set())
     fault: bpy.props.StringProperty()
     angles: bpy.props.FloatVectorProperty(
         name="Angle", description="From straight, for each region; at most the largest", size=MAX_REGIONS,
@@ -587,23 +637,41 @@ class GOFFER_OT_bend(Operator):
     def work(self, _context, obj):
         settings = obj.goffer_bend
         check_object(obj)
-        was_active, settings.active = settings.active, False
+        chosen = {name: getattr(self, name) for name in ("wrinkles", "profile", "amplitude", "folds")}
+        before = {name: getattr(settings, name) for name in chosen}
+        before.update((name, tuple(getattr(settings, name))) for name in ("angles", "directions"))
+        was_active, settings.active = settings.active, False  # so that no slider follows
         try:
-            for name in ("wrinkles", "profile", "amplitude", "folds"):
-                setattr(settings, name, getattr(self, name))
+            for name, value in chosen.items():
+                setattr(settings, name, value)
             for r, share in enumerate(shares_of(settings) or [1]):
                 settings.angles[r], settings.directions[r] = self.angle * share, self.direction
-            body_of(obj)
-            remove_keys(obj, (BAKED_KEY, FRAME_KEY))
-            remove_property(obj)
-            show(obj)
-            was_active, settings.fault = True, ""
-        finally:
+            body, _ = body_of(obj)
+            body.bend(poses_of(settings, body), settings.wrinkles)  # refuses what show() would
+        except Exception:
+            for name, value in before.items():
+                setattr(settings, name, value)
             settings.active = was_active
+            raise
+        settings.active, settings.fault = True, ""
+        remove_keys(obj, (BAKED_KEY, FRAME_KEY))
+        remove_property(obj)
+        show(obj)
+
+
+class GOFFER_OT_update(Operator):
+    """Bend the object anew, as its mesh and its weights are by now"""
+
+    bl_idname, bl_label = "object.goffer_update", "Update"
+
+    def work(self, _context, obj):
+        need_active(obj)
+        show(obj)
+        obj.goffer_bend.fault = ""
 
 
 class GOFFER_OT_reset(Operator):
-    """Give the rest shape back, and remove all that this add-on has added to the object"""
+    """Give the rest shape back, and remove the keys, the property and the animation of the sliders"""
 
     bl_idname, bl_label = "object.goffer_reset", "Reset"
 
@@ -613,7 +681,13 @@ class GOFFER_OT_reset(Operator):
         settings.active = False
         remove_keys(obj, (LIVE_KEY, BAKED_KEY, FRAME_KEY))
         remove_property(obj)
+        shared = remove_animation(obj)
         settings.facts = settings.warnings = settings.fault = ""
+        settings.needs_rows = False
+        store.trim()
+        if shared:
+            self.report({"INFO"}, "The sliders' animation stays in an action that other objects play, too: " +
+                        ", ".join(shared))
 
 
 def pose_between(rest, pose, t):
@@ -641,6 +715,13 @@ def set_linear(animated, path):
         point.interpolation = "LINEAR"
 
 
+def farthest(shapes, at, scale):
+    """How far a vertex that moves straight from each shape to the next gets from where at(t) has it, t in [0, 1]."""
+    count, parts = len(shapes) - 1, 10
+    return max(np.linalg.norm((at((k + i / parts) / count) - shapes[k] * (1 - i / parts) - shapes[k + 1] * i / parts)
+                              * scale, axis=1).max() for k in range(count) for i in range(1, parts))
+
+
 class GOFFER_OT_bake(Operator):
     """Make shape keys from rest to the current pose, played by the custom property goffer_bent"""
 
@@ -653,17 +734,16 @@ class GOFFER_OT_bake(Operator):
 
     def work(self, context, obj):
         need_active(obj)
-        body, _ = body_of(obj)
+        body, scale = body_of(obj)
         target = poses_of(obj.goffer_bend, body)
 
         def at(t):
-            return bent(obj, [pose_between(rest, pose, t) for rest, pose in zip(body.rest, target)])
+            poses = [pose_between(rest, pose, t) for rest, pose in zip(body.rest, target)]
+            return body.bend(poses, obj.goffer_bend.wrinkles) / scale
 
-        shapes = [coordinates(obj.data.shape_keys.key_blocks[0].data)]
+        shapes = [rest_of(obj.data)]
         shapes += [at((k + 1) / self.count) for k in range(self.count)]
-        off = max(np.abs(at((k + 0.5) / self.count) - (shapes[k] + shapes[k + 1]) / 2).max()
-                  for k in range(self.count))
-        extent = np.ptp(shapes[0], axis=0).max()
+        off = farthest(shapes, at, scale) / np.ptp(shapes[0] * scale, axis=0).max()
         obj.goffer_bend.active = False
         remove_keys(obj, (LIVE_KEY, BAKED_KEY, FRAME_KEY))
         remove_property(obj)
@@ -679,9 +759,10 @@ class GOFFER_OT_bake(Operator):
             set_linear(obj, f'["{BENT}"]')
             context.scene.frame_set(context.scene.frame_current)
         obj.data.update()
+        store.trim()
         obj.goffer_bend.fault = ""
-        self.report({"INFO"}, f"{self.count} keys; between them a vertex is off by at most "
-                    f"{100 * off / extent:.2g} % of the body's size")
+        self.report({"INFO"}, f"{self.count} keys; between them a vertex is off by up to about "
+                    f"{100 * off:.2g} % of the body's size")
 
 
 class GOFFER_OT_bake_frames(Operator):
@@ -691,7 +772,8 @@ class GOFFER_OT_bake_frames(Operator):
 
     start: bpy.props.IntProperty(name="First Frame", default=1)
     end: bpy.props.IntProperty(name="Last Frame", default=250)
-    step: bpy.props.IntProperty(name="Step", description="Frames from key to key", default=1, min=1)
+    step: bpy.props.IntProperty(name="Step", description="Frames from key to key; the last frame has one in any case",
+                              default=1, min=1)
 
     def invoke(self, context, _event):
         self.start, self.end = context.scene.frame_start, context.scene.frame_end
@@ -699,7 +781,7 @@ class GOFFER_OT_bake_frames(Operator):
 
     def work(self, context, obj):
         need_active(obj)
-        frames = list(range(self.start, self.end + 1, self.step))
+        frames = list(range(self.start, self.end, self.step)) + [self.end] * (self.start <= self.end)
         if not 2 <= len(frames) <= 1000:
             raise Fault(f"{len(frames)} frames are to be baked: take 2 to 1000, or another step")
         shapes, poses = self.shapes(context, obj, frames)
@@ -715,6 +797,7 @@ class GOFFER_OT_bake_frames(Operator):
                     key.value = value
                     key.keyframe_insert("value", frame=frames[near])
             set_linear(obj.data.shape_keys, key.path_from_id("value"))
+        store.trim()
         obj.goffer_bend.fault = ""
         context.scene.frame_set(context.scene.frame_current)
         self.report({"INFO"}, f"{len(frames)} keys for frames {frames[0]} to {frames[-1]}")
@@ -820,14 +903,15 @@ class Cutter:
         return [part for part in made["geom"] if isinstance(part, bmesh.types.BMFace)]
 
 
-def cut_rows(mesh, uncut, body, scale, rows):
-    """Makes `mesh` from `uncut` and rows."""
+def cut_rows(uncut, body, scale, rows):
+    """A copy of `uncut` with the rows."""
     edit = uncut.copy()
     try:
         Cutter(edit, body.base, scale, rows).cut(list(edit.faces), 0, len(rows))
-        edit.to_mesh(mesh)
-    finally:
+    except Fault:
         edit.free()
+        raise
+    return edit
 
 
 class GOFFER_OT_add_rows(Operator):
@@ -837,21 +921,52 @@ class GOFFER_OT_add_rows(Operator):
 
     def work(self, _context, obj):
         need_active(obj)
-        settings, before, uncut = obj.goffer_bend, len(obj.data.vertices), bmesh.new()
-        body_of(obj)
-        remove_keys(obj, (LIVE_KEY,))
+        before = len(obj.data.vertices)
+        if not self.cut(obj):
+            self.report({"INFO"}, "The mesh has vertices for its folds: no rows are needed")
+            return
+        show(obj)
+        obj.goffer_bend.fault = ""
+        self.report({"INFO"}, f"{before} vertices before, {len(obj.data.vertices)} with the new rows")
+
+    @staticmethod
+    def cut(obj):
+        """Tries rows on a mesh aside, and gives the object those that make the most folds. False: none are needed."""
+        settings, (body, scale) = obj.goffer_bend, body_of(obj)
+
+        def lacking():
+            return any(lacks_folds(folds, settings) for folds in body.folds)
+
+        def carried():
+            return sum(min(folds.capacity, settings.folds) if settings.folds > 0 else folds.made
+                       for folds in body.folds)
+
+        if not lacking():
+            return False
+        uncut, kept, most, trial = bmesh.new(), None, carried(), bpy.data.meshes.new("goffer rows")
+        held = [uncut]
         try:
             uncut.from_mesh(obj.data)
             for times in (1, 1.25, 1.5, 2, 4):  # thin parts have shorter folds
-                body, scale = body_of(obj)
-                if not any(lacks_folds(folds, settings) for folds in body.folds):
+                held.append(cut_rows(uncut, body, scale, row_heights(body, settings, times)))
+                held[-1].to_mesh(trial)
+                body, _ = body_of(obj, trial)
+                if carried() > most:
+                    most, kept = carried(), held[-1]
+                for edit in [edit for edit in held[1:] if edit is not kept]:
+                    held.remove(edit)
+                    edit.free()
+                if not lacking():
                     break
-                cut_rows(obj.data, uncut, body, scale, row_heights(body, settings, times))
+            if kept is None:
+                raise Fault("More rows make no more folds" + (": From and To leave too little of the length"
+                                                              if is_ranged(settings) else " in this mesh"))
+            kept.to_mesh(obj.data)
         finally:
-            uncut.free()
-            show(obj)
-        settings.fault = ""
-        self.report({"INFO"}, f"{before} vertices before, {len(obj.data.vertices)} with the new rows")
+            for edit in held:
+                edit.free()
+            bpy.data.meshes.remove(trial)
+        return True
 
 
 # ---- The panel ----
@@ -900,7 +1015,7 @@ class GOFFER_PT_panel(Panel):
             self.draw_pose(self.prepared(layout, animated=True), settings)
             if settings.warnings:
                 lines(layout, settings.warnings, width, "INFO")
-            if "Add Rows" in settings.warnings:
+            if settings.needs_rows:
                 layout.operator("object.goffer_add_rows")
             layout.operator("object.goffer_bake")
             layout.operator("object.goffer_bake_frames")
@@ -941,6 +1056,8 @@ class GOFFER_PT_folds(SubPanel):
         for name in ("onset", "wrinkle_first", "wrinkle_last"):
             column.prop(settings, name)
         column.prop_search(settings, "mask", context.object, "vertex_groups")
+        if settings.mask:  # weights are read when it is bent, not while they are painted
+            column.operator("object.goffer_update")
 
 
 class GOFFER_PT_body(SubPanel):
@@ -955,8 +1072,8 @@ class GOFFER_PT_body(SubPanel):
             column.prop(settings, name)
 
 
-CLASSES = (GofferBend, GofferPreferences, GOFFER_OT_bend, GOFFER_OT_reset, GOFFER_OT_bake, GOFFER_OT_bake_frames,
-           GOFFER_OT_add_rows, GOFFER_PT_panel, GOFFER_PT_folds, GOFFER_PT_body)
+CLASSES = (GofferBend, GofferPreferences, GOFFER_OT_bend, GOFFER_OT_update, GOFFER_OT_reset, GOFFER_OT_bake,
+           GOFFER_OT_bake_frames, GOFFER_OT_add_rows, GOFFER_PT_panel, GOFFER_PT_folds, GOFFER_PT_body)
 
 
 def register():
