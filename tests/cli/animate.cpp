@@ -199,6 +199,16 @@ TEST_CASE("animate: animated glTF and a vertex-animation texture") {
     CHECK(gltf["bytes"] == bytes_of(folder / "worm.glb").size());
     CHECK(mesh::load(folder / "worm.glb").positions.size() ==
           mesh::load(folder / "base.ply").positions.size());
+    const json few = report(folder, Words{"animate", "base.ply", "-o", "worm.glb", "--targets", "1"} + swing);
+    CHECK(few["gltf"]["targets"] == 1);
+    const json exact =
+        report(folder, Words{"animate", "base.ply", "-o", "worm.glb", "--max-error", "0.01"} + swing);
+    CHECK(exact["gltf"]["targets"].get<int>() > gltf["gltf"]["targets"].get<int>());
+    CHECK(exact["gltf"]["max_error"].get<double>() < 1e-4 * 10.2);
+    for (const Words& more : {Words{"--targets", "3"}, Words{"--max-error", "1"}})
+        CHECK(run(folder, Words{"animate", "base.ply", "-o", "worm.mdd"} + swing + more).code == 2);
+    mesh::save(mesh::load(folder / "base.ply"), folder / "worm.mesh.glb");
+    CHECK(run(folder, Words{"animate", "worm.mesh.glb", "-o", "worm.json"} + swing).code == 2);
     const json texture = report(folder, Words{"animate", "base.ply", "-o", "worm.json"} + swing);
     CHECK(texture["texture"]["files"].size() == 5);
     CHECK(texture["texture"]["position_error"].get<double>() < 1e-3);

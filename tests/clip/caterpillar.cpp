@@ -30,7 +30,7 @@ TEST_CASE("clip: 300 frames of the caterpillar on its way take less than 5 MB, h
             report.max_angle, " and ", report.rms_angle);
     CHECK(static_cast<double>(report.bytes) < 5 * megabyte);
     CHECK(report.within);
-    CHECK(report.max_error <= 2e-3 * report.size);
+    CHECK(report.max_error <= clip::GltfOptions{}.max_error * report.size);
     CHECK(report.rms_error <= 3e-4 * report.size);
     check_valid({folder / "clip.glb"}, true);
     const Player player(bytes_of(folder / "clip.glb"));

@@ -43,7 +43,7 @@ std::size_t vertices_of_file(const Animation& animation) {
 
 void write_gltf(Animation& animation) {
     CountedFrames frames(animation.frames, "writing " + animation.output.string(), 0);
-    clip::GltfOptions options;
+    clip::GltfOptions options = animation.gltf;
     options.memory = animation.limits.memory / 2;
     const clip::GltfReport done =
         clip::save_gltf(animation.frames.model().mesh, frames, options, animation.output, animation.outputs);
@@ -57,9 +57,9 @@ void write_gltf(Animation& animation) {
                                          " of which frames are blended, within " + number(done.max_error) +
                                          " of them");
     if (!done.within)
-        animation.report.warn("more targets do not fit into memory: frames are off by more than " +
-                              number(100 * options.max_error) +
-                              " % of the size; allow more with --max-memory");
+        animation.report.warn(
+            "frames are off by more than " + number(100 * options.max_error) + " % of the size; allow " +
+            (done.targets == options.targets ? "more --targets" : "more with --max-memory"));
 }
 
 void write_mdd(Animation& animation) {

@@ -81,15 +81,11 @@ void run_animate(const AnimateOptions& options) {
     if (model.growth) report_growth(report, *model.growth);
     report_motion(report, request, options, seen, model);
     io::AtomicFiles outputs;
-    Animation animation{frames,
-                        seen,
-                        options.output,
-                        request.pattern,
-                        request.picture,
-                        options.bind.load.limits,
-                        usable_threads(options.threads),
-                        outputs,
-                        report};
+    Animation animation{frames,          seen,
+                        options.output,  request.pattern,
+                        request.picture, options.bind.load.limits,
+                        request.gltf,    usable_threads(options.threads),
+                        outputs,         report};
     const auto start = std::chrono::steady_clock::now();
     in_file(options.model, [&] { request.writer->write(animation); });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
@@ -136,6 +132,15 @@ void add_animate(CLI::App& app, Action& action) {
     add_refine_word(*command, options->bind, "auto");
     options->bind.choices.push_back(command->get_option("--regions"));
     add_level_word(*command, options->bind.level);
+    command
+        ->add_option("--max-error", options->max_error,
+                     "Blend so few shapes in animated glTF that no vertex is off by more than this, per cent "
+                     "of the model's size [0.4]")
+        ->check(number_within(0, 100, "a share in per cent"));
+    command
+        ->add_option("--targets", options->targets,
+                     "Blend at most so many shapes in animated glTF; the report says how far off that is")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{65535}));
     command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();
     command

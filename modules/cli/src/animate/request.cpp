@@ -4,9 +4,11 @@
 #include "motion/document.hpp"
 #include "picture.hpp"
 
+#include <goffer/clip/vertex_texture.hpp>
 #include <goffer/io/error.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace goffer::cli {
 namespace {
@@ -130,9 +132,25 @@ void AnimateRequest::read_outputs(const AnimateOptions& options) {
         if (said && !pictures_wanted)
             throw UsageError(std::string(option) + ": belongs to pictures; give -o a name such as %04d.png");
     }
+    const bool gltf_wanted = !pattern && writer->write == &write_gltf;
+    for (const auto& [said, option] : {std::pair(options.max_error.has_value(), "--max-error"),
+                                       std::pair(options.targets.has_value(), "--targets")}) {
+        if (said && !gltf_wanted)
+            throw UsageError(std::string(option) +
+                             ": belongs to animated glTF; give -o a name such as out.glb");
+    }
+    if (options.max_error) gltf.max_error = *options.max_error / 100;
+    gltf.targets = options.targets;
     const std::vector<NamedFile> inputs = {
         {"MODEL", options.model}, {"--keys", options.keys}, {"--path", options.path.file}};
-    check_places(inputs, {{"-o", options.output}, {"--json", options.json}});
+    std::vector<NamedFile> outputs = {{"--json", options.json}};
+    if (writer->write == &write_vertex_texture) {
+        for (std::filesystem::path& file : clip::vertex_texture_files(options.output))
+            outputs.push_back({"-o", std::move(file)});
+    } else {
+        outputs.push_back({"-o", options.output});
+    }
+    check_places(inputs, outputs);
     for (const NamedFile& input : inputs) {
         if (pattern && !input.file.empty() && pattern->holds(input.file))
             throw UsageError("-o: " + options.output.string() + " would replace the file of " +

@@ -34,6 +34,8 @@ struct AnimateOptions {
     std::string isa = "auto";
     int threads = 0;
     std::optional<std::string> size, camera;
+    std::optional<double> max_error;  ///< of animated glTF, per cent of the size
+    std::optional<std::size_t> targets;
     std::filesystem::path json;
 };
 
@@ -50,6 +52,7 @@ struct AnimateRequest {
     const Writer* writer = nullptr;
     std::optional<SurveyView> pictures;
     view::Settings picture;
+    clip::GltfOptions gltf;
 
     AnimateRequest(const AnimateOptions& options, const ModelFile& file);
 

@@ -6,6 +6,7 @@
 #include "looks.hpp"
 #include "report.hpp"
 
+#include <goffer/clip/gltf.hpp>
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/view/picture.hpp>
 
@@ -40,6 +41,7 @@ struct Animation {
     const std::optional<Pattern>& pattern;
     const view::Settings& picture;
     const mesh::Limits& limits;
+    const clip::GltfOptions& gltf;
     int threads = 1;
     io::AtomicFiles& outputs;  ///< for what is one file; those of a sequence take their places one by one
     Report& report;

@@ -20,7 +20,7 @@ struct GltfOptions {
     /// What a vertex may be off at most, as a share of the mesh's largest extent at rest, or by
     /// the rounding of floats if that is more. As few targets are taken as that asks for. Finite and not
     /// below 0.
-    double max_error = 2e-3;
+    double max_error = 4e-3;
 
     /// How many targets there may be at most, 1 or more; the error then is what it is. Unset: as many as
     /// `max_error` asks for.
