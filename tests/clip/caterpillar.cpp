@@ -31,7 +31,7 @@ TEST_CASE("clip: 300 frames of the caterpillar on its way take less than 5 MB, h
     CHECK(static_cast<double>(report.bytes) < 5 * megabyte);
     CHECK(report.within);
     CHECK(report.max_error <= clip::GltfOptions{}.max_error * report.size);
-    CHECK(report.rms_error <= 3e-4 * report.size);
+    CHECK(report.rms_error <= 8e-4 * report.size);
     check_valid({folder / "clip.glb"}, true);
     const Player player(bytes_of(folder / "clip.glb"));
     for (const std::size_t f : {0u, 17u, 150u, 299u}) {
