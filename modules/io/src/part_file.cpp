@@ -104,6 +104,11 @@ PartFile open_part(const fs::path& folder) {
     std::error_code error;
     const fs::path absolute = fs::absolute(folder, error);  // the working folder may change
     PartFile part;
+    const Making making;
+    if (making.too_late()) {
+        errno = EINTR;
+        return part;
+    }
     for (int i = 0; i < tries && !part.stream; ++i) {
         part.path =
             (error ? folder : absolute) / (std::string(name_begin) + std::to_string(process_number()) + "-" +

@@ -10,12 +10,16 @@
 
 #ifndef _WIN32
 #include <unistd.h>
+
+#include <ctime>
 #endif
 
 namespace goffer::io {
 
 #ifdef _WIN32
 
+Making::Making() noexcept = default;
+Making::~Making() = default;
 void note_unfinished(const std::filesystem::path&) noexcept {}
 void forget_unfinished(const std::filesystem::path&) noexcept {}
 void remove_unfinished() noexcept {}
@@ -37,8 +41,20 @@ static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals must 
 /// State of the process, the only one in goffer: a handler of signals is given nothing, must not allocate and
 /// must not wait, so that what it needs lies here, at a fixed size.
 std::array<Slot, 16> slots;
+std::atomic<int> made_now{0};  // by other threads, and not noted yet
+std::atomic<bool> ending{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
+
+Making::Making() noexcept {
+    ++made_now;
+    too_late_ = ending;
+}
+
+Making::~Making() {
+    --made_now;
+}
 
 void note_unfinished(const std::filesystem::path& file) noexcept {
     const std::string& path = file.native();
@@ -59,6 +75,10 @@ void forget_unfinished(const std::filesystem::path& file) noexcept {
 }
 
 void remove_unfinished() noexcept {
+    ending = true;
+    // No longer than it takes to make a file: the thread that makes one may be this one, interrupted.
+    constexpr timespec millisecond{0, 1'000'000};
+    for (int i = 0; i < 50 && made_now != 0; ++i) nanosleep(&millisecond, nullptr);
     for (Slot& slot : slots) {
         if (slot.take(Slot::noted)) unlink(slot.path.data());
     }

@@ -8,6 +8,21 @@
 
 namespace goffer::io {
 
+/// Held from before a file is made until it is noted: remove_unfinished() waits for that.
+class Making {
+public:
+    Making() noexcept;
+    ~Making();
+    Making(const Making&) = delete;
+    Making& operator=(const Making&) = delete;
+
+    /// Whether the process ends, and no file may be made any more.
+    [[nodiscard]] bool too_late() const noexcept { return too_late_; }
+
+private:
+    bool too_late_ = false;
+};
+
 /// Adds a file to the list; without effect where the list is full or the path too long for it.
 void note_unfinished(const std::filesystem::path& file) noexcept;
 

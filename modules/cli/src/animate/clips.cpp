@@ -55,11 +55,11 @@ void write_gltf(Animation& animation) {
                                      {"within", done.within}};
     animation.report.line("targets", counted(done.targets, "shape") +
                                          " of which frames are blended, within " + number(done.max_error) +
-                                         " of them");
-    if (!done.within)
-        animation.report.warn(
-            "frames are off by more than " + number(100 * options.max_error) + " % of the size; allow " +
-            (done.targets == options.targets ? "more --targets" : "more with --max-memory"));
+                                         " of them, " + number(100 * done.max_error / done.size) +
+                                         " % of the size");
+    if (!done.within && done.targets != options.targets)
+        animation.report.warn("frames are off by more than " + number(100 * options.max_error) +
+                              " % of the size; allow more with --max-memory");
 }
 
 void write_mdd(Animation& animation) {

@@ -134,12 +134,14 @@ void add_animate(CLI::App& app, Action& action) {
     add_level_word(*command, options->bind.level);
     command
         ->add_option("--max-error", options->max_error,
-                     "Blend so few shapes in animated glTF that no vertex is off by more than this, per cent "
-                     "of the model's size [0.4]")
+                     "Blend as many shapes in animated glTF as it takes for no vertex to be off by more than "
+                     "this, per cent of the model's size [0.4, as far as 12 shapes can]")
         ->check(number_within(0, 100, "a share in per cent"));
     command
-        ->add_option("--targets", options->targets,
-                     "Blend at most so many shapes in animated glTF; the report says how far off that is")
+        ->add_option(
+            "--targets", options->targets,
+            "Blend at most so many shapes in animated glTF; the report says how far off that is [12, or "
+            "with --max-error any number]")
         ->check(CLI::Range(std::size_t{1}, std::size_t{65535}));
     command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
         ->capture_default_str();

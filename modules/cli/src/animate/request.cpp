@@ -16,6 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_frames = 1'000'000;
+constexpr std::size_t usual_targets = 12;  // whose folds still look right, in files of a handy size
 
 /// Degrees as JSON has them: "max" for an infinity.
 json angle_as_json(double angle) {
@@ -141,6 +142,10 @@ void AnimateRequest::read_outputs(const AnimateOptions& options) {
     }
     if (options.max_error) gltf.max_error = *options.max_error / 100;
     gltf.targets = options.targets;
+    if (!options.max_error) {
+        if (options.targets) gltf.max_error = 0;  // as close as so many can
+        gltf.targets = options.targets.value_or(usual_targets);
+    }
     const std::vector<NamedFile> inputs = {
         {"MODEL", options.model}, {"--keys", options.keys}, {"--path", options.path.file}};
     std::vector<NamedFile> outputs = {{"--json", options.json}};

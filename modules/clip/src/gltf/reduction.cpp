@@ -80,17 +80,17 @@ Blend reduce(Moves& moves, const Reduction& how) {
     const Spread spread = spread_of(moves, capacity);
     const auto rank = static_cast<std::size_t>(spread.values.size());
     // One target is what the others begin with.
-    const std::size_t most = std::min(rank, capacity.components - 1);
-    std::size_t count =
-        how.targets ? std::min(*how.targets - 1, most) : first_guess(spread, moves.rest(), how.max_error);
+    std::size_t most = std::min(rank, capacity.components - 1);
+    if (how.targets) most = std::min(most, *how.targets - 1);
+    std::size_t count = first_guess(spread, moves.rest(), how.max_error);
     for (;;) {
         count = std::min(count, most);
         const bool as_many = count > 0 && count + 1 >= moves.count();
         if (as_many && moves.count() <= capacity.components) return all_frames(moves);
         Shapes components = components_of(moves, spread, count, capacity);
         const Weights weights = weights_of(moves, components);
-        const std::size_t used = how.targets ? count : enough(weights.max_errors, how.max_error);
-        if (how.targets || count == most || weights.max_errors[used] <= 0.98 * how.max_error)
+        const std::size_t used = enough(weights.max_errors, how.max_error);
+        if (count == most || weights.max_errors[used] <= 0.98 * how.max_error)
             return blend_of(std::move(components), weights, used);
         count = 2 * count + 2;
     }

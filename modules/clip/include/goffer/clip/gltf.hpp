@@ -22,8 +22,8 @@ struct GltfOptions {
     /// below 0.
     double max_error = 4e-3;
 
-    /// How many targets there may be at most, 1 or more; the error then is what it is. Unset: as many as
-    /// `max_error` asks for.
+    /// How many targets there may be at most, 1 or more: where `max_error` asks for more, the error is what
+    /// it is. Unset: as many as it asks for.
     std::optional<std::size_t> targets = {};
 
     /// Bytes that finding the targets may take beside the mesh, its vertex arrays and one frame. What does

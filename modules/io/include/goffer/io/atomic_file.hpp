@@ -84,9 +84,10 @@ private:
 /// The whole of a file at once: opened, written and committed. Throws Error.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
-/// Removes the unfinished files of all AtomicFile objects of this process, which cannot commit any more. For
-/// a handler of signals that ends the process, and may be called in one; goffer's libraries install none.
-/// Does nothing on Windows, where a file that is open cannot be removed.
+/// Removes the unfinished files of all AtomicFile objects of this process, which cannot commit any more;
+/// those that other threads begin afterward are refused. For a handler of signals that ends the process, and
+/// may be called in one; goffer's libraries install none. Does nothing on Windows, where a file that is open
+/// cannot be removed.
 void remove_unfinished() noexcept;
 
 }  // namespace goffer::io
