@@ -2,9 +2,9 @@
 #include "arguments.hpp"
 #include "cache/baker.hpp"
 #include "cache/cache.hpp"
+#include "cache/cache_run.hpp"
 #include "cache/manifest.hpp"
 #include "cache/members.hpp"
-#include "cache/workshop.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -135,10 +135,10 @@ void make_cache(const CacheRequest& request) {
     Report report(request.json);
     io::AtomicFiles outputs;
     tbb::task_arena(request.threads).execute([&] {
-        const Workshop workshop(request);
-        workshop.set_up();
-        const Plan& plan = workshop.plan();
-        Baker baker(plan, workshop.cast());
+        const CacheRun run(request);
+        run.set_up();
+        const Plan& plan = run.plan();
+        Baker baker(plan, run.cast());
         report_plan(report, request, plan, baker);
         if (request.prepare) return;
         Work work = look(request, plan, baker);

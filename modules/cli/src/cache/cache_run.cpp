@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cache/workshop.hpp"
+#include "cache/cache_run.hpp"
 
 #include "arguments.hpp"
 #include "cache/bodies.hpp"
@@ -72,7 +72,7 @@ std::optional<std::string> kept_bytes(const fs::path& folder, const PlanBody& be
 
 }  // namespace
 
-Workshop::Workshop(const CacheRequest& request) : folder_(request.folder) {
+CacheRun::CacheRun(const CacheRequest& request) : folder_(request.folder) {
     check_folder(folder_);
     scene_ = read_scene(request.scene, request.load);
     before_ = plan_in(folder_);
@@ -86,7 +86,7 @@ Workshop::Workshop(const CacheRequest& request) : folder_(request.folder) {
     });
 }
 
-void Workshop::choose(const CacheRequest& request) {
+void CacheRun::choose(const CacheRequest& request) {
     plan_.fps = scene_.fps;
     plan_.frames = scene_.frames;
     plan_.instances = scene_.instances;
@@ -101,7 +101,7 @@ void Workshop::choose(const CacheRequest& request) {
                                                             "anew with --isa scalar"));
 }
 
-void Workshop::load_bodies(const CacheRequest& request) {
+void CacheRun::load_bodies(const CacheRequest& request) {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
         const SceneBody& own = scene_.bodies[i];
         PlanBody body{own.name, own.level};
@@ -125,7 +125,7 @@ void Workshop::load_bodies(const CacheRequest& request) {
     }
 }
 
-void Workshop::set_up() const {
+void CacheRun::set_up() const {
     std::error_code error;
     fs::create_directories(folder_ / "bodies", error);
     if (error) throw InputError(io::about(folder_, "cannot be made: " + error.message()));

@@ -13,10 +13,10 @@
 namespace goffer::cli {
 
 /// All that shards are made from, read and understood before anything is written.
-class Workshop {
+class CacheRun {
 public:
     /// Throws an error that names what is at fault: the scene, a file that it names, the folder or its plan.
-    explicit Workshop(const CacheRequest& request);
+    explicit CacheRun(const CacheRequest& request);
 
     /// Writes the bodies and the plan, where they are not there; removes a manifest of another plan.
     void set_up() const;
