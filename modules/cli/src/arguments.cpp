@@ -256,4 +256,19 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
+void add_isa_word(CLI::App& command, std::string& isa) {
+    command.add_option("--isa", isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
+        ->capture_default_str();
+}
+
+void add_threads_word(CLI::App& command, int& threads) {
+    command.add_option("--threads", threads, "Use this many threads, at most the machine's; 0: all of them")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+}
+
+void add_json_word(CLI::App& command, std::filesystem::path& file) {
+    command.add_option("--json", file, "Write a report as JSON (- for standard output)");
+}
+
 }  // namespace goffer::cli

@@ -69,6 +69,15 @@ void check_model_output(const std::filesystem::path& file);
 void check_picture_output(const std::filesystem::path& file);
 void check_output(const std::filesystem::path& file);
 
+/// Adds --isa, for parse_isa_option(). Here and below, what the words are read into must outlive `command`.
+void add_isa_word(CLI::App& command, std::string& isa);
+
+/// Adds --threads, for usable_threads(): 0, its default, for all of them.
+void add_threads_word(CLI::App& command, int& threads);
+
+/// Adds --json: where a Report is written to.
+void add_json_word(CLI::App& command, std::filesystem::path& file);
+
 /// A file and the word of the command line that it stands for.
 struct NamedFile {
     std::string_view option;

@@ -310,7 +310,7 @@ void add_bake(CLI::App& app, Action& action) {
     add_refine_word(*command, options->bind, "auto");
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, &action] { action = [options] { run_bake(*options); }; });
 }
 

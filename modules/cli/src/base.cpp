@@ -76,7 +76,7 @@ void add_base(CLI::App& app, Action& action) {
     command
         ->add_option("-o,--output", options->output, "Write the model here: .glb, .gltf, .obj, .ply or .stl")
         ->required();
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     add_memory_word(*command, options->limits);
     command->callback([options, &action] { action = [options] { run_base(*options); }; });
 }

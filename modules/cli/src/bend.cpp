@@ -240,13 +240,8 @@ void add_bend(CLI::App& app, Action& action) {
     add_level_word(*command, options->bind.level);
     for (const char* option : {"--fit", "--regions"})
         options->bind.choices.push_back(command->get_option(option));
-    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
-        ->capture_default_str();
-    command
-        ->add_option("--threads", options->threads,
-                     "Use this many threads, at most the machine's; 0: all of them")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_isa_word(*command, options->isa);
+    add_threads_word(*command, options->threads);
     add_picture_words(*command, options->picture, "");
     command->add_option("--camera", options->camera,
                         "Look at it from: side, inner (onto the folds), front, or AZIMUTH,ELEVATION [0,35]");
@@ -255,7 +250,7 @@ void add_bend(CLI::App& app, Action& action) {
         ->add_option("--show", options->show,
                      "Color the picture by: area (its change at every vertex; blue: smaller, red: larger)")
         ->check(CLI::IsMember({"area"}));
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, command, &action] {
         action = [options, command] {
             check_path_words(options->path, *command);

@@ -165,7 +165,7 @@ void add_inspect(CLI::App& app, Action& action) {
         ->required();
     add_fit_words(*command, options->axis, options->rest);
     add_load_words(*command, options->load);
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, command, &action] {
         options->said_fit = command->count("--axis") + command->count("--rest") > 0;
         action = [options] { run_inspect(*options); };

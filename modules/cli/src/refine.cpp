@@ -132,7 +132,7 @@ void add_refine(CLI::App& app, Action& action) {
     add_load_words(*command, options->load);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, &action] { action = [options] { run_refine(*options); }; });
 }
 

@@ -143,18 +143,13 @@ void add_animate(CLI::App& app, Action& action) {
             "Blend at most so many shapes in animated glTF; the report says how far off that is [12, or "
             "with --max-error any number]")
         ->check(CLI::Range(std::size_t{1}, std::size_t{65535}));
-    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
-        ->capture_default_str();
-    command
-        ->add_option("--threads", options->threads,
-                     "Use this many threads, at most the machine's; 0: all of them")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_isa_word(*command, options->isa);
+    add_threads_word(*command, options->threads);
     command->add_option("--size", options->size, "Make pictures WIDTHxHEIGHT pixels [1280x960]");
     command->add_option("--camera", options->camera,
                         "Look from: side, inner (onto the folds), front, or AZIMUTH,ELEVATION [0,35]; all "
                         "frames are seen from one place");
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, command, &action] {
         action = [options, command] {
             check_path_words(options->path, *command);

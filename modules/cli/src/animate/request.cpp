@@ -64,6 +64,27 @@ std::string where_of(const AnimateOptions& options) {
     return io::escaped((options.keys.empty() ? options.path.file : options.keys).string());
 }
 
+constexpr const char* pictures_words = "pictures; give -o a name such as %04d.png";
+constexpr const char* gltf_words = "animated glTF; give -o a name such as out.glb";
+
+/// Refuses a word that says how another kind of output is made.
+void check_belongs(bool said, const std::string& option, bool wanted, const char* to) {
+    if (said && !wanted) throw UsageError(option + ": belongs to " + to);
+}
+
+clip::GltfOptions gltf_options(const AnimateOptions& options) {
+    clip::GltfOptions gltf;
+    gltf.targets = options.targets;
+    if (options.max_error) {
+        gltf.max_error = *options.max_error / 100;
+    } else if (options.targets) {
+        gltf.max_error = 0;  // as close as so many can
+    } else {
+        gltf.targets = usual_targets;
+    }
+    return gltf;
+}
+
 }  // namespace
 
 void add_motion_words(CLI::App& command, AnimateOptions& options) {
@@ -124,28 +145,20 @@ void AnimateRequest::read_outputs(const AnimateOptions& options) {
     pattern = Pattern::read(options.output);
     writer = &writer_for(options.output, pattern.has_value());
     const bool pictures_wanted = pattern && writer->write == &write_pictures;
+    const bool gltf_wanted = !pattern && writer->write == &write_gltf;
+    check_belongs(options.size.has_value(), "--size", pictures_wanted, pictures_words);
+    check_belongs(options.camera.has_value(), "--camera", pictures_wanted, pictures_words);
+    check_belongs(options.max_error.has_value(), "--max-error", gltf_wanted, gltf_words);
+    check_belongs(options.targets.has_value(), "--targets", gltf_wanted, gltf_words);
     if (pictures_wanted) {
         picture = options.size ? parse_size(*options.size) : view::Settings{};
         pictures = SurveyView{options.camera ? parse_camera(*options.camera) : Viewpoint{}, picture};
     }
-    for (const auto& [said, option] :
-         {std::pair(options.size.has_value(), "--size"), std::pair(options.camera.has_value(), "--camera")}) {
-        if (said && !pictures_wanted)
-            throw UsageError(std::string(option) + ": belongs to pictures; give -o a name such as %04d.png");
-    }
-    const bool gltf_wanted = !pattern && writer->write == &write_gltf;
-    for (const auto& [said, option] : {std::pair(options.max_error.has_value(), "--max-error"),
-                                       std::pair(options.targets.has_value(), "--targets")}) {
-        if (said && !gltf_wanted)
-            throw UsageError(std::string(option) +
-                             ": belongs to animated glTF; give -o a name such as out.glb");
-    }
-    if (options.max_error) gltf.max_error = *options.max_error / 100;
-    gltf.targets = options.targets;
-    if (!options.max_error) {
-        if (options.targets) gltf.max_error = 0;  // as close as so many can
-        gltf.targets = options.targets.value_or(usual_targets);
-    }
+    gltf = gltf_options(options);
+    check_files(options);
+}
+
+void AnimateRequest::check_files(const AnimateOptions& options) const {
     const std::vector<NamedFile> inputs = {
         {"MODEL", options.model}, {"--keys", options.keys}, {"--path", options.path.file}};
     std::vector<NamedFile> outputs = {{"--json", options.json}};

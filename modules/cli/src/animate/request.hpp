@@ -58,6 +58,7 @@ struct AnimateRequest {
 
 private:
     void read_outputs(const AnimateOptions& options);
+    void check_files(const AnimateOptions& options) const;
     void read_document(const AnimateOptions& options);
     void read_motion_of(const AnimateOptions& options);
 };

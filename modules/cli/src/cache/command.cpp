@@ -144,7 +144,7 @@ void add_cache(CLI::App& app, Action& action) {
                      "Use this many threads, at most the machine's (default: all of them)")
         ->check(CLI::Range(1, 1024));
     add_load_words(*command, options->load);
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback(
         [options, command, &action] { action = [options, command] { run_cache(*command, *options); }; });
 }

@@ -260,14 +260,13 @@ void add_crowd(CLI::App& app, Action& action) {
                      "Write past the cache or into it: automatic, cached, streaming")
         ->check(CLI::IsMember({"automatic", "cached", "streaming"}))
         ->capture_default_str();
-    command->add_option("--isa", options->isa, "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon")
-        ->capture_default_str();
+    add_isa_word(*command, options->isa);
     command
         ->add_option("--threads", options->threads,
                      "Use this many threads, at most the machine's (default: all of them)")
         ->check(CLI::Range(1, 1024));
     add_picture_words(*command, options->picture, " of the last frame");
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, &action] { action = [options] { run_crowd(*options); }; });
 }
 

@@ -205,13 +205,9 @@ void add_figures(CLI::App& app, Action& action) {
     command->add_flag("--quick", options->quick, "Take fewer poses, runs and sizes: times are rough");
     command->add_flag("--no-charts", options->no_charts,
                       "Draw no charts, for which gnuplot is needed; their scripts are written all the same");
-    command
-        ->add_option("--threads", options->threads,
-                     "Use this many threads, at most the machine's; 0: all of them")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_word(*command, options->threads);
     add_load_words(*command, options->load);
-    command->add_option("--json", options->json, "Write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
     command->callback([options, &action] { action = [options] { run_figures(*options); }; });
 }
 
