@@ -9,9 +9,12 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -278,4 +281,33 @@ TEST_CASE("amplitude mesh: where rows are too few for the folds, wrinkles are at
         }
     }
     CHECK(deepest == doctest::Approx(2).epsilon(1e-4));
+}
+
+TEST_CASE("bind tells how far it is, and is not changed by that") {
+    std::mt19937 random(4);
+    const test::Solid solid = test::cylinder({.columns = 24, .rows = 96}, random);
+    const fit::Cylinder cylinder = fit::fit_cylinder(solid.geometry());
+    fit::BindOptions options;
+    options.regions = {{0.4}, {0.6}};
+    options.amplitude = paper::Amplitude::mesh;
+    const fit::Binding unheard = fit::bind(solid.geometry(), cylinder, options);
+    std::mutex mutex;
+    std::vector<double> shares;
+    options.progress = [&](double share) {
+        const std::lock_guard lock(mutex);
+        shares.push_back(share);
+    };
+    const fit::Binding heard =
+        tbb::task_arena(1).execute([&] { return fit::bind(solid.geometry(), cylinder, options); });
+    CHECK(shares.size() > 100);
+    CHECK(shares.front() < 0.2);
+    CHECK(shares.back() == 1);
+    CHECK(std::ranges::is_sorted(shares));
+    double widest = 0;
+    for (std::size_t i = 1; i < shares.size(); ++i) widest = std::max(widest, shares[i] - shares[i - 1]);
+    CHECK(widest < 0.11);
+    for (std::size_t r = 0; r < 2; ++r) {
+        CHECK(heard.body.max_angle(r) == unheard.body.max_angle(r));
+        CHECK(heard.body.region_inputs()[r].factors.rows == unheard.body.region_inputs()[r].factors.rows);
+    }
 }

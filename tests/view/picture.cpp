@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <vector>
+
 using namespace goffer;
 
 namespace {
@@ -31,6 +34,19 @@ TEST_CASE("the same bytes, whatever the threads") {
     const auto one = pictured(1);
     CHECK(pictured(2) == one);
     CHECK(pictured(4) == one);
+}
+
+TEST_CASE("a picture tells how many of its rows are done, and is not changed by that") {
+    const test::Shape bumpy = test::sphere({0, 0, 0}, 1, 120, 60, 0.05f);
+    view::Settings high{32, 1024, 1};
+    const auto unheard = test::render({bumpy}, high).rgb;
+    std::vector<double> shares;
+    high.progress = [&](double share) { shares.push_back(share); };
+    CHECK(test::render({bumpy}, high).rgb == unheard);
+    CHECK(shares.size() >= 4);
+    CHECK(shares.front() <= 0.25);
+    CHECK(std::ranges::is_sorted(shares));
+    CHECK(shares.back() == 1);
 }
 
 TEST_CASE("the scale of the world is not seen") {

@@ -3,6 +3,7 @@
 #include "girths.hpp"
 #include "mask.hpp"
 #include "rest.hpp"
+#include "share.hpp"
 #include "text.hpp"
 
 #include <goffer/bend/body_input.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <string>
@@ -216,17 +218,30 @@ void keep_shallow(double body_length, const RestRegion& rest, const bend::Region
 /// Gives each region the weights m(z) with which the slices of the mesh keep their area, as far as shallow
 /// wrinkles can, unless long ones were asked for.
 void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOptions& options,
-                  const RestMesh& mesh, std::vector<RestRegion>& places, std::vector<RegionBinding>& found) {
+                  const RestMesh& mesh, std::vector<RestRegion>& places, std::vector<RegionBinding>& found,
+                  const Share& share) {
     std::vector<double> heights;
     for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        std::vector<double> factors = solve_weights(body, geometry, mesh.order, heights, i, places[i].folds);
+        std::vector<double> factors = solve_weights(body, geometry, mesh.order, heights, i, places[i].folds,
+                                                    share.step(i, places.size()));
         if (factors.empty()) continue;
         if (!options.fold_length && !regions_of(options)[i].folds)
             keep_shallow(body.length(), places[i], body.region_inputs()[i], options.profile, factors);
         places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors);
     }
 }
+
+/// What bind() tells BindOptions::progress: its parts, and how much of the time each takes of a large mesh.
+struct BindParts {
+    Share draft, weights, weighted_draft, factors;
+
+    explicit BindParts(const std::function<void(double)>& listener)
+        : draft(listener, 0, 0.15),
+          weights(listener, 0.15, 0.35),
+          weighted_draft(listener, 0.35, 0.45),
+          factors(listener, 0.45, 1) {}
+};
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -301,11 +316,14 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     const bool even = options.profile.kind == Profile::Kind::even;
     std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places);
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
+    const BindParts parts(options.progress);
+    parts.draft.tell(1, 1);
     if (options.amplitude == paper::Amplitude::mesh) {
         if (even) {
-            weigh_slices(body, geometry, options, draft->mesh, places, found);
+            weigh_slices(body, geometry, options, draft->mesh, places, found, parts.weights);
             draft.emplace(geometry, cylinder, options, onset, places);
             body = make(cylinder, draft->regions, draft->mesh);
+            parts.weighted_draft.tell(1, 1);
         }
         auto& [mesh, plans, regions] = *draft;
         Geometry wrinkled = geometry;  // what is to keep its area
@@ -315,7 +333,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
             triangles = triangles_within(wrinkled, cylinder, options.wrinkle_range);
             wrinkled.triangles = triangles;
         }
-        solve_factors(body, wrinkled, mesh.order, regions);
+        solve_factors(body, wrinkled, mesh.order, regions, parts.factors);
         for (std::size_t i = 0; i < regions.size(); ++i)
             regions[i].max_angle =
                 std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));

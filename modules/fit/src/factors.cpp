@@ -149,9 +149,11 @@ private:
     std::vector<bend::Pose> poses_;
 };
 
-/// Solves one direction's column of a region's table.
+/// Solves one direction's column of a region's table. Calls row_done() for each row.
+template <class RowDone>
 void solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
-                     std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table) {
+                     std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table,
+                     const RowDone& row_done) {
     Poser poser(body);
     Surface surface;
     double square = 1;
@@ -163,19 +165,24 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
         poser.bend(region, {root * root * table.max_angle, toward}, surface);
         square = solve_square(surface, triangles, wanted, square > 0 ? std::sqrt(square) : 1);
         table.rows[row][direction] = static_cast<float>(square);
+        row_done();
     }
     table.rows[0][direction] = table.rows[1][direction];
 }
 
 bend::FactorTable factors_of(const bend::Body& body, std::size_t region,
-                             std::span<const std::uint32_t> triangles, double wanted) {
+                             std::span<const std::uint32_t> triangles, double wanted, const Share& share) {
+    constexpr std::size_t steps = (rows - 1) * bend::FactorTable::directions;
     bend::FactorTable table;
     table.max_angle = body.max_angle(region);
     table.rows.resize(rows);
     std::atomic<bool> failed = false;
+    std::atomic<std::size_t> done = 0;
     parallel_ranges(bend::FactorTable::directions, 1, [&](std::size_t first, std::size_t last) {
         try {
-            for (; first < last; ++first) solve_direction(body, region, first, triangles, wanted, table);
+            for (; first < last; ++first)
+                solve_direction(body, region, first, triangles, wanted, table,
+                                [&] { share.tell(++done, steps); });
         } catch (...) {  // no memory: nothing else throws here
             failed = true;
         }
@@ -270,8 +277,8 @@ std::vector<bend::Pose> slice_poses(const bend::Body& body, std::size_t region) 
 
 std::vector<double> solve_weights(const bend::Body& body, const Geometry& geometry,
                                   std::span<const std::uint32_t> order, std::span<const double> heights,
-                                  std::size_t region, int folds) {
-    constexpr int steps = 6;
+                                  std::size_t region, int folds, const Share& share) {
+    constexpr std::size_t steps = 6;
     // Two folds apart at least: a slice that is shorter than a fold would follow its crest and trough.
     const auto knots = static_cast<std::size_t>(std::clamp(folds / 2 + 1, 3, 13));
     const std::vector<std::uint32_t> triangles =
@@ -283,22 +290,25 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     std::vector<double> factors(knots, 1);
     Slices wanted(knots), bare(knots);
     const Surface at_rest = Poser(body).rest();
-    for (const bend::Pose& pose : slice_poses(body, region)) {
+    const std::vector<bend::Pose> poses = slice_poses(body, region);
+    for (const bend::Pose& pose : poses) {
         Poser(body).bend(region, pose, surfaces.emplace_back());
         solver.add_areas(at_rest, none, wanted);
         solver.add_areas(surfaces.back(), none, bare);
+        share.step(0, 2).tell(surfaces.size(), poses.size());
     }
-    for (int step = 0; step < steps; ++step) {
+    for (std::size_t step = 0; step < steps; ++step) {
         Slices now(knots);
         for (const Surface& surface : surfaces) solver.add_areas(surface, factors, now);
         for (std::size_t i = 0; i < knots; ++i)
             factors[i] = next_factor(factors[i], now[i] - bare[i], wanted[i] - bare[i], wanted[i]);
+        share.step(1, 2).tell(step + 1, steps);
     }
     return factors;
 }
 
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
-                   std::span<bend::RegionInput> regions) {
+                   std::span<bend::RegionInput> regions, const Share& share) {
     const std::vector<std::uint32_t> place = places_in(order);
     const Surface at_rest = Poser(body).rest();
     for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -306,7 +316,7 @@ void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<c
             triangles_of(body.regions()[r], geometry.triangles, place);
         if (regions[r].table.empty() || triangles.empty()) continue;
         const double wanted = area_of(at_rest, triangles, 0).area;
-        regions[r].factors = factors_of(body, r, triangles, wanted);
+        regions[r].factors = factors_of(body, r, triangles, wanted, share.step(r, regions.size()));
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "share.hpp"
+
 #include <goffer/bend/body.hpp>
 #include <goffer/fit/geometry.hpp>
 
@@ -12,10 +14,10 @@ namespace goffer::fit {
 
 /// Solves the factors m(alpha, theta), 0 <= m <= 2, of each region, with which the region's triangles keep
 /// the area that they have at rest. `body` was made from the same regions without factors; `order` is
-/// Binding::order. Runs in the caller's oneTBB arena.
+/// Binding::order. Runs in the caller's oneTBB arena, from whose threads it tells `share` what is done.
 /// See modules/paper/README.md, "Amplitude modes".
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
-                   std::span<bend::RegionInput> regions);
+                   std::span<bend::RegionInput> regions, const Share& share);
 
 /// Solves the factors m(z) of region `region`, 0..2, control values at equal steps of its length, with which
 /// each of its slices keeps its area in a pose that bends it far, on the mean of several directions.
@@ -24,6 +26,6 @@ void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<c
 [[nodiscard]] std::vector<double> solve_weights(const bend::Body& body, const Geometry& geometry,
                                                 std::span<const std::uint32_t> order,
                                                 std::span<const double> heights, std::size_t region,
-                                                int folds);
+                                                int folds, const Share& share);
 
 }  // namespace goffer::fit

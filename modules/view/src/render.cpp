@@ -33,8 +33,11 @@ Picture render(std::span<const Model> models, const Camera& camera, const Settin
     Picture picture{settings.width, settings.height, {}};
     picture.rgb.resize(std::size_t{3} * settings.width * settings.height);
     tbb::this_task_arena::isolate([&] {
-        for (int first = 0; first < settings.height; first += band_rows)
-            Band(scene, view, settings, first, std::min(first + band_rows, settings.height)).render(picture);
+        for (int first = 0; first < settings.height; first += band_rows) {
+            const int last = std::min(first + band_rows, settings.height);
+            Band(scene, view, settings, first, last).render(picture);
+            if (settings.progress) settings.progress(static_cast<double>(last) / settings.height);
+        }
     });
     return picture;
 }

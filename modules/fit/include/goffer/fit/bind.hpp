@@ -8,6 +8,7 @@
 #include <goffer/paper/wrinkle.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -76,6 +77,9 @@ struct BindOptions {
     /// whose wrinkles would begin with a step otherwise; 0 for a straight one.
     /// See modules/paper/README.md, "Onset".
     std::optional<double> onset = {};
+    /// Called with the share of bind()'s time that has passed, 0..1, roughly, from any thread and from
+    /// several at a time. Must not throw. Empty: nobody is told.
+    std::function<void(double)> progress = {};
 
     /// Returns the options with which bodies bend as in the paper: Profile::damped, Amplitude::paper, one
     /// radius, no onset. A base that is bent at rest stays so: fit it with RestPose::straight.

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,6 +56,9 @@ struct Settings {
     /// Of a pixel with an edge in it, 1..most_samples. Every pixel sends an eighth as many rays to each
     /// light. More are smoother and slower.
     int samples = 16;
+    /// Called with the share of the rows that are done, ascending to 1, from the calling thread. Empty:
+    /// nobody is told.
+    std::function<void(double)> progress = {};
 };
 
 /// A picture in 8-bit sRGB: rows from top to bottom, 3 bytes a pixel.
