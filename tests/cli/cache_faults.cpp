@@ -158,8 +158,13 @@ TEST_CASE("cache: damaged plans, manifests and shards end in one line") {
         }
         folder.write("cache/" + name, whole.at(name));
     }
-    // A plan that is damaged is made anew, and the shards are as they were.
-    folder.write("cache/plan.json", "{}");
+    // A plan that is damaged holds choices that nobody else knows. Where it is removed it is made anew, and
+    // the shards are as they were.
+    for (const std::string plan : {"{}", "", "{\"kind\": \"goffer cache\", \"version\": 2}"}) {
+        folder.write("cache/plan.json", plan);
+        refused(folder, 1, cache_words("cache", small_shards), {"plan.json", "remove that file"});
+    }
+    std::filesystem::remove(folder / "cache" / "plan.json");
     CHECK(report(folder, cache_words("cache", small_shards))["baked"] == 0);
     CHECK(files_in(folder / "cache") == whole);
 }

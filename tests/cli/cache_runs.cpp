@@ -69,7 +69,7 @@ TEST_CASE("cache: two runs at the same time leave one cache") {
     CHECK(files_in(folder / "cache") == files_in(folder / "alone"));
 }
 
-TEST_CASE("cache: a run that is ended leaves whole shards alone") {
+TEST_CASE("cache: a run that is ended leaves only whole shards") {
     const Folder folder;
     write_large_scene(folder);
     for (const int signal : {SIGINT, SIGTERM}) {

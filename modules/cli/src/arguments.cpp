@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 
+#include "json.hpp"
+
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/error.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -67,13 +69,6 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
     cylinder.residual = fit.value("residual", 0.0);
     if (fit.contains("radii")) cylinder.radii = fit.at("radii").get<std::vector<double>>();
     return cylinder;
-}
-
-// Without the library's own "[json.exception..] ".
-std::string reason(const nlohmann::json::exception& error) {
-    const std::string text = error.what();
-    const std::size_t end = text.find("] ");
-    return end == text.npos ? text : text.substr(end + 2);
 }
 
 /// Where a file is or would be, links and dots resolved.
@@ -245,6 +240,17 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
         materials.replace_extension(".mtl");
         const std::string ending = output.file.extension().string();
         if (ending == ".obj" || ending == ".OBJ") taken.push_back({"-o's materials", materials});
+    }
+}
+
+void check_outside(const std::filesystem::path& folder, const std::vector<NamedFile>& outputs) {
+    const std::filesystem::path place = place_of(folder / "");
+    for (const NamedFile& output : outputs) {
+        if (output.file.empty() || output.file == "-") continue;
+        const std::filesystem::path relative = place_of(output.file).lexically_relative(place);
+        if (relative.empty() || *relative.begin() == "..") continue;
+        throw UsageError(std::string(output.option) + ": " + output.file.string() +
+                         " would lie in the folder of the cache; put it elsewhere");
     }
 }
 

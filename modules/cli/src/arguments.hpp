@@ -87,6 +87,9 @@ struct NamedFile {
 /// Refuses (UsageError) an output in the place of an input or of another output.
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
+/// Throws UsageError where an output would lie in the folder of a cache, or below it.
+void check_outside(const std::filesystem::path& folder, const std::vector<NamedFile>& outputs);
+
 /// What `work` returns; an error of fit, which knows of no files and options, gets the name of the file at
 /// fault, and of the option that mends it.
 template <class Work>

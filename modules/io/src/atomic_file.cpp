@@ -72,6 +72,11 @@ void AtomicFile::write(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) give_up(errno);
 }
 
+void AtomicFile::replace_start(std::string_view bytes) {
+    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) give_up(errno);
+    write(bytes);
+}
+
 void AtomicFile::flush() {
     if (flushed_) return;
     if (std::ferror(stream_) != 0) give_up(EIO);

@@ -34,9 +34,25 @@ private:
     Progress progress_;
 };
 
-/// How many vertices the model's own file has.
-std::size_t vertices_of_file(const Animation& animation) {
-    return animation.frames.model().mesh.positions.size();
+/// Whether a program that imports the model's own file gets the vertices that the cache has, in their order.
+bool fits_its_file(const BoundModel& model) {
+    const std::string ending = model.file.extension().string();
+    return !model.growth && (ending == ".obj" || ending == ".ply");
+}
+
+/// Writes a point cache and, unless the model's own file serves, the mesh that it moves.
+template <class Save>
+void write_point_cache(Animation& animation, const Save& save) {
+    const BoundModel& model = animation.frames.model();
+    {
+        CountedFrames frames(animation.frames, "writing " + animation.output.string(), 1);
+        save(frames, model.mesh.positions.size());
+    }
+    if (fits_its_file(model)) return;
+    const std::filesystem::path mesh = mesh_beside(animation.output);
+    mesh::save(model.mesh, mesh, animation.outputs);
+    animation.report.json["mesh"] = mesh.string();
+    animation.report.line("mesh", mesh.string() + " has the vertices that the cache moves");
 }
 
 }  // namespace
@@ -62,14 +78,20 @@ void write_gltf(Animation& animation) {
                               " % of the size; allow more with --max-memory");
 }
 
+std::filesystem::path mesh_beside(const std::filesystem::path& cache) {
+    return std::filesystem::path(cache).replace_extension(".mesh.ply");
+}
+
 void write_mdd(Animation& animation) {
-    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 1);
-    clip::save_mdd(frames, vertices_of_file(animation), animation.output, animation.outputs);
+    write_point_cache(animation, [&](clip::Frames& frames, std::size_t vertices) {
+        clip::save_mdd(frames, vertices, animation.output, animation.outputs);
+    });
 }
 
 void write_pc2(Animation& animation) {
-    CountedFrames frames(animation.frames, "writing " + animation.output.string(), 1);
-    clip::save_pc2(frames, vertices_of_file(animation), animation.output, animation.outputs);
+    write_point_cache(animation, [&](clip::Frames& frames, std::size_t vertices) {
+        clip::save_pc2(frames, vertices, animation.output, animation.outputs);
+    });
 }
 
 void write_vertex_texture(Animation& animation) {

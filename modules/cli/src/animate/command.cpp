@@ -16,7 +16,8 @@ namespace {
 void report_motion(Report& report, const AnimateRequest& request, const AnimateOptions& options,
                    const Survey& survey, const BoundModel& model) {
     const double largest = degrees(*std::ranges::max_element(survey.largest));
-    const double seconds = static_cast<double>(request.frames) / options.fps;
+    // Of glTF, from the first key to the last; of all else, each frame is shown for its time.
+    const double seconds = static_cast<double>(request.frames - (request.gltf_wanted ? 1 : 0)) / options.fps;
     nlohmann::ordered_json& json = report.json;
     json["regions"] = model.binding.body.region_count();
     json["frames"] = request.frames;
@@ -69,7 +70,8 @@ std::uint64_t bytes_of(const AnimateRequest& request, io::AtomicFiles& outputs) 
 void run_animate(const AnimateOptions& options) {
     ModelFile file(options.model, options.bind.load.limits);
     const AnimateRequest request(options, file);
-    const BindRequest bind(options.bind, request.regions);
+    BindRequest bind(options.bind, request.regions);
+    bind.with_uvs = request.with_uvs;
     const Isa isa = parse_isa_option(options.isa);
     Report report(options.json);
     const BoundModel model = bind_model(std::move(file), bind);
@@ -107,8 +109,8 @@ constexpr const char* output_help =
     "point\n"
     "cache NAME.mdd or .pc2, of the model's vertices in their order; NAME.json, a vertex-animation texture\n"
     "with its images beside it; or a model or a picture for each frame, of a name with %04d, which becomes\n"
-    "the frame's number from 1. Files with these numbers are replaced, one by one; the command refuses to\n"
-    "leave others of the same pattern behind them. Ended early, it leaves whole frames alone.\n"
+    "the frame's number from 1. Files with these numbers are replaced, one by one; the command stops if\n"
+    "there are files of the same pattern with other numbers. Ended early, it leaves only whole frames.\n"
     "Frames are not kept: as many are in memory at a time as --max-memory has room for beside the model,\n"
     "and at most one a thread.";
 

@@ -59,11 +59,13 @@ bool Pattern::holds(const std::filesystem::path& file) const {
 
 void Pattern::refuse_longer(std::size_t frames) const {
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, error)) {
-        const std::string name = entry.path().filename().string();
+    std::filesystem::directory_iterator entry(folder_.empty() ? "." : folder_, error);
+    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
         const std::optional<std::size_t> number = number_of(name);
         if (number && (*number < 1 || *number > frames))
-            throw InputError(io::about(folder_ / name, "is of another sequence, since this one ends with " +
+            throw InputError(io::about(folder_ / name, "is of another sequence: this one goes from " +
+                                                           file(0).filename().string() + " to " +
                                                            file(frames - 1).filename().string() +
                                                            "; remove it, or give -o another name"));
     }

@@ -80,7 +80,9 @@ clip::GltfOptions gltf_options(const AnimateOptions& options) {
     } else if (options.targets) {
         gltf.max_error = 0;  // as close as so many can
     } else {
+        constexpr double usual_error = 5e-4;  // folds of a body that should be straight are not seen
         gltf.targets = usual_targets;
+        gltf.max_error = usual_error;
     }
     return gltf;
 }
@@ -111,8 +113,10 @@ void add_motion_words(CLI::App& command, AnimateOptions& options) {
         ->check(angle_word(false))
         ->needs(swing);
     command
-        .add_option("--lag", options.lag,
-                    "Let each region follow the one below it: the tip by this share of a swing")
+        .add_option(
+            "--lag", options.lag,
+            "Let each region follow those below it: one that begins at mid-length by half of this share "
+            "of a swing")
         ->check(number_within(-100, 100, "a number of swings"))
         ->needs(swing);
     command.add_flag("--from-rest", options.from_rest, "Swing from the rest pose instead of from straight")
@@ -145,7 +149,8 @@ void AnimateRequest::read_outputs(const AnimateOptions& options) {
     pattern = Pattern::read(options.output);
     writer = &writer_for(options.output, pattern.has_value());
     const bool pictures_wanted = pattern && writer->write == &write_pictures;
-    const bool gltf_wanted = !pattern && writer->write == &write_gltf;
+    gltf_wanted = !pattern && writer->write == &write_gltf;
+    with_uvs = !pattern && writer->write == &write_vertex_texture;
     check_belongs(options.size.has_value(), "--size", pictures_wanted, pictures_words);
     check_belongs(options.camera.has_value(), "--camera", pictures_wanted, pictures_words);
     check_belongs(options.max_error.has_value(), "--max-error", gltf_wanted, gltf_words);
@@ -168,11 +173,15 @@ void AnimateRequest::check_files(const AnimateOptions& options) const {
     } else {
         outputs.push_back({"-o", options.output});
     }
+    if (writer->write == &write_mdd || writer->write == &write_pc2)
+        outputs.push_back({"-o", mesh_beside(options.output)});
     check_places(inputs, outputs);
-    for (const NamedFile& input : inputs) {
-        if (pattern && !input.file.empty() && pattern->holds(input.file))
+    std::vector<NamedFile> others = inputs;
+    others.push_back({"--json", options.json});
+    for (const NamedFile& other : others) {
+        if (pattern && !other.file.empty() && pattern->holds(other.file))
             throw UsageError("-o: " + options.output.string() + " would replace the file of " +
-                             std::string(input.option) + "; give another name");
+                             std::string(other.option) + "; give another name");
     }
     check_output(pattern ? pattern->file(0) : options.output);
 }
@@ -202,6 +211,7 @@ void AnimateRequest::read_motion_of(const AnimateOptions& options) {
         const std::size_t steps = motion->repeats() ? frames : std::max<std::size_t>(frames, 2) - 1;
         document["seconds"] = static_cast<double>(steps) / options.fps;
         motion = read_motion(document, count, where_of(options));
+        frames += closing_frame();
         return;
     }
     const double steps = motion->seconds() * options.fps;
@@ -210,6 +220,7 @@ void AnimateRequest::read_motion_of(const AnimateOptions& options) {
                          " seconds, which are more than a million frames; give fewer --fps, or --frames N");
     const double whole = motion->repeats() ? std::max(std::round(steps), 1.0) : std::floor(steps + 1e-6) + 1;
     frames = options.frames.value_or(static_cast<std::size_t>(whole));
+    if (!options.frames || static_cast<double>(*options.frames) >= whole) frames += closing_frame();
 }
 
 }  // namespace goffer::cli

@@ -53,6 +53,8 @@ struct AnimateRequest {
     std::optional<SurveyView> pictures;
     view::Settings picture;
     clip::GltfOptions gltf;
+    bool gltf_wanted = false;
+    bool with_uvs = false;  ///< see BindRequest: engines draw vertex-animation textures with them
 
     AnimateRequest(const AnimateOptions& options, const ModelFile& file);
 
@@ -61,6 +63,8 @@ private:
     void check_files(const AnimateOptions& options) const;
     void read_document(const AnimateOptions& options);
     void read_motion_of(const AnimateOptions& options);
+    /// 1 where the first frame is wanted again at the end: players of glTF begin anew at the last key.
+    [[nodiscard]] std::size_t closing_frame() const { return gltf_wanted && motion->repeats() ? 1 : 0; }
 };
 
 }  // namespace goffer::cli

@@ -66,9 +66,13 @@ struct Writer {
 void write_models(Animation& animation);
 void write_pictures(Animation& animation);
 void write_gltf(Animation& animation);
+/// A point cache and, where the model was refined or its file is none that programs import vertex by vertex,
+/// mesh_beside(): the mesh that the cache moves.
 void write_mdd(Animation& animation);
 void write_pc2(Animation& animation);
 void write_vertex_texture(Animation& animation);
+
+[[nodiscard]] std::filesystem::path mesh_beside(const std::filesystem::path& cache);
 
 /// How many frames may be in memory at a time beside the model: at most one per thread, and as many as the
 /// limit of memory has room for; at least one.

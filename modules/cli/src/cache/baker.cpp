@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <future>
 
@@ -13,6 +14,14 @@ namespace {
 /// What is behind an instance's vertices, up to the next block, is zeros.
 void clear_end(std::span<std::byte> block, std::uint64_t used) {
     std::ranges::fill(block.subspan(static_cast<std::size_t>(used)), std::byte{0});
+}
+
+/// Whether poses ask for more than the body can.
+bool beyond(const bend::Body& body, std::span<const bend::Pose> poses) {
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        if (std::fabs(poses[r].angle) > body.max_angle(r)) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -93,18 +102,19 @@ void Baker::make_piece(const ShardRange& range, std::uint64_t frame, const Piece
 }
 
 void Baker::write_poses(const Piece& piece, std::span<const ShardInstance> instances,
-                        std::span<std::byte> blocks) const {
+                        std::span<std::byte> blocks) {
     for (std::size_t i = piece.first; i < piece.last; ++i) {
         const std::size_t at = i - piece.first;
         const std::size_t regions = plan_.bodies[instances[i].body].regions;
         const std::size_t begin = instances[i].offset - instances[piece.first].offset;
         const auto block =
             blocks.subspan(begin, static_cast<std::size_t>(block_bytes(plan_.format, 0, regions)));
+        const auto poses = std::span(moments_.poses).subspan(at * moments_.stride, regions);
+        if (moments_.clamped[at] == 0 && beyond(cast_.bodies()[instances[i].body], poses)) ++result_.clamped;
         clear_end(block, 0);
         std::memcpy(block.data(), &moments_.transforms[at], sizeof moments_.transforms[at]);
         std::memcpy(&block[sizeof(glm::mat4x3)], &moments_.weights[at], sizeof(float));
-        std::memcpy(&block[placing_bytes], &moments_.poses[at * moments_.stride],
-                    regions * sizeof(bend::Pose));
+        std::memcpy(&block[placing_bytes], poses.data(), poses.size_bytes());
     }
 }
 

@@ -64,7 +64,7 @@ private:
     void make_piece(const ShardRange& range, std::uint64_t frame, const Piece& piece,
                     std::span<const ShardInstance> instances, std::span<std::byte> blocks);
     void write_poses(const Piece& piece, std::span<const ShardInstance> instances,
-                     std::span<std::byte> blocks) const;
+                     std::span<std::byte> blocks);
     void gather(const Piece& piece, std::span<const ShardInstance> instances, std::span<std::byte> blocks);
     [[nodiscard]] std::vector<bend::Batch> batches_into(std::span<std::byte> blocks);
     void deform(std::span<std::byte> blocks);

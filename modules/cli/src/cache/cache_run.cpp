@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "cache/bodies.hpp"
+#include "cache/manifest.hpp"
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/io/atomic_file.hpp>
@@ -45,13 +46,46 @@ void check_folder(const fs::path& folder) {
     }
 }
 
-/// The plan that a folder has; nothing where it has none that can be read, so that it gets a new one.
+/// The plan that a folder has, if it has one. One that cannot be read holds what was chosen for the cache, so
+/// that it is not replaced by another behind the user's back.
 std::optional<Plan> plan_in(const fs::path& folder) {
+    std::error_code error;
+    const auto is_there = [&](const char* name) {
+        return fs::status(folder / name, error).type() != fs::file_type::not_found;
+    };
     try {
-        return read_plan(folder / plan_name);
-    } catch (const std::runtime_error&) {
+        if (is_there(plan_name)) return read_plan(folder / plan_name);
+        if (is_there(manifest_name)) return read_manifest(folder).plan;
         return std::nullopt;
+    } catch (const std::runtime_error& fault) {
+        throw InputError(std::string(fault.what()) +
+                         "; to plan the cache anew, remove that file, and give --format and the like again");
     }
+}
+
+std::string text_of(std::string_view word) {
+    return std::string(word);
+}
+std::string text_of(std::uint64_t number) {
+    return std::to_string(number);
+}
+
+/// Refuses to guess what shards were to be like.
+void refuse_planless(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(folder / shard_name(0), error))
+        throw InputError(io::about(folder,
+                                   "has shards, and neither a plan nor a manifest; say --format, or "
+                                   "give a new folder to -o"));
+}
+
+/// Refuses a report that would replace what the cache is made from, or lie in it.
+void check_report(const CacheRequest& request, const Scene& scene) {
+    std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
+    for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
+    const NamedFile report{"--json", request.json};
+    check_places(inputs, {report});
+    check_outside(request.folder, {report});
 }
 
 bend::BodyFile loaded(const fs::path& file, const std::string& bytes) {
@@ -75,7 +109,11 @@ std::optional<std::string> kept_bytes(const fs::path& folder, const PlanBody& be
 CacheRun::CacheRun(const CacheRequest& request) : folder_(request.folder) {
     check_folder(folder_);
     scene_ = read_scene(request.scene, request.load);
+    check_report(request, scene_);
     before_ = plan_in(folder_);
+    if (!before_ && !request.format) refuse_planless(folder_);
+    for (const fs::path& file : scene_.files) stamps_.push_back(stamp_of(file));
+    stamps_.push_back(stamp_of(scene_.file));
     plan_.scene = checksum_of(scene_, before_ ? before_->files : std::vector<PlanFile>(), plan_.files);
     choose(request);
     load_bodies(request);
@@ -84,6 +122,23 @@ CacheRun::CacheRun(const CacheRequest& request) : folder_(request.folder) {
         const PlanBody& body = plan_.bodies[cast_->body_of(instance)];
         return block_bytes(plan_.format, body.vertices, body.regions);
     });
+    // One of many shares, which may each have read another scene.
+    if (const std::vector<std::string> changed = changes(); !request.whole && !changed.empty())
+        throw InputError(io::about(folder_, "holds another cache: " + changed.front() +
+                                                "; bake a share after --prepare, or into another folder"));
+}
+
+CacheRun::Stamp CacheRun::stamp_of(const fs::path& file) {
+    std::error_code none;
+    return {file, fs::file_size(file, none), fs::last_write_time(file, none)};
+}
+
+void CacheRun::check_unchanged() const {
+    for (const Stamp& before : stamps_) {
+        const Stamp after = stamp_of(before.file);
+        if (after.bytes != before.bytes || after.modified != before.modified)
+            throw InputError(io::about(before.file, "has changed while the cache was baked; bake it again"));
+    }
 }
 
 void CacheRun::choose(const CacheRequest& request) {
@@ -123,6 +178,22 @@ void CacheRun::load_bodies(const CacheRequest& request) {
         body.checksum = hash_of(*bytes);
         plan_.bodies.push_back(body);
     }
+}
+
+std::vector<std::string> CacheRun::changes() const {
+    std::vector<std::string> changed;
+    if (!before_) return changed;
+    const auto compare = [&](const std::string& what, const auto& before, const auto& now) {
+        if (before != now) changed.push_back(what + " was " + text_of(before) + ", and is " + text_of(now));
+    };
+    compare("its format", name_of(before_->format), name_of(plan_.format));
+    compare("its instruction set", name(before_->isa), name(plan_.isa));
+    compare("--shard-size", before_->shape.bytes, plan_.shape.bytes);
+    compare("--shard-frames", before_->shape.frames, plan_.shape.frames);
+    compare("--shard-instances", before_->shape.instances, plan_.shape.instances);
+    if (before_->scene != plan_.scene || before_->bodies_checksum() != plan_.bodies_checksum())
+        changed.emplace_back("its scene, or a file that the scene names, is another");
+    return changed;
 }
 
 void CacheRun::set_up() const {

@@ -18,6 +18,12 @@ public:
     /// Throws an error that names what is at fault: the scene, a file that it names, the folder or its plan.
     explicit CacheRun(const CacheRequest& request);
 
+    /// How the plan differs from the one that the folder has; empty where it has none or the same.
+    [[nodiscard]] std::vector<std::string> changes() const;
+
+    /// Throws InputError where a file that shards are made from is not as it was when its checksum was taken.
+    void check_unchanged() const;
+
     /// Writes the bodies and the plan, where they are not there; removes a manifest of another plan.
     void set_up() const;
 
@@ -33,7 +39,16 @@ private:
     void choose(const CacheRequest& request);
     void load_bodies(const CacheRequest& request);
 
+    /// How a file can be told from what it was, without reading it.
+    struct Stamp {
+        std::filesystem::path file;
+        std::uintmax_t bytes;
+        std::filesystem::file_time_type modified;
+    };
+    [[nodiscard]] static Stamp stamp_of(const std::filesystem::path& file);
+
     std::filesystem::path folder_;
+    std::vector<Stamp> stamps_;  // of the scene and all that it names
     Scene scene_;
     std::optional<Plan> before_;  ///< as the folder has it
     Plan plan_;

@@ -2,6 +2,7 @@
 #include "cache/cast.hpp"
 
 #include "arguments.hpp"
+#include "cache/members.hpp"
 
 #include <goffer/io/error.hpp>
 
@@ -27,10 +28,10 @@ glm::dmat4x3 composed(const glm::dmat4x3& outer, const glm::dmat4x3& inner) {
 /// A job takes no transform with larger numbers.
 void refuse_far(const glm::dmat4x3& place, const SceneGroup& group, std::uint64_t instance,
                 std::uint64_t frame) {
-    constexpr double most = 1e18;
     for (int column = 0; column < 4; ++column) {
         const glm::dvec3& own = place[column];
-        if (std::fabs(own.x) <= most && std::fabs(own.y) <= most && std::fabs(own.z) <= most) continue;
+        if (std::fabs(own.x) <= most_far && std::fabs(own.y) <= most_far && std::fabs(own.z) <= most_far)
+            continue;
         throw InputError(group.where + ": number " + std::to_string(instance) + " of it is carried, or " +
                          "scaled, beyond 1e18 in frame " + std::to_string(frame));
     }
@@ -68,12 +69,13 @@ Cast::Cast(const Scene& scene, std::span<const bend::Body> bodies, std::uint64_t
     for (const SceneGroup& group : scene.groups) add(group, memory);
 }
 
-void Cast::add(const SceneGroup& group, std::uint64_t memory) {
-    Member member{&group, {}, nullptr, nullptr};
+void Cast::add(const SceneGroup& group, std::uint64_t& memory) {
+    Member member{&group};
     member.regions = bodies_[group.bodies[0]].region_count();
     const std::uint64_t frames = scene_.frames, count = group.count;
     if (!group.motions.empty()) {
-        const std::size_t turns = std::lcm(group.motions.size(), group.bodies.size());
+        const auto turns = static_cast<std::size_t>(std::min<std::uint64_t>(
+            std::lcm<std::uint64_t>(group.motions.size(), group.bodies.size()), group.count));
         for (std::size_t i = 0; i < turns; ++i) {
             const SceneMotion& motion = scene_.motions[group.motions[i % group.motions.size()]];
             const bend::Body& body = bodies_[group.bodies[i % group.bodies.size()]];
@@ -87,7 +89,7 @@ void Cast::add(const SceneGroup& group, std::uint64_t memory) {
                                  ".poses: its bodies have not as many regions each; give each "
                                  "an entry of its own");
         }
-        member.poses = std::make_unique<NumberFile>(group.poses, memory);
+        member.poses = file_of(group.poses, memory);
         if (member.poses->count() != frames * count * member.regions * floats_per_pose)
             refuse_count(*member.poses, times({{frames, "frames"},
                                                {count, "instances"},
@@ -95,7 +97,7 @@ void Cast::add(const SceneGroup& group, std::uint64_t memory) {
                                                {floats_per_pose, "angles"}}));
     }
     if (!group.transforms.empty()) {
-        member.transforms = std::make_unique<NumberFile>(group.transforms, memory);
+        member.transforms = file_of(group.transforms, memory);
         const std::uint64_t still = count * floats_per_transform, has = member.transforms->count();
         member.carried = has == still * frames && frames > 1;
         if (has != still && !member.carried)
@@ -104,6 +106,15 @@ void Cast::add(const SceneGroup& group, std::uint64_t memory) {
                              ", nor as many for each of " + std::to_string(frames) + " frames");
     }
     members_.push_back(std::move(member));
+}
+
+const NumberFile* Cast::file_of(const std::filesystem::path& path, std::uint64_t& memory) {
+    std::unique_ptr<NumberFile>& file = files_[path];
+    if (!file) {
+        file = std::make_unique<NumberFile>(path, memory);
+        memory -= std::min(file->memory(), memory);
+    }
+    return file.get();
 }
 
 const Motion* Cast::motion_for(const SceneMotion& motion, std::size_t regions) {

@@ -12,6 +12,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -49,14 +51,16 @@ private:
     /// A group's motions, for each body that they move, and files.
     struct Member {
         const SceneGroup* group;
-        std::vector<const Motion*> motions;  ///< of instance i: that of i modulo their number
-        std::unique_ptr<NumberFile> poses, transforms;
+        std::vector<const Motion*> motions = {};  ///< of instance i: that of i modulo their number
+        const NumberFile *poses = nullptr, *transforms = nullptr;
         std::size_t regions = 1;  ///< that `poses` has
         bool carried = false;     ///< `transforms` has rows for each frame
     };
     struct Stretch;
 
-    void add(const SceneGroup& group, std::uint64_t memory);
+    void add(const SceneGroup& group, std::uint64_t& memory);
+    /// A file is opened once, however many groups name it. Takes what it holds from `memory`.
+    [[nodiscard]] const NumberFile* file_of(const std::filesystem::path& path, std::uint64_t& memory);
     [[nodiscard]] const Motion* motion_for(const SceneMotion& motion, std::size_t regions);
     void read(const Stretch& stretch, Moments& moments) const;
     void read_one(const Stretch& stretch, std::uint64_t index, Moments& moments) const;
@@ -71,6 +75,7 @@ private:
         std::unique_ptr<const Motion> motion;
     };
     std::vector<Made> motions_;
+    std::map<std::filesystem::path, std::unique_ptr<NumberFile>> files_;
     std::vector<Member> members_;  // of each group
 };
 

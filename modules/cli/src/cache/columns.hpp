@@ -23,6 +23,9 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file_; }
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
 
+    /// Bytes that its numbers take in memory: 0 unless they are text.
+    [[nodiscard]] std::uint64_t memory() const noexcept { return text_.capacity() * sizeof(float); }
+
     /// Numbers [first, first + out.size()), which must be there. Throws an error that names the file and the
     /// number where one is not finite.
     void read(std::uint64_t first, std::span<float> out) const;

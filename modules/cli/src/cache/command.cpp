@@ -38,7 +38,7 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> two_numbers(const std::st
 void refuse_words(const CLI::App& command, std::initializer_list<const char*> words, const char* with) {
     for (const char* word : words) {
         if (command.get_option(word)->count() > 0)
-            throw UsageError(std::string(word) + " is of no use with " + with);
+            throw UsageError(std::string(word) + " cannot be combined with " + with);
     }
 }
 
@@ -52,6 +52,9 @@ void run_extract(const CacheOptions& options) {
     if (!place)
         throw UsageError("--extract: '" + *options.extract +
                          "' is not the numbers of a frame and an instance, as in 0,12");
+    const std::vector<NamedFile> outputs = {{"-o", options.output}, {"--json", options.json}};
+    check_places({}, outputs);
+    check_outside(options.input, outputs);
     extract({options.input, options.output, place->first, place->second, options.load, options.json});
 }
 
@@ -87,6 +90,7 @@ void run_cache(const CLI::App& command, const CacheOptions& options) {
     if (options.verify) {
         refuse_words(command, making, "--verify");
         refuse_words(command, {"--output", "--extract"}, "--verify");
+        check_outside(options.input, {{"--json", options.json}});
         return verify_cache(options.input, options.json, usable_threads(options.threads));
     }
     if (options.extract) {
@@ -98,6 +102,7 @@ void run_cache(const CLI::App& command, const CacheOptions& options) {
 }
 
 void add_shape_words(CLI::App& command, CacheOptions& options) {
+    constexpr std::uint64_t least = 1;
     command
         .add_option("--format", options.format,
                     "Keep positions (3 floats a vertex), packed (position and normal in 12 bytes), or poses, "
@@ -110,8 +115,8 @@ void add_shape_words(CLI::App& command, CacheOptions& options) {
                     "Make shards of at most this size, as 64M or 1G, but of one instance in one frame at "
                     "least (default: 256 MiB)")
         ->transform(size_word())
+        ->check(CLI::Range(least, most_shard_bytes))
         ->type_name("SIZE");
-    constexpr std::uint64_t least = 1;
     command.add_option("--shard-frames", options.shard_frames, "Put so many frames into a shard")
         ->check(CLI::Range(least, most_frames));
     command

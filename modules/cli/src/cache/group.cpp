@@ -15,8 +15,7 @@
 namespace goffer::cli {
 namespace {
 
-/// Numbers of transforms, as large as a job takes them.
-constexpr double most_length = 1e18, most_seconds = 1e9;
+constexpr double most_offset = 1e9;  // seconds, either way
 
 /// Which of `all`, by their names, a member lists.
 template <class Named>
@@ -46,7 +45,7 @@ glm::dmat3 rotation_of(const Members& fields) {
 
 glm::dvec3 scale_of(const Members& fields) {
     if (fields.at("scale").is_array()) return vector_of(fields, "scale");
-    return glm::dvec3(fields.number("scale", -most_length, most_length));
+    return glm::dvec3(fields.number("scale", -most_far, most_far));
 }
 
 /// From "transform", or from "translation", "rotation" and "scale" as in glTF.
@@ -66,7 +65,7 @@ glm::dmat4x3 read_place(const Members& fields) {
 
 /// A step of "spacing": a vector, or a length along `axis`.
 glm::dvec3 step_of(const Members& fields, const nlohmann::json& value, glm::dvec3 axis) {
-    if (value.is_number() && std::fabs(value.get<double>()) <= most_length) return value.get<double>() * axis;
+    if (value.is_number() && std::fabs(value.get<double>()) <= most_far) return value.get<double>() * axis;
     const auto numbers = list_of(value, 3);
     if (!numbers) fields.refuse("spacing", "is not two lengths, or two vectors of three numbers");
     return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
@@ -104,9 +103,9 @@ void read_places(const Members& fields, const io::NamedFiles& files, SceneGroup&
 }
 
 void read_timing(const Members& fields, SceneGroup& group) {
-    group.offset = fields.number("offset", -most_seconds, most_seconds, 0);
-    group.stagger = fields.number("stagger", -most_seconds, most_seconds, 0);
-    group.scatter = fields.number("scatter", 0, most_seconds, 0);
+    group.offset = fields.number("offset", -most_offset, most_offset, 0);
+    group.stagger = fields.number("stagger", -most_offset, most_offset, 0);
+    group.scatter = fields.number("scatter", 0, most_offset, 0);
     group.speed = fields.number("speed", -1000, 1000, 1);
     if (!group.motions.empty()) return;
     for (const char* name : {"offset", "stagger", "scatter", "speed"}) {

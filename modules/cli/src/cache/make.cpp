@@ -26,7 +26,7 @@ struct Work {
     std::vector<std::uint64_t> shards;  ///< those asked for
     std::vector<ShardFile> files;       ///< of each of them
     std::vector<std::size_t> missing;   ///< places among them
-    std::size_t wrong = 0;              ///< of the missing, those that were there, but not as they should be
+    std::size_t wrong = 0;              ///< of the missing, those that were there, but damaged or others
     std::uint64_t bytes = 0;            ///< that were written
     double frames = 0;                  ///< that were baked, counted as whole frames
     double seconds = 0;
@@ -58,14 +58,17 @@ Work look(const CacheRequest& request, const Plan& plan, const Baker& baker) {
 }
 
 /// Bakes what is missing.
-void bake(const CacheRequest& request, const Plan& plan, Baker& baker, Work& work) {
+void bake(const CacheRequest& request, const CacheRun& run, Baker& baker, Work& work) {
+    const Plan& plan = run.plan();
     const auto start = std::chrono::steady_clock::now();
     std::uint64_t frames = 0;
     for (const std::size_t i : work.missing) frames += plan.range(work.shards[i]).frames;
     Progress progress("baking " + counted(work.missing.size(), "shard"), frames);
     for (const std::size_t i : work.missing) {
-        work.files[i] = baker.bake(work.shards[i], request.folder / shard_name(work.shards[i]),
-                                   [&] { progress.advance(); });
+        work.files[i] = baker.bake(work.shards[i], request.folder / shard_name(work.shards[i]), [&] {
+            run.check_unchanged();  // before the shard takes its place
+            progress.advance();
+        });
         const ShardRange range = plan.range(work.shards[i]);
         work.bytes += work.files[i].bytes;
         work.frames += static_cast<double>(range.frames) * static_cast<double>(range.instances) /
@@ -74,21 +77,18 @@ void bake(const CacheRequest& request, const Plan& plan, Baker& baker, Work& wor
     work.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Shards of an earlier plan that had more of them.
-void remove_strays(const fs::path& folder, std::uint64_t shards) {
+/// Removes what an earlier plan had and this one has not.
+void remove_strays(const fs::path& folder, const Plan& plan) {
     std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        const auto number = shard_number(entry.path().filename().string());
-        if (number && *number >= shards) fs::remove(entry.path(), ignored);
-    }
+    for (const std::string& stray : strays_in(folder, plan)) fs::remove(folder / stray, ignored);
 }
 
 void report_plan(Report& report, const CacheRequest& request, const Plan& plan, const Baker& baker) {
     const std::uint64_t parts = plan.firsts.size(), blocks = plan.shards() / parts;
-    double bytes = 0;
+    std::uint64_t bytes = 0;
     for (std::uint64_t part = 0; part < parts; ++part) {
         const ShardHeader header = baker.header(part);
-        bytes += static_cast<double>(blocks * header.data + plan.frames * header.frame_bytes);
+        bytes += blocks * header.data + plan.frames * header.frame_bytes;
     }
     nlohmann::ordered_json& json = report.json;
     json["scene"] = request.scene.string();
@@ -102,7 +102,8 @@ void report_plan(Report& report, const CacheRequest& request, const Plan& plan, 
     json["bytes"] = bytes;
     report.line("scene", request.scene.string() + ", " + counted(plan.frames, "frame") + " of " +
                              counted(plan.instances, "instance"));
-    report.line("cache", std::string(name_of(plan.format)) + ", " + number(bytes * 1e-6) + " MB in " +
+    report.line("cache", std::string(name_of(plan.format)) + ", " +
+                             number(static_cast<double>(bytes) * 1e-6) + " MB in " +
                              counted(plan.shards(), "shard"));
     report.line("kernels", std::string(name(plan.isa)) + ", threads: " + std::to_string(request.threads));
 }
@@ -115,9 +116,10 @@ void report_work(Report& report, const Work& work, const bend::CrowdResult& resu
     report.json["wrong"] = work.wrong;
     report.json["bytes_written"] = work.bytes;
     report.json["seconds"] = work.seconds;
-    report.line("shards", std::to_string(work.missing.size()) + " baked, of which " +
-                              std::to_string(work.wrong) + " were there and wrong; " + std::to_string(kept) +
-                              " were there and right");
+    const std::string replaced =
+        work.wrong == 0 ? "" : " (" + std::to_string(work.wrong) + " in the place of others or damaged ones)";
+    report.line("shards",
+                std::to_string(kept) + " kept, " + std::to_string(work.missing.size()) + " baked" + replaced);
     if (work.seconds > 0 && work.bytes > 0) {
         report.json["frames_per_second"] = work.frames / work.seconds;
         report.json["mb_per_second"] = static_cast<double>(work.bytes) / work.seconds * 1e-6;
@@ -125,8 +127,9 @@ void report_work(Report& report, const Work& work, const bend::CrowdResult& resu
                                 number(static_cast<double>(work.bytes) / work.seconds * 1e-6) + " MB/s");
     }
     if (result.clamped > 0)
-        report.warn(std::to_string(result.clamped) +
-                    " times an instance was to be bent further than its body can; it is bent so far at most");
+        report.warn(
+            std::to_string(result.clamped) +
+            " times an instance was to be bent further than its body can; it is bent as far as it can");
 }
 
 }  // namespace
@@ -136,6 +139,7 @@ void make_cache(const CacheRequest& request) {
     io::AtomicFiles outputs;
     tbb::task_arena(request.threads).execute([&] {
         const CacheRun run(request);
+        for (const std::string& change : run.changes()) report.warn("the cache is made anew: " + change);
         run.set_up();
         const Plan& plan = run.plan();
         Baker baker(plan, run.cast());
@@ -144,10 +148,10 @@ void make_cache(const CacheRequest& request) {
         Work work = look(request, plan, baker);
         std::error_code none;
         if (!work.missing.empty()) fs::remove(request.folder / manifest_name, none);
-        bake(request, plan, baker, work);
+        bake(request, run, baker, work);
         report_work(report, work, baker.result());
         if (!request.whole) return;
-        remove_strays(request.folder, plan.shards());
+        remove_strays(request.folder, plan);
         write_manifest(request.folder, {plan, work.files});
         report.line("manifest", (request.folder / manifest_name).string());
     });

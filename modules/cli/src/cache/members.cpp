@@ -2,6 +2,7 @@
 #include "cache/members.hpp"
 
 #include "arguments.hpp"
+#include "json.hpp"
 
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
@@ -13,31 +14,6 @@
 
 namespace goffer::cli {
 namespace {
-
-constexpr int deepest = 32;
-
-/// Refuses, while it is read, what nothing of goffer's is like.
-class Guard {
-public:
-    explicit Guard(const std::filesystem::path& file) : file_(file) {}
-
-    bool operator()(int depth, nlohmann::json::parse_event_t, nlohmann::json&) const {
-        if (depth > deepest)
-            throw InputError(io::about(file_, "has lists within lists, more than " + std::to_string(deepest) +
-                                                  " deep; nothing that goffer reads is so deep"));
-        return true;
-    }
-
-private:
-    const std::filesystem::path& file_;
-};
-
-/// Without the library's own "[json.exception..] ".
-std::string reason(const nlohmann::json::exception& error) {
-    const std::string text = error.what();
-    const std::size_t end = text.find("] ");
-    return end == text.npos ? text : text.substr(end + 2);
-}
 
 std::string text_of(double value) {
     char text[32];
@@ -51,11 +27,7 @@ nlohmann::json read_document(const std::filesystem::path& file, std::uint64_t mo
     if (io::size_of_file(file) > most)
         throw InputError(io::about(
             file, "has more than " + io::size_text(most) + ", which is more than such a document needs"));
-    try {
-        return nlohmann::json::parse(io::read_file(file), Guard(file));
-    } catch (const nlohmann::json::exception& error) {
-        throw InputError(io::about(file, "is no JSON: " + io::escaped(reason(error))));
-    }
+    return parse_json(file, io::read_file(file));
 }
 
 Members::Members(const nlohmann::json& object, std::string where)
@@ -126,7 +98,9 @@ std::vector<std::string> Members::texts(const char* name) const {
 
 std::vector<double> Members::numbers(const char* name, std::size_t count) const {
     std::optional<std::vector<double>> list = list_of(at(name), count);
-    if (!list) refuse(name, "is not a list of " + std::to_string(count) + " numbers within -1e18..1e18");
+    if (!list)
+        refuse(name, "is not a list of " + std::to_string(count) + " numbers within -" + text_of(most_far) +
+                         ".." + text_of(most_far));
     return std::move(*list);
 }
 
@@ -141,12 +115,11 @@ std::uint64_t Members::hash(const char* name) const {
 }
 
 std::optional<std::vector<double>> list_of(const nlohmann::json& list, std::size_t count) {
-    constexpr double most = 1e18;
     if (!list.is_array() || list.size() != count) return std::nullopt;
     std::vector<double> numbers;
     numbers.reserve(count);
     for (const nlohmann::json& value : list) {
-        if (!value.is_number() || !(std::fabs(value.get<double>()) <= most)) return std::nullopt;
+        if (!value.is_number() || !(std::fabs(value.get<double>()) <= most_far)) return std::nullopt;
         numbers.push_back(value.get<double>());
     }
     return numbers;

@@ -17,8 +17,10 @@
 
 namespace goffer::cli {
 
-/// Reads a document that may be so deep and so large (in bytes), of which objects have each name once. Throws
-/// an error that names the file.
+/// The largest number of a place or a matrix: a job takes no transform with larger ones.
+constexpr double most_far = 1e18;
+
+/// Reads a document of at most `most` bytes, as parse_json() does. Throws an error that names the file.
 [[nodiscard]] nlohmann::json read_document(const std::filesystem::path& file, std::uint64_t most);
 
 /// The members of an object. It must outlive this.
@@ -48,7 +50,7 @@ public:
     [[nodiscard]] std::string text(const char* name) const;
     /// A text, or a list of such that is not empty.
     [[nodiscard]] std::vector<std::string> texts(const char* name) const;
-    /// A list of `count` finite numbers within -1e18..1e18.
+    /// A list of `count` finite numbers within -most_far..most_far.
     [[nodiscard]] std::vector<double> numbers(const char* name, std::size_t count) const;
     /// A number of 64 bits as text of 16 hexadecimal digits (see hex()).
     [[nodiscard]] std::uint64_t hash(const char* name) const;

@@ -97,7 +97,9 @@ std::uint64_t checksum_of(const Scene& scene, const std::vector<PlanFile>& befor
     std::string all = "goffer cache 1 " + hex(hash_of_file(scene.file));
     for (const std::filesystem::path& path : scene.files) {
         std::error_code no_time;
-        PlanFile file{path.lexically_relative(scene.file.parent_path()).generic_string()};
+        const std::filesystem::path relative = path.lexically_relative(scene.file.parent_path());
+        // There is no way from a relative folder to an absolute name.
+        PlanFile file{(relative.empty() ? path : relative).generic_string()};
         file.bytes = InputFile(path).size();
         file.modified = static_cast<std::int64_t>(
             std::filesystem::last_write_time(path, no_time).time_since_epoch().count());

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,11 @@
 
 namespace goffer::cli {
 
+class Members;
+
+inline constexpr std::uint64_t most_plan_bytes = std::uint64_t{256} << 20;  ///< of a manifest of most_shards
 inline constexpr std::uint64_t most_shards = 1'000'000;
+inline constexpr std::uint64_t most_shard_bytes = std::numeric_limits<std::int64_t>::max();
 
 /// The files of a cache.
 inline constexpr const char* plan_name = "plan.json";
@@ -93,8 +98,11 @@ void cut(Plan& plan, const std::function<std::uint64_t(std::uint64_t)>& block);
 
 [[nodiscard]] nlohmann::ordered_json json_of(const Plan& plan);
 
-/// Reads what json_of() made, or a manifest, from a file in `folder`. Throws an error that names it where it
-/// is missing or cannot be a plan: whatever it says is then safe to use.
+/// Reads what json_of() made. Throws an error that names the member at fault: whatever a plan says is safe to
+/// use.
+[[nodiscard]] Plan plan_of(const Members& fields);
+
+/// Reads it from a file. Throws an error that names that too.
 [[nodiscard]] Plan read_plan(const std::filesystem::path& file);
 
 /// The checksum of a scene and all files that it names; large ones that are as `before` are not read. Puts

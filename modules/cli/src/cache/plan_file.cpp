@@ -3,6 +3,7 @@
 #include "cache/members.hpp"
 #include "cache/plan.hpp"
 
+#include <goffer/bend/region.hpp>
 #include <goffer/io/error.hpp>
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace goffer::cli {
 namespace {
 
 constexpr const char* kind = "goffer cache";
-constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;  // of a manifest of most_shards
 constexpr std::uint64_t any = std::numeric_limits<std::int64_t>::max();
 
 PlanBody read_body(const Members& fields) {
@@ -22,8 +22,7 @@ PlanBody read_body(const Members& fields) {
     if (body.name.find_first_of("/\\.") != std::string::npos) fields.refuse("name", "is no name of a body");
     body.level = fields.whole("level", 0, any);
     body.vertices = fields.whole("vertices", 1, std::numeric_limits<std::uint32_t>::max());
-    constexpr std::uint64_t most_regions = 32;
-    body.regions = fields.whole("regions", 1, most_regions);
+    body.regions = fields.whole("regions", 1, bend::max_regions);
     body.bytes = fields.whole("bytes", 1, any);
     body.checksum = fields.hash("checksum");
     return body;
@@ -95,9 +94,7 @@ nlohmann::ordered_json json_of(const Plan& plan) {
     return json;
 }
 
-Plan read_plan(const std::filesystem::path& file) {
-    const nlohmann::json document = read_document(file, most_bytes);
-    const Members fields(document, io::escaped(file.string()));
+Plan plan_of(const Members& fields) {
     if (fields.text("kind") != kind) fields.refuse("kind", std::string("is not '") + kind + "'");
     (void)fields.whole("version", 1, 1);
     Plan plan;
@@ -112,7 +109,7 @@ Plan read_plan(const std::filesystem::path& file) {
     plan.frames = fields.whole("frames", 1, most_frames);
     plan.instances = fields.whole("instances", 1, most_instances);
     plan.bodies = read_list<PlanBody>(fields, "bodies", read_body);
-    plan.shape = {fields.whole("shard_size", 1, any), fields.whole("shard_frames", 0, any),
+    plan.shape = {fields.whole("shard_size", 1, most_shard_bytes), fields.whole("shard_frames", 0, any),
                   fields.whole("shard_instances", 0, any)};
     plan.frames_per_shard = fields.whole("frames_per_shard", 1, plan.frames);
     read_firsts(fields, plan);
@@ -120,6 +117,11 @@ Plan read_plan(const std::filesystem::path& file) {
     if (plan.bodies.empty()) fields.refuse("bodies", "is an empty list");
     if (plan.shards() > most_shards) fields.refuse("first_instances", "makes too many shards");
     return plan;
+}
+
+Plan read_plan(const std::filesystem::path& file) {
+    const nlohmann::json document = read_document(file, most_plan_bytes);
+    return plan_of(Members(document, io::escaped(file.string())));
 }
 
 }  // namespace goffer::cli

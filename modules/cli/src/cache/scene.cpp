@@ -9,6 +9,7 @@
 #include <goffer/io/error.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace goffer::cli {
 namespace {
@@ -31,19 +32,12 @@ std::string where_in(const Scene& scene, const std::string& what) {
     return io::about(scene.file, what);
 }
 
-/// The buffers of a .gltf, which has its vertices in files of their own.
-void note_buffers(Scene& scene, const std::filesystem::path& file, const mesh::LoadOptions& options) {
+/// Of a model that is there; where it is not, binding it says so.
+std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file,
+                                              const mesh::LoadOptions& options) {
     std::error_code no_file;
-    if (file.extension() != ".gltf" || !std::filesystem::is_regular_file(file, no_file)) return;
-    const nlohmann::json document = read_document(file, options.limits.memory);
-    const auto buffers = document.is_object() ? document.find("buffers") : document.end();
-    if (buffers == document.end() || !buffers->is_array()) return;
-    const io::NamedFiles files(file, options.allow_outside);
-    for (const nlohmann::json& buffer : *buffers) {
-        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
-        const auto found = files.find(buffer["uri"].get<std::string>());
-        if (found && std::filesystem::is_regular_file(*found, no_file)) scene.files.push_back(*found);
-    }
+    if (!std::filesystem::is_regular_file(file, no_file)) return {};
+    return mesh::named_buffers(file, options);
 }
 
 void read_bodies(Scene& scene, const nlohmann::json& list, const io::NamedFiles& files,
@@ -58,7 +52,8 @@ void read_bodies(Scene& scene, const nlohmann::json& list, const io::NamedFiles&
         body.options.erase("file");
         body.options.erase("level");
         scene.files.push_back(body.file);
-        note_buffers(scene, body.file, options);
+        for (std::filesystem::path& buffer : buffers_of(body.file, options))
+            scene.files.push_back(std::move(buffer));
         scene.bodies.push_back(std::move(body));
     }
     if (scene.bodies.empty()) throw InputError(where_in(scene, "bodies") + ": there is none");
@@ -97,6 +92,12 @@ void read_groups(Scene& scene, const nlohmann::json& list, const io::NamedFiles&
     }
 }
 
+/// Keeps the order in which the scene names them, whichever way that leads to their folder.
+void keep_once(std::vector<std::filesystem::path>& files) {
+    std::set<std::filesystem::path> known;
+    std::erase_if(files, [&](const std::filesystem::path& file) { return !known.insert(file).second; });
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const mesh::LoadOptions& options) {
@@ -113,8 +114,7 @@ Scene read_scene(const std::filesystem::path& file, const mesh::LoadOptions& opt
     read_bodies(scene, fields.at("bodies"), files, options);
     if (fields.has("motions")) read_motions(scene, fields.at("motions"), files);
     read_groups(scene, fields.at("instances"), files);
-    std::ranges::sort(scene.files);
-    scene.files.erase(std::unique(scene.files.begin(), scene.files.end()), scene.files.end());
+    keep_once(scene.files);
     return scene;
 }
 

@@ -85,8 +85,7 @@ void ShardWriter::add(std::span<const std::byte> blocks) {
 
 std::uint64_t ShardWriter::finish() {
     header_.checksum = checksum_.value();
-    std::rewind(file_.stream());
-    file_.write(view_of(std::as_bytes(std::span(&header_, 1))));
+    file_.replace_start(view_of(std::as_bytes(std::span(&header_, 1))));
     file_.commit();
     return header_.checksum;
 }

@@ -17,13 +17,6 @@
 namespace goffer::cli {
 namespace {
 
-/// Moments of a motion that may repeat.
-double within(double seconds, double length, bool repeats) {
-    if (!repeats) return std::clamp(seconds, 0.0, length);
-    const double rest = std::fmod(seconds, length);
-    return rest < 0 ? rest + length : rest;
-}
-
 double rest_direction(const bend::Body& body, std::size_t region) {
     const bend::RegionInput& input = body.region_inputs()[region];
     return input.rest_angle == 0 ? 0 : degrees(input.rest_direction);

@@ -16,6 +16,13 @@ namespace goffer::cli {
 /// How a motion goes from key to key: at an even pace (linear), or without a jump in its speed (smooth).
 enum class Interpolation : std::uint8_t { linear, smooth };
 
+/// The moment within 0..`length` at which a motion of that length is after `seconds`.
+[[nodiscard]] inline double within(double seconds, double length, bool repeats) {
+    if (!repeats) return std::clamp(seconds, 0.0, length);
+    const double rest = std::fmod(seconds, length);
+    return rest < 0 ? rest + length : rest;
+}
+
 /// Where a time lies: `share`, 0..1, of the way from key `key` to the next; 0 exactly at a key.
 struct KeyPlace {
     std::size_t key = 0;

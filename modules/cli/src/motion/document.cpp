@@ -2,6 +2,7 @@
 #include "motion/document.hpp"
 
 #include "arguments.hpp"
+#include "json.hpp"
 
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
@@ -37,17 +38,6 @@ std::string read_text(const std::filesystem::path& file) {
 bool is_json(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     return first != text.npos && (text[first] == '{' || text[first] == '[');
-}
-
-json parse(const std::filesystem::path& file, const std::string& text) {
-    try {
-        return json::parse(text);
-    } catch (const json::exception& error) {
-        const std::string what = error.what();
-        const std::size_t end = what.find("] ");
-        refuse(file,
-               "is not JSON as it should be (" + (end == what.npos ? what : what.substr(end + 2)) + ")");
-    }
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -89,8 +79,9 @@ json read_cell(const std::filesystem::path& file, const Row& row, const std::str
     if (or_max && (cell == "max" || cell == "-max")) return cell;
     double value = 0;
     const char* const end = cell.data() + cell.size();
-    const auto [next, error] = std::from_chars(cell.data() + (cell.starts_with('+') ? 1 : 0), end, value);
-    if (error != std::errc() || next != end || !std::isfinite(value))
+    const bool plus = cell.starts_with('+');
+    const auto [next, error] = std::from_chars(cell.data() + (plus ? 1 : 0), end, value);
+    if ((plus && cell.starts_with("+-")) || error != std::errc() || next != end || !std::isfinite(value))
         refuse(file, "line " + std::to_string(row.line) + ": '" + cell + "' is not a number");
     return value;
 }
@@ -169,12 +160,12 @@ json keys_of(const std::filesystem::path& file, const std::string& text) {
 
 json read_keys_file(const std::filesystem::path& file) {
     const std::string text = read_text(file);
-    return is_json(text) ? parse(file, text) : keys_of(file, text);
+    return is_json(text) ? parse_json(file, text) : keys_of(file, text);
 }
 
 json read_path_file(const std::filesystem::path& file) {
     const std::string text = read_text(file);
-    if (is_json(text)) return parse(file, text);
+    if (is_json(text)) return parse_json(file, text);
     json points = json::array();
     for (const Row& row : rows_of(text, true)) {
         json point = json::array();

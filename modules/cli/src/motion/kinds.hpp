@@ -57,7 +57,7 @@ struct KeyedPaths {
 struct Swing {
     RegionAngles from, to;  ///< with the same directions
     double seconds = 1;     ///< there and back
-    double lag = 0;         ///< of the tip behind the base, in swings
+    double lag = 0;         ///< swings; a region is behind by the share of it that lies below the region
     bool from_rest = false;
 };
 [[nodiscard]] std::unique_ptr<const Motion> make_motion(Swing swing);

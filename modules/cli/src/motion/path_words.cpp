@@ -7,6 +7,7 @@
 
 #include <goffer/io/error.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace goffer::cli {
@@ -61,6 +62,7 @@ Laid lay(const bend::Body& body, const PathOptions& words) {
                          number(path.length()) + "; give less");
     std::vector<bend::Pose> poses(body.region_count());
     laid.fit = path.lay(body, words.start, poses);
+    if (!path.closed()) laid.beyond = std::max(words.start + body.length() - path.length(), 0.0);
     for (const bend::Pose& pose : poses)
         laid.targets.push_back(
             {degrees(static_cast<double>(pose.angle)), degrees(static_cast<double>(pose.direction)), pose});
@@ -78,6 +80,11 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
                            {"transform", rows_of(laid.fit.transform)}};
     report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
                             number(words.start) + ": the center line is within " + number(error) + " of it");
+    constexpr double noticeable = 1e-3;
+    if (laid.beyond > noticeable * laid.length)
+        report.warn("the path is " + number(laid.beyond) +
+                    " shorter than the body, which goes straight on behind its end; --path-scale " +
+                    number(laid.scale * (laid.length + laid.beyond) / laid.length) + " makes it long enough");
     if (laid.fit.clamped)
         report.warn("the path bends more sharply than the body can; regions are bent as far as they can");
 }

@@ -44,6 +44,7 @@ struct Laid {
     bend::PathFit fit;
     double length = 0;  ///< of the path, scaled
     double scale = 1;
+    double beyond = 0;  ///< how much of the body lies behind the path's end, straight on
 };
 
 /// Lays `body` on the path of `words`. Throws InputError.

@@ -30,10 +30,7 @@ public:
     bool repeats() const noexcept override { return keys_.repeats; }
 
     Moment at(double seconds, const bend::Body& body) const override {
-        const double length = keys_.times.back();
-        double time = keys_.repeats ? std::fmod(seconds, length) : std::clamp(seconds, 0.0, length);
-        if (time < 0) time += length;
-        const KeyPlace place = place_among(keys_.times, time);
+        const KeyPlace place = place_among(keys_.times, within(seconds, keys_.times.back(), keys_.repeats));
         PathWords words = keys_.keys[place.key];
         for (std::size_t i = 0; i < words.points.size(); ++i)
             words.points[i] = interpolated(keys_.interpolation, keys_.times, keys_.repeats, place,

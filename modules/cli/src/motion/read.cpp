@@ -113,7 +113,7 @@ struct KeyTimes {
     }
 
     void refuse_round() const {
-        throw InputError(place(times.size() - 1) +
+        throw InputError(place(keys.size() - 1) +
                          ": is not as the first, as it is to be in a motion that repeats");
     }
 };
@@ -127,10 +127,8 @@ std::unique_ptr<const Motion> read_keyed_angles(Fields& fields, std::size_t regi
     said.each([&](Fields& key, std::size_t) { keys.keys.push_back(read_key_angles(key, regions)); });
     keys.times = std::move(said.times);
     const RegionAngles &first = keys.keys.front(), &last = keys.keys.back();
-    if (keys.repeats && (first.angles != last.angles || first.directions != last.directions)) {
-        said.times = keys.times;
+    if (keys.repeats && (first.angles != last.angles || first.directions != last.directions))
         said.refuse_round();
-    }
     return make_motion(std::move(keys));
 }
 

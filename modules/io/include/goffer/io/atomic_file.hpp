@@ -35,6 +35,9 @@ public:
     /// Appends `bytes`. Throws Error (disk full, ..).
     void write(std::string_view bytes);
 
+    /// Writes `bytes` in the place of the first ones, which is the last that may be written. Throws Error.
+    void replace_start(std::string_view bytes);
+
     /// For libraries that write to a C stream; owned by this object, null after `commit`. To be asked for
     /// again to write after a flush().
     [[nodiscard]] std::FILE* stream() {

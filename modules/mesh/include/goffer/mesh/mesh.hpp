@@ -142,6 +142,12 @@ struct LoadOptions {
 /// face, or a glTF is compressed and has no plain copy of its data.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
+/// Returns the buffers that a glTF or GLB file names, which hold its vertices and may not be there; none for
+/// other formats and for what is no mesh. Those that lie outside its folder are left out as by load(). Throws
+/// Error if the file cannot be read or is beyond the limits. Thread-safe.
+[[nodiscard]] std::vector<std::filesystem::path> named_buffers(const std::filesystem::path& file,
+                                                               const LoadOptions& options = {});
+
 /// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
 ///
 /// A mesh that differs from the file that it came from in positions, normals and tangents only is given back

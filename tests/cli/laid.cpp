@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+/// `goffer bend --path`: a body on a path.
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+TEST_CASE("bend: a body lies on its path, and the report says how closely") {
+    const Folder folder;
+    base(folder, "base.ply", {"--caps"});
+    folder.write("line.txt", "1 2 3\n11 2 3\n");
+    const json line = report(folder, {"bend", "base.ply", "-o", "line.ply", "--path", "line.txt"});
+    CHECK(line["path"]["error"].get<double>() < 1e-6);
+    CHECK(line["path"]["clamped"] == false);
+    CHECK(line["regions"].size() == 8);
+    const glm::vec3 tip = mesh::load(folder / "line.ply").positions.back();
+    CHECK(glm::length(tip - glm::vec3(11, 2, 3)) < 1e-5);
+    // A quarter of a circle of radius 12 about the origin, said by its Bezier curve.
+    folder.write("arc.json", R"({"bezier": [[[12,0,0],[12,6.6274,0],[6.6274,12,0],[0,12,0]]]})");
+    const json arc = report(folder, {"bend", "base.ply", "-o", "arc.ply", "--path", "arc.json"});
+    CHECK(arc["path"]["length"].get<double>() == doctest::Approx(6 * std::acos(-1.0)).epsilon(1e-3));
+    CHECK(arc["path"]["error"].get<double>() < 0.05);
+    CHECK(std::abs(glm::length(mesh::load(folder / "arc.ply").positions.back()) - 12) < 0.06);
+    const json fitted =
+        report(folder, {"bend", "base.ply", "-o", "arc.ply", "--path", "arc.json", "--path-scale", "fit"});
+    CHECK(fitted["path"]["length"].get<double>() == doctest::Approx(10));
+    folder.write("hook.txt", "0 0 0\n0 0 3\n0.1 0 3\n0.1 0 0\n");
+    CHECK(report(folder, {"bend", "base.ply", "-o", "hook.ply", "--path", "hook.txt"})["path"]["clamped"] ==
+          true);
+}
+
+TEST_CASE("bend: a path that is too short for the body is said to be, with the scale that mends it") {
+    const Folder folder;
+    base(folder);
+    folder.write("short.txt", "0 0 0\n0 0 4\n");
+    const Words words{"bend", "base.ply", "-o", "laid.ply", "--path", "short.txt"};
+    const Result result = run(folder, words);
+    CHECK(result.code == 0);
+    CHECK(result.err.find("6 shorter than the body") != std::string::npos);
+    CHECK(result.err.find("--path-scale 2.5 ") != std::string::npos);
+    CHECK(run(folder, words + Words{"--path-scale", "2.5"}).err.empty());
+    CHECK(run(folder, words + Words{"--path-scale", "2.5", "--path-start", "1"}).err.find("1 shorter") !=
+          std::string::npos);
+}
