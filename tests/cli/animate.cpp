@@ -290,4 +290,9 @@ TEST_CASE("progress: a bar, and the time that is left") {
     CHECK(cli::progress_line("doing", 1, 1000, 10) ==
           "doing [........................] 1 of 1000, 2:46:30 left");
     CHECK(cli::progress_line("doing", 9, 8, 10) == "doing [########################] 8 of 8, 0 s left");
+    CHECK(cli::progress_line("doing", 0.0, 7) == "doing ... 7 s");
+    CHECK(cli::progress_line("doing", 0.0001, 7) == "doing ... 7 s");
+    CHECK(cli::progress_line("doing", 1.0 / 3, 2) == "doing [########................] 33 %, 4 s left");
+    CHECK(cli::progress_line("doing", 0.5, 400) == "doing [############............] 50 %, 6:40 left");
+    CHECK(cli::progress_line("doing", 1.5, 7) == "doing [########################] 100 %, 0 s left");
 }

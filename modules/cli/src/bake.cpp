@@ -91,9 +91,9 @@ struct Level {
 };
 
 BoundModel bind_next(const std::filesystem::path& file, const BindRequest& request, const fit::Binding& rig) {
-    const Progress progress("reading " + file.string());
     refuse_body_file(file);
     BoundModel model = read_model(file, request);
+    const Progress progress("binding " + file.string());
     try {
         model.binding = fit::bind_level(geometry_of(model), rig);
     } catch (const fit::Error& error) {

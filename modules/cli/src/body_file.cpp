@@ -147,12 +147,13 @@ void refuse_body_file(const std::filesystem::path& file) {
 }
 
 bend::BodyFile read_body_file(const std::filesystem::path& file, const mesh::Limits& limits) {
-    const Progress progress("reading " + file.string());
+    Progress progress("reading " + file.string());
     if (io::size_of_file(file) > limits.memory / 4) {  // the bytes, a copy of them, and what is drawn
         throw InputError(file.string() + ": takes more than the " + io::size_text(limits.memory) +
                          " of memory that are allowed; allow more with --max-memory");
     }
-    const std::string bytes = io::read_file(file);
+    constexpr double bytes_read = 0.5;  // the share of the time by when they are; then they are checked
+    const std::string bytes = io::read_file(file, [&](double share) { progress.at(bytes_read * share); });
     bend::BodyFileFault fault;
     std::optional<bend::BodyFile> loaded = bend::load_copy(std::as_bytes(std::span(bytes)), &fault);
     if (!loaded) throw InputError(file.string() + ": " + bend::describe(fault).c_str());

@@ -263,7 +263,10 @@ std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh) {
 BoundModel read_model(const std::filesystem::path& file, const BindRequest& request) {
     BoundModel model;
     model.file = file;
-    model.mesh = mesh::load(file, request.words.load);
+    Progress progress("reading " + file.string());
+    mesh::LoadOptions options = request.words.load;
+    options.progress = progress.listener();
+    model.mesh = mesh::load(file, options);
     check_memory(file.string(), model.mesh, request.words.load.limits);
     take_arrays(model, request);
     return model;
@@ -271,7 +274,6 @@ BoundModel read_model(const std::filesystem::path& file, const BindRequest& requ
 
 BoundModel bind_model(const std::filesystem::path& file, const BindRequest& request,
                       const std::filesystem::path& fit) {
-    const Progress progress("reading " + file.string());
     if (request.words.level > 0)
         throw UsageError("--level: " + file.string() + " is a model, and has no levels; leave it out");
     return bind_mesh(read_model(file, request), request, fit);
@@ -291,7 +293,9 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";
         model.growth = in_file(file, [&] {
-            return refine(model.mesh, cylinder, request.options, request.words.load.limits, automatic);
+            Progress progress("refining " + file.string());
+            return refine(model.mesh, cylinder, request.options, request.words.load.limits, automatic,
+                          progress.listener());
         });
         if (model.growth->triangles_after != model.growth->triangles_before) {
             take_arrays(model, request);

@@ -100,7 +100,8 @@ struct BoundModel {
 /// The model at rest, with its mask. It must outlive the geometry.
 [[nodiscard]] fit::Geometry geometry_of(const BoundModel& model);
 
-/// Reads `file`, with neither cylinder nor binding. Throws an error that names it.
+/// Reads `file`, with neither cylinder nor binding; says so on a terminal where that takes long. Throws an
+/// error that names it.
 [[nodiscard]] BoundModel read_model(const std::filesystem::path& file, const BindRequest& request);
 
 /// Reads, fits, refines and binds `file`; says so on a terminal where that takes long. `fit`: a report that

@@ -28,17 +28,28 @@ std::string time_text(double seconds) {
     return text;
 }
 
+/// `done` is what the bar stands for, in words.
+std::string bar(const std::string& stage, double share, const std::string& done, double seconds) {
+    constexpr std::size_t width = 24;
+    const auto full = static_cast<std::size_t>(share * width);
+    return stage + " [" + std::string(full, '#') + std::string(width - full, '.') + "] " + done + ", " +
+           time_text(seconds * (1 - share) / share) + " left";
+}
+
 }  // namespace
 
 std::string progress_line(const std::string& stage, std::size_t done, std::size_t steps, double seconds) {
     if (steps == 0 || done == 0) return stage + " ... " + time_text(seconds);
-    constexpr std::size_t width = 24;
     done = std::min(done, steps);
     const double share = static_cast<double>(done) / static_cast<double>(steps);
-    const auto full = static_cast<std::size_t>(share * width);
-    return stage + " [" + std::string(full, '#') + std::string(width - full, '.') + "] " +
-           std::to_string(done) + " of " + std::to_string(steps) + ", " +
-           time_text(seconds * (1 - share) / share) + " left";
+    return bar(stage, share, std::to_string(done) + " of " + std::to_string(steps), seconds);
+}
+
+std::string progress_line(const std::string& stage, double share, double seconds) {
+    constexpr double least = 0.001;  // what is left could be no more than a guess before
+    if (!(share >= least)) return stage + " ... " + time_text(seconds);
+    share = std::min(share, 1.0);
+    return bar(stage, share, std::to_string(static_cast<int>(100 * share)) + " %", seconds);
 }
 
 Progress::Progress(const std::string& stage, std::size_t steps) : stage_(io::escaped(stage)), steps_(steps) {
@@ -60,6 +71,17 @@ Progress::~Progress() {
     thread_.join();
 }
 
+void Progress::at(double share) noexcept {
+    double said = share_.load(std::memory_order_relaxed);
+    while (share > said && !share_.compare_exchange_weak(said, share, std::memory_order_relaxed)) {
+    }
+}
+
+std::string Progress::line(double seconds) const {
+    return steps_ > 0 ? progress_line(stage_, done_steps_, steps_, seconds)
+                      : progress_line(stage_, share_, seconds);
+}
+
 void Progress::show() {
     using namespace std::chrono_literals;
     std::unique_lock lock(mutex_);
@@ -67,7 +89,7 @@ void Progress::show() {
     if (wake_.wait_for(lock, 2s, [this] { return done_; })) return;
     do {
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        std::fprintf(stderr, "\r%s\033[K", progress_line(stage_, done_steps_, steps_, taken.count()).c_str());
+        std::fprintf(stderr, "\r%s\033[K", line(taken.count()).c_str());
     } while (!wake_.wait_for(lock, 500ms, [this] { return done_; }));
     std::fprintf(stderr, "\r\033[K");
 }

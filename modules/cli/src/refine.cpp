@@ -60,15 +60,18 @@ void run_refine(const RefineOptions& options) {
     report.finish(outputs);
 }
 
+constexpr double cuts_found = 0.3;  ///< the share of refine()'s time by when it is known where to cut
+
 /// Returns nothing if the refined mesh would be too large and that is allowed.
 std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const fit::Cylinder& cylinder,
                                           std::span<const fit::Stretch> wanted, std::size_t most,
-                                          bool sparing) {
-    if (!sparing) return fit::refine(geometry, cylinder, wanted, {.max_triangles = most});
+                                          bool sparing, const std::function<void(double)>& progress) {
+    if (!sparing)
+        return fit::refine(geometry, cylinder, wanted, {.max_triangles = most, .progress = progress});
     constexpr std::size_t some = 1'000'000;
     const std::size_t limit = std::min(most, std::max(some, geometry.triangles.size() / 3));
     try {
-        return fit::refine(geometry, cylinder, wanted, {.max_triangles = limit});
+        return fit::refine(geometry, cylinder, wanted, {.max_triangles = limit, .progress = progress});
     } catch (const fit::SizeError&) {
         return std::nullopt;
     }
@@ -77,7 +80,11 @@ std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const f
 }  // namespace
 
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
-              const mesh::Limits& limits, bool sparing) {
+              const mesh::Limits& limits, bool sparing, const std::function<void(double)>& progress) {
+    const auto stretch_of = [&](double from, double to) -> std::function<void(double)> {
+        if (!progress) return {};
+        return [&progress, from, to](double share) { progress(from + (to - from) * share); };
+    };
     Growth growth;
     const std::vector<fit::Stretch> wanted = fit::stretches_of(cylinder, options);
     growth.folds = fit::fold_count(wanted, options.profile);
@@ -86,7 +93,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
     const fit::Geometry geometry{mesh.positions, triangles};
     const std::optional<fit::Refinement> found =
-        refinement(geometry, cylinder, wanted, most_triangles(limits), sparing);
+        refinement(geometry, cylinder, wanted, most_triangles(limits), sparing, stretch_of(0, cuts_found));
     growth.vertices_after = growth.vertices_before;
     growth.triangles_after = growth.triangles_before;
     if (!found || found->vertices.empty()) return growth;
@@ -94,7 +101,7 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
-    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents}, limits);
+    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents}, limits, stretch_of(cuts_found, 1));
     growth.vertices_after = mesh.positions.size();
     growth.triangles_after = mesh::triangle_count(mesh);
     return growth;

@@ -9,6 +9,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <cstddef>
+#include <functional>
 
 /// A model with as many rows as its folds need: `goffer refine`, and `--refine` of other commands.
 
@@ -23,9 +24,10 @@ struct Growth {
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that
 /// suits the body where nobody says. `sparing`: leaves a mesh as it is that would get more than a million
-/// triangles. Throws what fit and mesh throw, also where the result would be beyond `limits`.
+/// triangles. `progress` is as fit::RefineOptions'. Throws what fit and mesh throw, also where the result
+/// would be beyond `limits`.
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
-              const mesh::Limits& limits, bool sparing);
+              const mesh::Limits& limits, bool sparing, const std::function<void(double)>& progress = {});
 
 /// The growth, as a line and as "refined" in the JSON. Warns where there was no fold to refine for.
 void report_growth(Report& report, const Growth& growth);

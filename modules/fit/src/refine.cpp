@@ -84,9 +84,16 @@ public:
         for (const double z : heights_) rows_.push_back(scale_.row(z));
     }
 
-    Refinement run(std::size_t max_triangles) && {
-        check_growth(max_triangles);
-        for (std::size_t t = 0; t < triangles_.size(); t += 3) cut(t / 3);
+    Refinement run(const RefineOptions& options) && {
+        const double all = check_growth(options.max_triangles);
+        double next = 0;
+        for (std::size_t t = 0; t < triangles_.size(); t += 3) {
+            cut(t / 3);
+            const auto done = static_cast<double>(out_.parents.size());
+            if (!options.progress || done < next) continue;
+            options.progress(std::min(done / all, 1.0));
+            next = std::min(done + all / 200, all);
+        }
         return std::move(out_);
     }
 
@@ -100,7 +107,7 @@ private:
         return {{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[0]}}};
     }
 
-    void check_growth(std::size_t max_triangles) const;
+    double check_growth(std::size_t max_triangles) const;
     void cut(std::size_t triangle);
     void emit(std::size_t parent, const Upright& corners, std::array<std::uint32_t, 3> piece);
     [[nodiscard]] Upright upright(std::size_t triangle) const;
@@ -119,7 +126,8 @@ private:
     Refinement out_;
 };
 
-void Refiner::check_growth(std::size_t max_triangles) const {
+/// Returns how many triangles there will be.
+double Refiner::check_growth(std::size_t max_triangles) const {
     double triangles = 0, vertices = static_cast<double>(heights_.size());
     for (std::size_t t = 0; t < triangles_.size() / 3; ++t) {
         for (const Edge& edge : edges(t)) {
@@ -129,7 +137,7 @@ void Refiner::check_growth(std::size_t max_triangles) const {
         triangles -= 2;
     }
     const double indices = std::numeric_limits<std::uint32_t>::max();
-    if (triangles <= static_cast<double>(max_triangles) && vertices < indices) return;
+    if (triangles <= static_cast<double>(max_triangles) && vertices < indices) return triangles;
     throw SizeError("refined, the mesh would have " + text(triangles) + " triangles, more than the " +
                     std::to_string(max_triangles) + " allowed; ask for fewer folds");
 }
@@ -297,7 +305,7 @@ Refinement refined(const Geometry& geometry, std::span<const double> heights,
     check_stretches(stretches);
     check_heights(heights, geometry.positions.size());
     const RowScale scale(stretches);
-    return Refiner(geometry, heights, scale, arc).run(options.max_triangles);
+    return Refiner(geometry, heights, scale, arc).run(options);
 }
 
 }  // namespace

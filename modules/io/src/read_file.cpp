@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <goffer/io/read_file.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <system_error>
 
@@ -25,11 +26,18 @@ std::uint64_t size_of_file(const fs::path& file) {
     return size;
 }
 
-std::string read_file(const fs::path& file) {
+std::string read_file(const fs::path& file, const std::function<void(double)>& progress) {
+    constexpr std::size_t piece = std::size_t{4} << 20;
     std::string bytes(size_of_file(file), '\0');
     std::ifstream in(file, std::ios::binary);
-    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        throw Error(about(file, unreadable));
+    if (!in) throw Error(about(file, unreadable));
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::size_t size = std::min(piece, bytes.size() - done);
+        if (!in.read(bytes.data() + done, static_cast<std::streamsize>(size)))
+            throw Error(about(file, unreadable));
+        done += size;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(bytes.size()));
+    }
     return bytes;
 }
 

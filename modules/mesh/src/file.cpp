@@ -17,6 +17,9 @@ namespace fs = std::filesystem;
 
 enum class Format { unknown, obj, ply, stl, glb, gltf };
 
+/// Shares of load()'s time by when its stages are over, as measured with files of 70 to 200 MB.
+constexpr double bytes_read = 0.1, mesh_read = 0.95;
+
 constexpr const char* known_endings = ".obj, .ply, .stl, .glb or .gltf";
 
 Format format_of_ending(const fs::path& file) {
@@ -51,19 +54,20 @@ Format format_of_content(std::string_view bytes) {
     return Format::unknown;
 }
 
-Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options, Budget& budget) {
+Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options, Budget& budget,
+          const Share& share) {
     Format format = format_of_content(bytes);
     if (format == Format::unknown) format = format_of_ending(file);
     switch (format) {
         case Format::obj:
-            return read_obj(file, bytes, options, budget);
+            return read_obj(file, bytes, options, budget, share);
         case Format::ply:
-            return read_ply(file, bytes, budget);
+            return read_ply(file, bytes, budget, share);
         case Format::stl:
-            return read_stl(file, bytes, budget);
+            return read_stl(file, bytes, budget, share);
         case Format::glb:
         case Format::gltf:
-            return read_gltf(file, bytes, options, budget);
+            return read_gltf(file, bytes, options, budget, share);
         case Format::unknown:
             break;
     }
@@ -92,10 +96,13 @@ std::string bytes_of(const Mesh& mesh, const fs::path& file, Format format) {
 
 }  // namespace
 
-std::string read_bytes(const fs::path& file, Budget& budget) {
+std::string read_bytes(const fs::path& file, Budget& budget, const Share& share) {
     try {
         budget.take(io::size_of_file(file));
-        std::string bytes = io::read_file(file);
+        constexpr std::uint64_t steps = 1 << 20;
+        Share reading = share.part(0, 1, steps);
+        std::string bytes =
+            io::read_file(file, [&](double done) { reading.at(static_cast<std::uint64_t>(done * steps)); });
         if (!bytes.empty()) return bytes;
     } catch (const io::Error& error) {
         throw Error(error.what());
@@ -106,9 +113,12 @@ std::string read_bytes(const fs::path& file, Budget& budget) {
 Mesh load(const fs::path& file, const LoadOptions& options) {
     try {
         Budget budget(options.limits);
-        const std::string bytes = read_bytes(file, budget);
-        Mesh mesh = read(file, bytes, options, budget);
+        Listener listener(options.progress);
+        const Share all(listener);
+        const std::string bytes = read_bytes(file, budget, all.part(0, bytes_read));
+        Mesh mesh = read(file, bytes, options, budget, all.part(bytes_read, mesh_read));
         check(mesh, file);
+        listener.hear(1);
         return mesh;
     } catch (const OverLimit& error) {
         fail(file, error.what());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "share.hpp"
+
 #include <goffer/mesh/mesh.hpp>
 
 #include <filesystem>
@@ -11,18 +13,21 @@
 /// What each format provides for load() and save(). Readers take the bytes of a file, and its path for
 /// messages and for the files that it names; they throw Error that begins with the path, or OverLimit.
 /// Writers return the whole file as bytes, so that one place writes beside and renames; glTF's throw Error
-/// likewise. Thread-safe.
+/// likewise. `share` hears how far readers are; its owner says when all is done. Thread-safe.
 
 namespace goffer::mesh {
 
 class Budget;
 
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::string_view bytes,
-                            const LoadOptions& options, Budget& budget);
-[[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget);
-[[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget);
+                            const LoadOptions& options, Budget& budget, const Share& share);
+[[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget,
+                            const Share& share);
+[[nodiscard]] Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget,
+                            const Share& share);
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes,
-                             const LoadOptions& options, Budget& budget);  // .gltf and .glb
+                             const LoadOptions& options, Budget& budget,
+                             const Share& share);  // .gltf and .glb
 
 /// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);
@@ -44,7 +49,8 @@ class Budget;
 
 /// Returns all bytes of a regular file, which come out of `budget`. Throws Error if it is missing, no regular
 /// file, empty or unreadable.
-[[nodiscard]] std::string read_bytes(const std::filesystem::path& file, Budget& budget);
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& file, Budget& budget,
+                                     const Share& share = {});
 
 /// An image in a file of its own, which is read by Image::bytes() if it is no larger than limits.memory.
 [[nodiscard]] std::shared_ptr<const Image> image_in(const std::filesystem::path& file, const Limits& limits);

@@ -143,7 +143,7 @@ void check_limits(const Mesh& mesh, const Subdivision& pieces, const Limits& lim
 
 }  // namespace
 
-Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pieces) {
+Cut::Cut(const Mesh& mesh, const Subdivision& pieces, Share share) : mesh_(mesh), pieces_(pieces) {
     FaceCutter cut(mesh);
     std::size_t first = 0;
     triangles_.reserve(3 * triangle_count(mesh));
@@ -153,6 +153,7 @@ Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pie
         first += size;
     }
     check_vertices();
+    share = share.part(0.2, 1, pieces.parents.size());
     const std::size_t triangles = triangles_.size() / 3;
     if (pieces.triangles.size() != 3 * pieces.parents.size())
         refuse(std::to_string(pieces.triangles.size()) + " corners for " +
@@ -164,6 +165,7 @@ Cut::Cut(const Mesh& mesh, const Subdivision& pieces) : mesh_(mesh), pieces_(pie
                    ", which is out of range or out of order");
         if (parent == first_piece_.size()) first_piece_.push_back(p);
         check_piece(p);
+        share.at(p);
     }
     if (first_piece_.size() != triangles)
         refuse("there are pieces for " + std::to_string(first_piece_.size()) + " of " +
@@ -232,26 +234,44 @@ std::array<PieceCorner, 3> Cut::corners(std::size_t piece) const {
     return out;
 }
 
-Mesh refined_alone(const Cut& cut) {
+Mesh refined_alone(const Cut& cut, Share share) {
     Mesh out = cut.mesh();
     out.source = nullptr;
+    share = share.part(0, 1, 4);
     const FaceMaker faces(cut, out);
+    share.at(1);
     append(out.positions, cut, linear<3>);
     append(out.colors, cut, linear<4>);
+    share.at(2);
     refine(out.normals, cut, direction);
     refine(out.tangents, cut, tangent_between);
+    share.at(3);
     for (auto& uvs : out.uvs) refine(uvs, cut, linear<2>);
     return out;
 }
 
-Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits) {
-    check_limits(mesh, pieces, limits);
-    const Cut cut(mesh, pieces);
-    if (pieces.vertices.empty()) return mesh;
-    Mesh alone = refined_alone(cut);
+namespace {
+
+constexpr double checked = 0.15;  ///< the share of the time by when all pieces are looked at
+
+Mesh refined_with_source(const Cut& cut, const Share& share) {
+    Mesh alone = refined_alone(cut, share.part(0, 0.2));
     for (const auto with_source : {refined_gltf, refined_obj, refined_ply, refined_stl})
-        if (std::optional<Mesh> out = with_source(cut, alone)) return std::move(*out);
+        if (std::optional<Mesh> out = with_source(cut, alone, share.part(0.2, 1))) return std::move(*out);
     return alone;
+}
+
+}  // namespace
+
+Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits,
+             const std::function<void(double)>& progress) {
+    Listener listener(progress);
+    const Share all(listener);
+    check_limits(mesh, pieces, limits);
+    const Cut cut(mesh, pieces, all.part(0, checked));
+    Mesh out = pieces.vertices.empty() ? mesh : refined_with_source(cut, all.part(checked, 1));
+    listener.hear(1);
+    return out;
 }
 
 }  // namespace goffer::mesh

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "share.hpp"
+
 #include <goffer/mesh/refined.hpp>
 
 #include <glm/vec3.hpp>
@@ -28,7 +30,7 @@ struct PieceCorner {
 class Cut {
 public:
     /// Throws Error if they do not fit.
-    Cut(const Mesh& mesh, const Subdivision& pieces);
+    Cut(const Mesh& mesh, const Subdivision& pieces, Share share = {});
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Subdivision& pieces() const { return pieces_; }
@@ -73,13 +75,13 @@ private:
 
 /// Returns the refined mesh without a source, whatever the mesh came from: new vertices are behind all
 /// others.
-[[nodiscard]] Mesh refined_alone(const Cut& cut);
+[[nodiscard]] Mesh refined_alone(const Cut& cut, Share share = {});
 
 /// Return the refined mesh with a refined source; null if the mesh has no source of that format, differs from
 /// it in more than what bending changes, or cannot be refined in it. `alone` is what refined_alone() returns.
-[[nodiscard]] std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone);
-[[nodiscard]] std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone);
-[[nodiscard]] std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone);
-[[nodiscard]] std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone);
+[[nodiscard]] std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone, const Share& share);
+[[nodiscard]] std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone, const Share& share);
+[[nodiscard]] std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone, const Share& share);
+[[nodiscard]] std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone, const Share& share);
 
 }  // namespace goffer::mesh

@@ -58,7 +58,7 @@ Container split_glb(std::string_view bytes) {
 /// Looks at brackets before the parser runs (its callback would take quadratic time for long arrays), and at
 /// what its values will take: by what a value, a member and a list are in memory, with the room that lists
 /// leave for more.
-void check_nesting(std::string_view text, Budget& budget) {
+void check_nesting(std::string_view text, Budget& budget, Share share) {
     constexpr std::uint64_t per_value = 2 * sizeof(Json), per_name = 2 * (sizeof(std::string) + sizeof(Json)),
                             per_list = 4 * sizeof(Json);
     std::uint64_t bytes = text.size();
@@ -66,6 +66,7 @@ void check_nesting(std::string_view text, Budget& budget) {
     bool in_string = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
+        share.at(i);
         if (c == '"') in_string = !in_string;
         if (in_string && c == '\\') ++i;
         if (in_string) continue;
@@ -81,8 +82,8 @@ void check_nesting(std::string_view text, Budget& budget) {
     budget.take(bytes);
 }
 
-Json parse(std::string_view text, Budget& budget) {
-    check_nesting(text, budget);
+Json parse(std::string_view text, Budget& budget, const Share& share) {
+    check_nesting(text, budget, share.part(0, 1, text.size()));
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {
@@ -198,15 +199,18 @@ std::string_view Document::view(const Value& buffer_view) const {
 }
 
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
-                                              const LoadOptions& options, Budget& budget) {
+                                              const LoadOptions& options, Budget& budget,
+                                              const Share& share) {
     const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
     const auto document = std::make_shared<Document>(io::NamedFiles(file, options.allow_outside));
     document->limits = options.limits;
-    document->json = parse(parts.json, budget);
+    document->json = parse(parts.json, budget, share.part(0, 0.3));
     const Value root = document->root();
     check_version(root);
     use_plain_data(document->json);
+    Share reading = share.part(0.5, 1, document->count("buffers"));
     for (std::size_t i = 0; i < document->count("buffers"); ++i) {
+        reading.at(i);
         document->buffers.push_back(read_buffer(root["buffers"][i], i == 0, parts, document->files, budget));
     }
     for (std::size_t i = 0; i < document->count("bufferViews"); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "budget.hpp"
+#include "share.hpp"
 
 #include <goffer/io/named_files.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -90,7 +91,8 @@ struct Document : Source {
 /// Takes a .glb or .gltf apart and reads its buffers. Throws Error without the file's name.
 [[nodiscard]] std::shared_ptr<const Document> open_document(const std::filesystem::path& file,
                                                             std::string_view bytes,
-                                                            const LoadOptions& options, Budget& budget);
+                                                            const LoadOptions& options, Budget& budget,
+                                                            const Share& share);
 
 /// Refuses a document whose meshes are compressed. Where they are also there in plain, for readers that do
 /// not know the compression, takes the compressed copies out.
@@ -215,8 +217,8 @@ struct PlacedNode {
 
 /// Reads the scene of a document. The writer relies on getting the same scene for the same document.
 /// Throws OverLimit; without a budget there is no limit, for documents that have been read before.
-[[nodiscard]] Scene read_scene(const Document& document, Budget& budget);
-[[nodiscard]] Scene read_scene(const Document& document);
+[[nodiscard]] Scene read_scene(const Document& document, Budget& budget, const Share& share = {});
+[[nodiscard]] Scene read_scene(const Document& document, const Share& share = {});
 
 /// A document to be written.
 struct Output {

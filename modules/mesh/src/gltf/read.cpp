@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 
 namespace goffer::mesh {
 
@@ -36,12 +37,15 @@ using AccessorSet = std::vector<std::size_t>;
 
 class SceneReader {
 public:
-    SceneReader(const Document& document, Budget& budget) : document_(document), budget_(budget) {}
+    SceneReader(const Document& document, Budget& budget, const Share& share)
+        : document_(document), budget_(budget), share_(share) {}
 
     Scene read() &&;
 
 private:
     void read_materials();
+    [[nodiscard]] std::uint64_t work_of(const Value& primitive) const;
+    [[nodiscard]] std::uint64_t work_of(std::span<const PlacedNode> nodes) const;
     void read_node(const PlacedNode& placed);
     void read_primitive(const PlacedNode& placed, const Value& primitive,
                         std::map<AccessorSet, std::size_t>& known);
@@ -72,6 +76,8 @@ private:
     Gathered<glm::vec4> tangents_;
     std::vector<Gathered<glm::vec2>> uvs_;
     Budget& budget_;
+    Share share_;                                        ///< in values and indices
+    std::uint64_t done_ = 0;                             ///< of these, before the ones that are being read
     std::uint64_t unbacked_ = 0;                         ///< elements that have no bytes behind them
     std::map<std::size_t, std::uint64_t> entry_memory_;  ///< of entries of the document's meshes
 };
@@ -218,8 +224,43 @@ AccessorSet SceneReader::accessors_of(const Value& attributes) const {
     return set;
 }
 
+/// How many values and indices there are to read; none where reading will refuse something.
+std::uint64_t SceneReader::work_of(const Value& primitive) const {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    const auto elements = [&](const Value& reference) {
+        return std::min(document_.entry("accessors", reference)["count"].whole(), most);
+    };
+    try {
+        const Value attributes = primitive["attributes"];
+        const AccessorSet set = accessors_of(attributes);
+        const auto absent = std::ranges::count(set, Block::absent);
+        const std::uint64_t vertices = elements(attributes[stream_name[position]]);
+        const std::uint64_t indices = primitive.has("indices") ? elements(primitive["indices"]) : vertices;
+        return (set.size() - static_cast<std::size_t>(absent)) * vertices + indices;
+    } catch (const Error&) {
+        return 0;
+    }
+}
+
+std::uint64_t SceneReader::work_of(std::span<const PlacedNode> nodes) const try {
+    std::uint64_t work = 0;
+    std::map<std::size_t, std::uint64_t> of_mesh;  // nodes may share one
+    for (const PlacedNode& placed : nodes) {
+        const Value node = document_.root()["nodes"][placed.node];
+        if (!node.has("mesh")) continue;
+        const auto [known, is_new] = of_mesh.try_emplace(node["mesh"].whole(), 0);
+        const Value primitives = document_.entry("meshes", node["mesh"])["primitives"];
+        for (std::size_t i = 0; is_new && i < primitives.size(); ++i) known->second += work_of(primitives[i]);
+        work += known->second;
+    }
+    return work;
+} catch (const Error&) {
+    return 0;
+}
+
 void SceneReader::read_primitive(const PlacedNode& placed, const Value& primitive,
                                  std::map<AccessorSet, std::size_t>& known) {
+    const std::uint64_t end = done_ + (share_.is_heard() ? work_of(primitive) : 0);
     const Value attributes = primitive["attributes"];
     const AccessorSet set = accessors_of(attributes);
     const auto found = known.find(set);
@@ -236,6 +277,7 @@ void SceneReader::read_primitive(const PlacedNode& placed, const Value& primitiv
     budget_.take(2 * (sizeof(Part) + sizeof(Block)));
     mesh_.parts.push_back(std::move(part));
     part_block_.push_back(block);
+    done_ = end;
 }
 
 std::size_t SceneReader::read_block(const PlacedNode& placed, const Value& attributes, std::size_t uv_sets) {
@@ -261,7 +303,9 @@ void SceneReader::read_positions(Block& block, const Value& attributes) {
                            " is not finite (nan or infinite); remove it or export again");
         }
         mesh_.positions.push_back(point);
+        share_.at(done_ + i);
     }
+    done_ += block.count;
 }
 
 void SceneReader::read_streams(Block& block, const Value& attributes) {
@@ -270,14 +314,18 @@ void SceneReader::read_streams(Block& block, const Value& attributes) {
         const std::vector<float> values = stream(attributes, stream_name[normal], 3, block.count);
         for (std::size_t i = 0; i < block.count; ++i) {
             normals_.values.push_back(block.placement.normal(glm::make_vec3(&values[3 * i])));
+            share_.at(done_ + i);
         }
+        done_ += block.count;
     }
     if (attributes.has(stream_name[tangent])) {
         block.first[tangent] = tangents_.values.size();
         const std::vector<float> values = stream(attributes, stream_name[tangent], 4, block.count);
         for (std::size_t i = 0; i < block.count; ++i) {
             tangents_.values.push_back(block.placement.tangent(glm::make_vec4(&values[4 * i])));
+            share_.at(done_ + i);
         }
+        done_ += block.count;
     }
     normals_.first.push_back(block.first[normal]);
     tangents_.first.push_back(block.first[tangent]);
@@ -294,6 +342,7 @@ void SceneReader::read_colors(const Block& block, const Value& attributes) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         mesh_.colors[block.first[position] + i / width][static_cast<int>(i % width)] = values[i];
     }
+    done_ += block.count;
 }
 
 void SceneReader::read_uvs(const Block& block, const Value& attributes, std::size_t uv_sets) {
@@ -303,8 +352,11 @@ void SceneReader::read_uvs(const Block& block, const Value& attributes, std::siz
         uvs_[set].first.push_back(set < uv_sets ? uvs_[set].values.size() : Block::absent);
         if (set >= uv_sets) continue;
         const std::vector<float> values = stream(attributes, uv_name(set).c_str(), 2, block.count);
-        for (std::size_t i = 0; i < block.count; ++i)
+        for (std::size_t i = 0; i < block.count; ++i) {
             uvs_[set].values.emplace_back(values[2 * i], 1 - values[2 * i + 1]);  // glTF's v points down
+            share_.at(done_ + i);
+        }
+        done_ += block.count;
     }
 }
 
@@ -342,7 +394,10 @@ void SceneReader::add_faces(const Value& primitive, const Block& block) {
     budget_.take_faces(faces, 3 * faces, 2 * sizeof(std::uint32_t));
     if (mode < triangles) return;  // points and lines bend, but have no faces
     if (mode == triangles) {
-        for (std::size_t k = 0; k + 2 < i.size(); k += 3) add_triangle(block, i[k], i[k + 1], i[k + 2]);
+        for (std::size_t k = 0; k + 2 < i.size(); k += 3) {
+            add_triangle(block, i[k], i[k + 1], i[k + 2]);
+            share_.at(done_ + k);
+        }
         if (i.size() % 3 != 0) warn(primitive.path() + " ends in an incomplete triangle, which is left out");
         return;
     }
@@ -378,7 +433,9 @@ Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
 
 Scene SceneReader::read() && {
     read_materials();
-    for (const PlacedNode& placed : nodes_of_scene(document_)) read_node(placed);
+    const std::vector<PlacedNode> nodes = nodes_of_scene(document_);
+    if (share_.is_heard()) share_ = share_.part(0, 1, work_of(nodes));
+    for (const PlacedNode& placed : nodes) read_node(placed);
     if (mesh_.positions.empty()) {
         throw Error("no node of the scene carries a mesh with vertices; put one into the default scene");
     }
@@ -391,22 +448,33 @@ Scene SceneReader::read() && {
 
 }  // namespace
 
-Scene read_scene(const Document& document, Budget& budget) {
-    return SceneReader(document, budget).read();
+Scene read_scene(const Document& document, Budget& budget, const Share& share) {
+    return SceneReader(document, budget, share).read();
 }
 
-Scene read_scene(const Document& document) {
+Scene read_scene(const Document& document, const Share& share) {
     Budget no_limit;
-    return read_scene(document, no_limit);
+    return read_scene(document, no_limit, share);
 }
 
 }  // namespace gltf
 
+namespace {
+
+/// The share of the time by when the document is open: much if its buffers are in its text.
+double opening_share(std::string_view bytes) {
+    constexpr std::size_t large = 1 << 20;
+    return !bytes.starts_with("glTF") && bytes.size() > large ? 0.8 : 0.15;
+}
+
+}  // namespace
+
 Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
-               Budget& budget) {
+               Budget& budget, const Share& share) {
     try {
-        const auto document = gltf::open_document(file, bytes, options, budget);
-        Mesh mesh = gltf::read_scene(*document, budget).mesh;
+        const double opened = opening_share(bytes);
+        const auto document = gltf::open_document(file, bytes, options, budget, share.part(0, opened));
+        Mesh mesh = gltf::read_scene(*document, budget, share.part(opened, 1)).mesh;
         const auto say = [&](std::vector<std::string> warnings) {
             std::ranges::move(warnings, std::back_inserter(mesh.warnings));
         };

@@ -88,7 +88,7 @@ public:
 
     /// Returns the refined document. `order` becomes the number that each of its vertices has in the mesh of
     /// refined_alone().
-    Output run(std::vector<std::uint32_t>& order) &&;
+    Output run(std::vector<std::uint32_t>& order, Share share) &&;
 
 private:
     void share_out();
@@ -259,11 +259,13 @@ void SceneRefiner::refine_block(std::size_t block, std::size_t first_part, Json&
     }
 }
 
-Output SceneRefiner::run(std::vector<std::uint32_t>& order) && {
+Output SceneRefiner::run(std::vector<std::uint32_t>& order, Share share) && {
     share_out();
+    share = share.part(0.2, 1, scene_.blocks.size());
     std::vector<Shape> shapes;
     std::size_t first_part = 0, next_part = 0;
     for (std::size_t b = 0; b < scene_.blocks.size(); ++b) {
+        share.at(b);
         const Block& block = scene_.blocks[b];
         if (shapes.empty() || shapes.back().node != block.node) {
             first_part = next_part;
@@ -289,16 +291,16 @@ Output SceneRefiner::run(std::vector<std::uint32_t>& order) && {
 
 /// The positions are taken from `alone`. Going through a node's transform and back might round them, and not
 /// alike on both sides of a seam between nodes.
-std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone) {
+std::optional<Mesh> refined_gltf(const Cut& cut, const Mesh& alone, const Share& share) {
     const auto* source = dynamic_cast<const gltf::Document*>(cut.mesh().source.get());
     if (!source) return std::nullopt;
     std::optional<gltf::Output> now = gltf::rewritten(cut.mesh(), source->files.folder() / "refined", false);
     if (!now) return std::nullopt;
     const auto document = gltf::document_of(std::move(*now), *source);
     std::vector<std::uint32_t> order;
-    gltf::Output output = gltf::SceneRefiner(*document, cut).run(order);
+    gltf::Output output = gltf::SceneRefiner(*document, cut).run(order, share.part(0.1, 0.6));
     const auto made = gltf::document_of(std::move(output), *source);
-    Mesh out = gltf::read_scene(*made).mesh;
+    Mesh out = gltf::read_scene(*made, share.part(0.6, 1)).mesh;
     for (std::size_t i = 0; i < order.size(); ++i) out.positions[i] = alone.positions[order[i]];
     (void)gltf::read_textures(made, out);  // what it says has been said
     out.warnings = cut.mesh().warnings;

@@ -21,15 +21,23 @@ namespace goffer::mesh {
 namespace {
 
 constexpr std::uint32_t none = Attribute<glm::vec3>::none;
+constexpr double counted = 0.2, parsed = 0.9;  ///< shares of the time by when the two passes are over
 
 class ObjReader {
 public:
     ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options,
-              Budget& budget)
-        : file_(file), text_(text), options_(options), files_(file, options.allow_outside), budget_(budget) {}
+              Budget& budget, const Share& share)
+        : file_(file),
+          text_(text),
+          options_(options),
+          files_(file, options.allow_outside),
+          budget_(budget),
+          share_(share) {}
     Mesh read();
 
 private:
+    template <class Take>
+    void each_statement(Share share, Take take) const;
     void take(const Statement& statement);
     void take_vertex(const Statement& statement);
     void take_normal(const Statement& statement);
@@ -55,6 +63,7 @@ private:
     const LoadOptions& options_;
     io::NamedFiles files_;
     Budget& budget_;
+    const Share share_;
     Mesh mesh_;
     Counts total_, seen_;
     std::array<float, 8> numbers_{};
@@ -68,17 +77,25 @@ private:
     std::size_t stray_exponents_ = 0;
 };
 
+template <class Take>
+void ObjReader::each_statement(Share share, Take take) const {
+    Statement statement;
+    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) {
+        take(statement);
+        share.at(text_.size() - rest.size());
+    }
+}
+
 Mesh ObjReader::read() {
     if (const std::size_t zero = text_.find('\0'); zero != text_.npos)
         fail_at(text_.substr(zero), "binary data where OBJ text should be; export the mesh again");
     mesh_.uvs.resize(1);
-    Statement statement;
-    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) total_.add(statement);
+    each_statement(share_.part(0, counted, text_.size()), [&](const Statement& s) { total_.add(s); });
     if (total_.v == 0) fail(file_, "has no vertices (v lines); give an OBJ file that has a mesh");
     budget_.take_vertices(total_.v, kept_copies * sizeof(glm::vec3));
     budget_.take(text_.size() +
                  kept_copies * (total_.vt * sizeof(glm::vec2) + total_.vn * sizeof(glm::vec3)));
-    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) take(statement);
+    each_statement(share_.part(counted, parsed, text_.size()), [&](const Statement& s) { take(s); });
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
     if (short_faces_ > 0)
         mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
@@ -430,11 +447,12 @@ std::array<std::string_view, 3> corner_parts(std::string_view argument) {
 }
 
 Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
-              Budget& budget) {
-    Mesh mesh = ObjReader(file, bytes, options, budget).read();
+              Budget& budget, const Share& share) {
+    Mesh mesh = ObjReader(file, bytes, options, budget, share).read();
     auto source = std::make_shared<ObjSource>();
     source->file = file;
     source->options = options;
+    source->options.progress = {};  // whom it tells may be gone when the source is used
     source->text = bytes;
     source->read = mesh;
     mesh.source = std::move(source);

@@ -25,8 +25,12 @@ public:
 /// faces. All other lines stay as they are, but for references that count backward over new values.
 class ObjRefiner {
 public:
-    ObjRefiner(std::string_view text, const Cut& cut, const Mesh& refined)
-        : was_(cut.mesh()), now_(refined), faces_(cut), out_(text) {
+    ObjRefiner(std::string_view text, const Cut& cut, const Mesh& refined, const Share& share)
+        : was_(cut.mesh()),
+          now_(refined),
+          share_(share.part(0, 1, refined.corners.size())),
+          faces_(cut),
+          out_(text) {
         Statement statement;
         for (std::string_view rest = without_bom(text); next_statement(rest, statement);)
             total_.add(statement);
@@ -93,6 +97,7 @@ private:
             corner_ += is_face ? size : 0;
             return;
         }
+        share_.at(corner_);
         std::string lines;
         for (std::size_t p = 0; p < pieces; ++p) {
             if (p > 0) begin_line(lines, statement, "f");
@@ -119,6 +124,7 @@ private:
 
     const Mesh& was_;
     const Mesh& now_;
+    Share share_;  ///< in corners of the refined mesh
     const FaceCounts faces_;
     Editor out_;
     Counts total_, seen_;
@@ -128,12 +134,13 @@ private:
 
 }  // namespace
 
-std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone) {
+std::optional<Mesh> refined_obj(const Cut& cut, const Mesh& alone, const Share& share) {
     const auto* source = dynamic_cast<const ObjSource*>(cut.mesh().source.get());
     if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
     const std::string text = write_obj(cut.mesh(), source->file);
     Budget budget;
-    Mesh out = read_obj(source->file, ObjRefiner(text, cut, alone).finish(), source->options, budget);
+    const std::string refined = ObjRefiner(text, cut, alone, share.part(0.2, 0.5)).finish();
+    Mesh out = read_obj(source->file, refined, source->options, budget, share.part(0.5, 1));
     out.warnings = cut.mesh().warnings;
     return out;
 }

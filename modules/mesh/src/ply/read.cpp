@@ -11,10 +11,11 @@ namespace {
 
 using namespace ply;
 constexpr std::uint32_t none = Attribute<glm::vec2>::none;
+constexpr double parsed = 0.85;  ///< the share of the time after which the source is put together
 
 class PlyReader {
 public:
-    PlyReader(const Header& header, Budget& budget);
+    PlyReader(const Header& header, Budget& budget, const Share& share);
     Mesh read();
 
     void value(const Cursor& cursor, const Property& property, const Value& value);
@@ -33,6 +34,7 @@ private:
 
     const Header& header_;
     Budget& budget_;
+    Share share_;  ///< in bytes
     const Element* vertex_;
     Mesh mesh_;
     bool has_normals_ = false, has_colors_ = false, has_uvs_ = false, has_texcoords_ = false;
@@ -42,8 +44,8 @@ private:
     std::size_t short_faces_ = 0, not_finite_ = 0;
 };
 
-PlyReader::PlyReader(const Header& header, Budget& budget)
-    : header_(header), budget_(budget), vertex_(header.find("vertex")) {
+PlyReader::PlyReader(const Header& header, Budget& budget, const Share& share)
+    : header_(header), budget_(budget), share_(share), vertex_(header.find("vertex")) {
     if (!vertex_) fail(header.file, "the header has no element vertex; give a PLY file that has a mesh");
     for (const Role role : {Role::x, Role::y, Role::z})
         if (!has(role))
@@ -95,6 +97,7 @@ void PlyReader::value(const Cursor& cursor, const Property& property, const Valu
 void PlyReader::end_row(const Cursor& cursor, const Element& element) {
     if (&element == vertex_) end_vertex(cursor);
     if (element.name == "face") end_face();
+    share_.at(header_.bytes.size() - cursor.rest().size());
 }
 
 void PlyReader::end(const Cursor& cursor) {
@@ -158,9 +161,9 @@ float PlyReader::finite_or_zero(double value) {
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
+Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget, const Share& share) {
     const Header header = read_header(file, bytes);
-    Mesh mesh = PlyReader(header, budget).read();
+    Mesh mesh = PlyReader(header, budget, share.part(0, parsed, bytes.size())).read();
     auto source = std::make_shared<PlySource>();
     source->bytes = bytes;
     source->read = mesh;

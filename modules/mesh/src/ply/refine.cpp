@@ -66,12 +66,13 @@ void append_number(std::string& out, const Header& header, Type type, double num
 /// place of their faces. All other rows stay as they are, to the byte.
 class PlyRefiner {
 public:
-    PlyRefiner(const Header& header, const Cut& cut, const Mesh& refined)
+    PlyRefiner(const Header& header, const Cut& cut, const Mesh& refined, const Share& share)
         : header_(header),
           cut_(cut),
           now_(refined),
           vertex_(header.find("vertex")),
           face_(header.find("face")),
+          share_(share.part(0, 1, refined.positions.size() + refined.faces.size())),
           row_begin_(header.bytes.data() + header.size) {
         find_pieces();
         walk(header, *this);
@@ -140,6 +141,7 @@ private:
                 append_number(body_, header_, property.type, new_number(property, p, v));
             }
             end_line();
+            share_.at(v);
         }
     }
 
@@ -155,6 +157,7 @@ private:
         if (size < 3) return false;  // the reader leaves these out
         const std::size_t face = face_number_++, first = first_piece_[face];
         if (first == whole) return false;
+        share_.at(now_.positions.size() + first / 3);
         end_line();
         for (std::size_t piece = 0; piece < rows_[face]; ++piece) append_piece(first + 3 * piece);
         return true;
@@ -209,6 +212,7 @@ private:
     const Cut& cut_;
     const Mesh& now_;
     const Element *vertex_, *face_;
+    Share share_;  ///< in vertices and faces of the refined mesh
     /// For each face, the first corner of its pieces in the refined mesh, or `whole`.
     std::vector<std::size_t> first_piece_;
     std::vector<std::uint32_t> rows_;  ///< how many rows each face becomes
@@ -222,14 +226,15 @@ private:
 
 }  // namespace
 
-std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone) {
+std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone, const Share& share) {
     const auto* source = dynamic_cast<const PlySource*>(cut.mesh().source.get());
     if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
     const std::string now = write_ply(cut.mesh());
     const Header header = read_header({}, now);
     if (!has_room(header, alone.positions.size())) return std::nullopt;
     Budget budget;
-    Mesh out = read_ply({}, PlyRefiner(header, cut, alone).finish(), budget);
+    const std::string bytes = PlyRefiner(header, cut, alone, share.part(0.1, 0.6)).finish();
+    Mesh out = read_ply({}, bytes, budget, share.part(0.6, 1));
     out.warnings = cut.mesh().warnings;
     return out;
 }

@@ -138,7 +138,7 @@ float coordinate(const TextFacets& facets, std::string_view token) {
     return *number;
 }
 
-Mesh read_text(const std::filesystem::path& file, std::string_view text, Budget& budget) {
+Mesh read_text(const std::filesystem::path& file, std::string_view text, Budget& budget, Share share) {
     Mesh mesh;
     for (TextFacets facets(file, text); facets.next();) {
         take_facets(budget, 1);
@@ -157,11 +157,12 @@ Mesh read_text(const std::filesystem::path& file, std::string_view text, Budget&
         }
         mesh.faces.push_back(3);
         ++mesh.parts.back().face_count;
+        share.at(static_cast<std::uint64_t>(facets.end().data() - text.data()));
     }
     return mesh;
 }
 
-Mesh read_binary(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
+Mesh read_binary(const std::filesystem::path& file, std::string_view bytes, Budget& budget, Share share) {
     if (bytes.size() < header_size)
         fail(file, "has " + std::to_string(bytes.size()) +
                        " bytes, and an STL file has 84 or more; is it cut off, or not an STL file?");
@@ -185,6 +186,7 @@ Mesh read_binary(const std::filesystem::path& file, std::string_view bytes, Budg
             }
             add_vertex(mesh, position);
         }
+        share.at(facet_size * (f + 1));
     }
     mesh.faces.assign(facets, 3);
     mesh.parts.push_back({.name = {}, .face_count = static_cast<std::uint32_t>(facets)});
@@ -260,11 +262,12 @@ std::array<glm::vec3, 3> piece(const Mesh& refined, std::size_t p) {
     return {at(0), at(1), at(2)};
 }
 
-std::string refine_text(const std::string& text, const Cut& cut, const Mesh& refined) {
+std::string refine_text(const std::string& text, const Cut& cut, const Mesh& refined, Share share) {
     const std::filesystem::path nowhere;  // as in edit_text
     Editor out(text);
     TextFacets facets(nowhere, text);
     for (std::size_t f = 0; facets.next(); ++f) {
+        share.at(f);
         if (!cut.is_cut(f)) continue;
         const auto first = piece(refined, cut.first_piece(f));
         for (std::size_t corner = 0; corner < 3; ++corner)
@@ -278,10 +281,11 @@ std::string refine_text(const std::string& text, const Cut& cut, const Mesh& ref
     return out.finish();
 }
 
-std::string refine_binary(const std::string& bytes, const Cut& cut, const Mesh& refined) {
+std::string refine_binary(const std::string& bytes, const Cut& cut, const Mesh& refined, Share share) {
     std::string out = bytes.substr(0, header_size - 4);
     append_bytes(out, std::endian::little, static_cast<std::uint32_t>(refined.faces.size()));
     for (std::size_t f = 0; f < cut.mesh().faces.size(); ++f) {
+        share.at(f);
         const std::string facet = bytes.substr(header_size + facet_size * f, facet_size);
         if (!cut.is_cut(f)) out += facet;
         for (std::size_t p = cut.first_piece(f); cut.is_cut(f) && p < cut.first_piece(f + 1); ++p) {
@@ -321,9 +325,11 @@ bool is_stl(std::string_view bytes) {
     return word == "facet" || word == "endsolid";
 }
 
-Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget) {
+Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget& budget, const Share& share) {
     budget.take(bytes.size());
-    Mesh mesh = is_text(bytes) ? read_text(file, bytes, budget) : read_binary(file, bytes, budget);
+    const Share parsing = share.part(0, 0.85, bytes.size());  // then the source is put together
+    Mesh mesh =
+        is_text(bytes) ? read_text(file, bytes, budget, parsing) : read_binary(file, bytes, budget, parsing);
     if (mesh.faces.empty()) fail(file, "has no facets; export the mesh again");
     auto source = std::make_shared<StlSource>();
     source->bytes = bytes;
@@ -332,13 +338,15 @@ Mesh read_stl(const std::filesystem::path& file, std::string_view bytes, Budget&
     return mesh;
 }
 
-std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone) {
+std::optional<Mesh> refined_stl(const Cut& cut, const Mesh& alone, const Share& share) {
     const auto* source = dynamic_cast<const StlSource*>(cut.mesh().source.get());
     if (!source || !only_bent(cut.mesh(), source->read)) return std::nullopt;
     const std::string now = write_stl(cut.mesh());
+    const Share writing = share.part(0.2, 0.6, cut.mesh().faces.size());
+    const std::string bytes =
+        is_text(now) ? refine_text(now, cut, alone, writing) : refine_binary(now, cut, alone, writing);
     Budget budget;
-    Mesh out =
-        read_stl({}, is_text(now) ? refine_text(now, cut, alone) : refine_binary(now, cut, alone), budget);
+    Mesh out = read_stl({}, bytes, budget, share.part(0.6, 1));
     out.warnings = cut.mesh().warnings;
     return out;
 }

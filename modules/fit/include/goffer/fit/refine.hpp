@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -72,9 +73,12 @@ public:
     using Error::Error;
 };
 
-/// Limits of a refinement.
+/// Limits of a refinement, and who hears how far it is.
 struct RefineOptions {
     std::size_t max_triangles = 50'000'000;  ///< of the refined mesh; more are a SizeError
+    /// Called with the share that is done, 0 to 1, ascending, a few hundred times at most, from the calling
+    /// thread; it must not throw. Empty: nobody is told.
+    std::function<void(double)> progress = {};
 };
 
 /// Returns the refinement of `geometry` that gives it a folds_capacity() of at least `folds`, or one less

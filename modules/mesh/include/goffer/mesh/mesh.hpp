@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -129,6 +130,9 @@ struct LoadOptions {
     /// would then be read, and be in what save() writes.
     bool allow_outside = false;
     Limits limits = {};
+    /// Called with the share that is done, 0 to 1, ascending, a few hundred times at most, from the calling
+    /// thread; it must not throw. Empty: nobody is told.
+    std::function<void(double)> progress = {};
 };
 
 /// Reads an OBJ, PLY, STL, glTF or GLB file. The format is told by the content or, failing that, by the

@@ -4,6 +4,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 /// Gives a mesh more vertices: edges are cut, triangles are replaced by pieces of themselves, everything else
@@ -52,7 +53,8 @@ struct Subdivision {
 /// Throws Error if `pieces` are not of this mesh (a number is out of range, a corner of a piece does not lie
 /// in the piece's parent, parents do not ascend or one has no piece), or if a glTF attribute cannot be
 /// interpolated (matrices, joints without weights), naming it by its path, or if the result would be beyond
-/// `limits`. Thread-safe.
-[[nodiscard]] Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits = {});
+/// `limits`. `progress` is as LoadOptions'. Thread-safe.
+[[nodiscard]] Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits = {},
+                           const std::function<void(double)>& progress = {});
 
 }  // namespace goffer::mesh
