@@ -194,7 +194,9 @@ void run_bend(const BendOptions& options) {
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
     if (const std::filesystem::path& png = options.picture.file; !png.empty()) {
-        const Progress progress("rendering " + png.string());
+        Progress progress("rendering " + png.string());
+        PictureStyle style = request.style;
+        style.settings.progress = progress.listener();
         const bool show = !options.show.empty();
         const std::vector<glm::vec4> colors = show ? area_colors(model, bent.records.positions)
                                                    : vertex_colors(options.model, model.mesh, model.rest);
@@ -202,7 +204,7 @@ void run_bend(const BendOptions& options) {
         for (const std::string& warning : textures.warnings) report.warn(warning);
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,
                        textures, poses[0], laid.fit.transform},
-                      request.style, png, outputs);
+                      style, png, outputs);
         if (show) report_area_colors(report);
         report.line("picture", png.string());
     }

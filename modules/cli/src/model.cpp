@@ -305,6 +305,8 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     }
     fit::BindOptions options = request.options;
     if (cylinder.radii.empty()) options.shape = fit::ShapeMode::cylinder;  // that was looked for already
+    Progress progress("binding " + file.string());
+    options.progress = progress.listener();
     model.binding =
         in_file(given ? fit : file, [&] { return fit::bind(geometry_of(model), cylinder, options); });
     model.cylinder = model.binding.cylinder;

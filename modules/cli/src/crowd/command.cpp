@@ -204,15 +204,16 @@ void run_crowd(const CrowdOptions& options) {
     report_models(report, request, models);
     io::AtomicFiles outputs;
     if (const std::filesystem::path& file = options.picture.file; !file.empty()) {
-        const Progress rendering("rendering " + file.string());
+        Progress rendering("rendering " + file.string());
+        view::Settings settings = request.picture;
+        settings.progress = rendering.listener();
         std::vector<Textures> textures;
         for (const BoundModel& model : models) {
             textures.push_back(textures_of(model.mesh, options.bind.load.limits));
             for (const std::string& warning : textures.back().warnings)
                 report.warn(place_of(model, models) + warning);
         }
-        const std::size_t shown =
-            write_crowd_picture(crowd, models, textures, request.picture, file, outputs);
+        const std::size_t shown = write_crowd_picture(crowd, models, textures, settings, file, outputs);
         report.line("picture",
                     file.string() + (shown == options.instances ? std::string()
                                                                 : ", " + std::to_string(shown) + " of " +
