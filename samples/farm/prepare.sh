@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # What bake.sh and bake_local.sh begin with, and source: SCENE.json FOLDER SHARES [words of goffer cache].. It prepares the
 # cache, and leaves `scene`, `folder`, `shares`, and in `load` the words that every run of goffer must be given.
 

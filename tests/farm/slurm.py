@@ -69,6 +69,9 @@ class Slurm:
             if forbidden:
                 raise Skip(f"Slurm does not start here: {forbidden[0]}") from fault
             raise AssertionError("\n".join([str(fault), *said])) from fault
+        except PermissionError as fault:
+            self.__exit__(None, None, None)
+            raise Skip(f"Slurm does not start here: {fault}") from fault
         except BaseException:
             self.__exit__(None, None, None)
             raise
