@@ -293,13 +293,17 @@ def check_object(obj):
     keys = obj.data.shape_keys
     if keys is not None and not keys.use_relative:
         raise Fault("The shape keys of this mesh are absolute: only relative ones go with bending")
-    if any(scale == 0 for scale in obj.scale):
-        raise Fault("The scale of this object is 0 along an axis")
+    if not whole_scale(obj).astype(np.float32).all():
+        raise Fault("The scale of this object, or its delta scale, is 0 along an axis")
+
+
+def whole_scale(obj):
+    return np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
 
 
 def scale_of(obj):
     """What positions are multiplied by, so that the body is bent as it looks. 1 where the scale is even."""
-    scale = np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
+    scale = whole_scale(obj)
     even = np.ptp(np.abs(scale)) <= 1e-6 * np.abs(scale).max()
     return np.ones(3, np.float32) if even else scale.astype(np.float32)
 
@@ -357,52 +361,84 @@ def add_key(obj, name, positions):
     return key
 
 
-def remove_keys(obj, prefixes):
-    """Removes the keys of these names, with what animates them; the Basis too where it was made here and is alone."""
-    keys = obj.data.shape_keys
-    for key in [key for key in (keys.key_blocks[1:] if keys else []) if key.name.startswith(prefixes)]:
-        key.driver_remove("value")
-        if keys.animation_data is not None and keys.animation_data.action is not None:
-            curves = keys.animation_data.action.fcurves
-            curve = curves.find(key.path_from_id("value"))
-            if curve is not None:
-                curves.remove(curve)
-        obj.shape_key_remove(key)
-    if keys is not None and len(keys.key_blocks) == 1 and obj.goffer_bend.made_basis:
-        obj.shape_key_clear()
-        obj.goffer_bend.made_basis = False
-    obj.data.update()
+def strips_of(strips):
+    """All strips of the NLA, those within others too."""
+    for strip in strips:
+        yield strip
+        yield from strips_of(strip.strips)
 
 
-def remove_property(obj):
-    if BENT not in obj:
-        return
-    action = obj.animation_data.action if obj.animation_data else None
-    curve = action.fcurves.find(f'["{BENT}"]') if action is not None else None
-    if curve is not None:
-        action.fcurves.remove(curve)
-    del obj[BENT]
+def actions_of(animation):
+    """An action for each time that it is played."""
+    strips = strips_of(strip for track in animation.nla_tracks for strip in track.strips)
+    return [action for action in (animation.action, *(strip.action for strip in strips)) if action is not None]
 
 
-def remove_animation(obj):
-    """Removes what animates the sliders. Returns the names of actions that others play too, which keep it."""
-    animation, prefix, shared = obj.animation_data, "goffer_bend.", set()
-    if animation is None:
-        return []
-    for driver in [driver for driver in animation.drivers if driver.data_path.startswith(prefix)]:
-        animation.drivers.remove(driver)
-    strips = [strip for track in animation.nla_tracks for strip in track.strips]
-    actions = [action for action in (animation.action, *(strip.action for strip in strips)) if action is not None]
-    for action in dict.fromkeys(actions):
-        curves = [curve for curve in action.fcurves if curve.data_path.startswith(prefix)]
-        if curves and action.users - action.use_fake_user > actions.count(action):
+def is_shared(action, animation):
+    """Whether others than whose `animation` it is play it too."""
+    return action.users - action.use_fake_user > actions_of(animation).count(action)
+
+
+def remove_curves(animation, is_wanted):
+    """Removes the curves whose path is_wanted(), of the action and of those in the NLA. Returns the names of actions
+    that others play too, which keep them."""
+    shared = set()
+    for action in dict.fromkeys(actions_of(animation) if animation is not None else []):
+        curves = [curve for curve in action.fcurves if is_wanted(curve.data_path)]
+        if curves and is_shared(action, animation):
             shared.add(action.name)
             continue
         for curve in curves:
             action.fcurves.remove(curve)
         if curves and not action.fcurves and action == animation.action:
             animation.action = None
-    return sorted(shared)
+    return shared
+
+
+def own_action(animated):
+    """An action that others play too is copied, so that they do not get the keyframes that are to come."""
+    animation = animated.animation_data
+    if animation is not None and animation.action is not None and is_shared(animation.action, animation):
+        animation.action = animation.action.copy()
+
+
+def remove_keys(obj, prefixes):
+    """Removes the keys of these names, with what animates them; the Basis too where it was made here and is alone.
+    Returns what remove_curves() does."""
+    keys = obj.data.shape_keys
+    removed = [key for key in (keys.key_blocks[1:] if keys else []) if key.name.startswith(prefixes)]
+    paths = {key.path_from_id("value") for key in removed}
+    shared = remove_curves(keys.animation_data, paths.__contains__) if keys else set()
+    for key in removed:
+        key.driver_remove("value")
+        obj.shape_key_remove(key)
+    if keys is not None and len(keys.key_blocks) == 1 and obj.goffer_bend.made_basis:
+        obj.shape_key_clear()
+        obj.goffer_bend.made_basis = False
+    obj.data.update()
+    return shared
+
+
+def remove_property(obj):
+    """Returns what remove_curves() does."""
+    if BENT in obj:
+        del obj[BENT]
+    return remove_curves(obj.animation_data, f'["{BENT}"]'.__eq__)
+
+
+def remove_sliders(obj):
+    """Removes what animates the sliders. Returns what remove_curves() does."""
+    animation, prefix = obj.animation_data, "goffer_bend."
+    for driver in [driver for driver in (animation.drivers if animation else []) if
+                   driver.data_path.startswith(prefix)]:
+        animation.drivers.remove(driver)
+    return remove_curves(animation, lambda path: path.startswith(prefix))
+
+
+def remove_baked(obj, *more):
+    """Removes baked keys, those named `more` and the property, with what animates them. Returns what remove_curves()
+    does."""
+    return remove_keys(obj, (BAKED_KEY, FRAME_KEY, *more)) | remove_property(obj)
 
 
 def degrees(radians):
@@ -419,7 +455,7 @@ def describe(obj, body, poses):
         facts.append(f"At rest bent by {degrees(base.rest_angle)} toward {degrees(base.rest_direction)}")
     warnings, mended = [], False
     if any(abs(angle) > limit for (angle, _), limit in zip(poses, body.limits)):
-        warnings.append("The angle is beyond the largest, and is taken for that")
+        warnings.append("The angle is beyond the largest; the largest is used")
     for r in body.regions:
         text, by_rows = too_few(body.folds[r], settings)
         if text:
@@ -608,6 +644,11 @@ class Operator(bpy.types.Operator):
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
 
+    def report_shared(self, actions):
+        if actions:
+            self.report({"INFO"}, "This animation stays in an action that others play, too: " +
+                        ", ".join(sorted(actions)))
+
 
 def need_active(obj):
     check_object(obj)
@@ -654,8 +695,7 @@ class GOFFER_OT_bend(Operator):
             settings.active = was_active
             raise
         settings.active, settings.fault = True, ""
-        remove_keys(obj, (BAKED_KEY, FRAME_KEY))
-        remove_property(obj)
+        self.report_shared(remove_baked(obj))
         show(obj)
 
 
@@ -679,15 +719,11 @@ class GOFFER_OT_reset(Operator):
         check_object(obj)
         settings = obj.goffer_bend
         settings.active = False
-        remove_keys(obj, (LIVE_KEY, BAKED_KEY, FRAME_KEY))
-        remove_property(obj)
-        shared = remove_animation(obj)
+        shared = remove_baked(obj, LIVE_KEY) | remove_sliders(obj)
         settings.facts = settings.warnings = settings.fault = ""
         settings.needs_rows = False
         store.trim()
-        if shared:
-            self.report({"INFO"}, "The sliders' animation stays in an action that other objects play, too: " +
-                        ", ".join(shared))
+        self.report_shared(shared)
 
 
 def pose_between(rest, pose, t):
@@ -745,8 +781,8 @@ class GOFFER_OT_bake(Operator):
         shapes += [at((k + 1) / self.count) for k in range(self.count)]
         off = farthest(shapes, at, scale) / np.ptp(shapes[0] * scale, axis=0).max()
         obj.goffer_bend.active = False
-        remove_keys(obj, (LIVE_KEY, BAKED_KEY, FRAME_KEY))
-        remove_property(obj)
+        own_action(obj)
+        shared = remove_baked(obj, LIVE_KEY)
         obj[BENT] = 1.0
         if hasattr(obj, "id_properties_ui"):  # from Blender 3.0 on
             obj.id_properties_ui(BENT).update(min=0.0, max=1.0, description="0: at rest; 1: bent")
@@ -761,6 +797,7 @@ class GOFFER_OT_bake(Operator):
         obj.data.update()
         store.trim()
         obj.goffer_bend.fault = ""
+        self.report_shared(shared)
         self.report({"INFO"}, f"{self.count} keys; between them a vertex is off by up to about "
                     f"{100 * off:.2g} % of the body's size")
 
@@ -788,8 +825,9 @@ class GOFFER_OT_bake_frames(Operator):
         if all(pose == poses[0] for pose in poses):
             raise Fault("Nothing moves in these frames: put keyframes on an angle first (I, over its slider)")
         obj.goffer_bend.active = False
-        remove_keys(obj, (LIVE_KEY, BAKED_KEY, FRAME_KEY))
-        remove_property(obj)
+        if obj.data.shape_keys is not None:
+            own_action(obj.data.shape_keys)
+        shared = remove_baked(obj, LIVE_KEY)
         for i, (frame, shape) in enumerate(zip(frames, shapes)):
             key = add_key(obj, f"{FRAME_KEY}{frame}", shape)
             for near, value in ((i - 1, 0.0), (i, 1.0), (i + 1, 0.0)):
@@ -800,6 +838,7 @@ class GOFFER_OT_bake_frames(Operator):
         store.trim()
         obj.goffer_bend.fault = ""
         context.scene.frame_set(context.scene.frame_current)
+        self.report_shared(shared)
         self.report({"INFO"}, f"{len(frames)} keys for frames {frames[0]} to {frames[-1]}")
 
     @staticmethod

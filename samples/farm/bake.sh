@@ -6,14 +6,12 @@
 set -euo pipefail
 (($# >= 3)) || { sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-scene=$(realpath "$1") folder=$(realpath "$2") shares=$3
-shift 3
-
-# What is wrong with the scene shows here rather than in every job, and all machines get the same bodies and kernels.
-goffer cache "$scene" -o "$folder" --prepare "$@" >&2
+source "$here/prepare.sh"
 
 logs=$folder.logs
 mkdir -p "$logs"
-share=$(sbatch --parsable --array="1-$shares" --output="$logs/share-%a.log" "$here/bake.sbatch" "$scene" "$folder" "$shares")
-finish=$(sbatch --parsable --dependency="afterany:$share" --output="$logs/finish.log" "$here/finish.sbatch" "$scene" "$folder")
+share=$(sbatch --parsable --array="1-$shares" --output="$logs/share-%a.log" \
+    "$here/bake.sbatch" "$scene" "$folder" "$shares" "${load[@]}")
+finish=$(sbatch --parsable --dependency="afterany:$share" --output="$logs/finish.log" \
+    "$here/finish.sbatch" "$scene" "$folder" "${load[@]}")
 echo "$share $finish"

@@ -10,6 +10,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import addon_utils  # noqa: E402
 import bpy  # noqa: E402
 
+import actions  # noqa: E402
 import baking  # noqa: E402
 import common  # noqa: E402
 import faults  # noqa: E402
@@ -22,7 +23,7 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     common.enable()
     name = "check_" + common.CHECK
-    next(getattr(subject, name) for subject in (baking, faults, objects, poses, rows) if hasattr(subject, name))()
+    next(getattr(subject, name) for subject in (actions, baking, faults, objects, poses, rows) if hasattr(subject, name))()
     if addon_utils.check("goffer_bend")[1]:
         bpy.ops.preferences.addon_disable(module="goffer_bend")
     print(f"passed: {common.CHECK}")

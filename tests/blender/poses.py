@@ -96,7 +96,7 @@ def check_regions():
     assert obj.goffer_bend.fault == ""
     check_near(seen(obj), by_command(path, "--angle", "20"), "one region")
     obj.goffer_bend.angles[0] = 100
-    assert "beyond the largest" in obj.goffer_bend.warnings
+    assert "beyond the largest; the largest is used" in obj.goffer_bend.warnings
     check_near(seen(obj), by_command(path, "--angle", "max"), "clamped")
 
 

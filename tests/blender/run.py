@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs one check of checks.py in a headless Blender, with settings of its own: run.py LIBGOFFER GOFFER SOURCE CHECK
 
-Exit code 77 where Blender is not here.
+Exit code 77 where Blender is not here, and 1 where GOFFER_TEST_HOSTS is `required`.
 """
 
 import os
@@ -16,8 +16,9 @@ def main():
     library, goffer, source, check = sys.argv[1:]
     blender = shutil.which("blender")
     if blender is None:
-        print("skipped: Blender is not here (bash .ci/setup hosts)")
-        return 77
+        required = os.environ.get("GOFFER_TEST_HOSTS") == "required"
+        print(f"{'failed' if required else 'skipped'}: Blender is not here (bash .ci/setup hosts)")
+        return 1 if required else 77
     # A Blender without a Python of its own takes the first on the path: that should be the one beside it.
     path = os.path.dirname(blender) + os.pathsep + os.environ.get("PATH", "")
     checks = os.path.join(os.path.dirname(os.path.abspath(__file__)), "checks.py")
