@@ -10,8 +10,9 @@ source "$here/prepare.sh"
 
 logs=$folder.logs
 mkdir -p "$logs"
-share=$(sbatch --parsable --array="1-$shares" --output="$logs/share-%a.log" \
+pattern=${logs//%/%%} # Slurm puts numbers in the place of %a and the like
+share=$(sbatch --parsable --array="1-$shares" --output="$pattern/share-%a.log" \
     "$here/bake.sbatch" "$scene" "$folder" "$shares" "${load[@]}")
-finish=$(sbatch --parsable --dependency="afterany:$share" --output="$logs/finish.log" \
+finish=$(sbatch --parsable --dependency="afterany:$share" --output="$pattern/finish.log" \
     "$here/finish.sbatch" "$scene" "$folder" "${load[@]}")
 echo "$share $finish"

@@ -15,13 +15,16 @@ runner=${RUNNER:-$(is_gnu && echo parallel || echo xargs)}
 case $runner in
     parallel) is_gnu || { echo "RUNNER is parallel, but GNU parallel is not here; give RUNNER=xargs" >&2; exit 2; }
               run=(parallel --will-cite --jobs "$jobs" --retries 3 --quote) ;;
-    xargs) run=(xargs -P "$jobs" -I '{}') ;;
+    xargs) run=(xargs -P "$jobs" -n 1) ;;
     *) echo "RUNNER is $runner; give parallel or xargs" >&2; exit 2 ;;
 esac
 source "$here/prepare.sh"
 
+# By the environment, since the runners replace what looks like {} in words. The last word is the share's number.
+export scene folder shares
+bake_share='exec goffer cache "$scene" -o "$folder" --threads 1 --shard "${*: -1}/$shares" "${@:1:$#-1}"'
 code=0
-seq "$shares" | "${run[@]}" goffer cache "$scene" -o "$folder" --threads 1 --shard "{}/$shares" "${load[@]}" || code=$?
+seq "$shares" | "${run[@]}" bash -c "$bake_share" bake_share "${load[@]}" || code=$?
 ((code == 0)) || echo "bake_local.sh: shares failed (exit code $code of $runner); the last run bakes what is missing" >&2
 goffer cache "$scene" -o "$folder" "${load[@]}"
 goffer cache --verify "$folder"

@@ -11,7 +11,7 @@ from common import FARM, SHARES, call, compare, environment, make_scene, need, s
 
 def baked(printed):
     """How many shards each run of goffer baked, in the order in which they said so."""
-    return [int(count) for count in re.findall(r"^shards +(\d+) baked", printed, re.MULTILINE)]
+    return [int(count) for count in re.findall(r"^shards +\d+ kept, (\d+) baked", printed, re.MULTILINE)]
 
 
 def local(goffer, folder, runner):

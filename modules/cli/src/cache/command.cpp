@@ -133,6 +133,13 @@ void add_cache(CLI::App& app, Action& action) {
         "cache",
         "Bake a crowd over time to files, in shards that several machines can share. What is there and right "
         "is kept; what is not said is as the folder has it");
+    command->footer(
+        "A scene is {\"version\": 1, \"fps\": 24, \"frames\": 48,\n"
+        "\"bodies\": {\"worm\": {\"file\": \"worm.glb\"}},\n"
+        "\"motions\": {\"sway\": {\"swing\": 60, \"seconds\": 2}},\n"
+        "\"instances\": [{\"body\": \"worm\", \"motion\": \"sway\", \"grid\": [10, 10], \"spacing\": [3, "
+        "3]}]}.\n"
+        "samples/farm/README.md has all of its fields, and the format of the files.");
     command->add_option("input", options->input, "Scene: JSON; with --verify or --extract the cache's folder")
         ->required();
     command->add_option("-o,--output", options->output,
