@@ -51,8 +51,8 @@ struct Row {
     std::vector<std::string> cells;
 };
 
-/// Cells stand between commas or, where `spaces`, between blanks too. Lines that are empty or begin with #
-/// are left out.
+/// Cells stand between commas or semicolons or, where `spaces`, between blanks too. Lines that are empty or
+/// begin with # are left out.
 std::vector<Row> rows_of(const std::string& text, bool spaces) {
     std::vector<Row> rows;
     std::istringstream lines(text);
@@ -62,6 +62,7 @@ std::vector<Row> rows_of(const std::string& text, bool spaces) {
         if (spaces)
             std::ranges::replace_if(
                 line, [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
+        if (!spaces) std::ranges::replace(line, ';', ',');
         const std::string_view content = trimmed(line);
         if (content.empty() || content.front() == '#') continue;
         Row& row = rows.emplace_back();
@@ -93,6 +94,7 @@ struct Column {
 };
 
 Column read_column(const std::filesystem::path& file, std::string name) {
+    const std::string written = name.substr(0, 40);
     std::erase_if(name, [](unsigned char c) { return std::isspace(c) != 0 || c == '_' || c == '"'; });
     std::ranges::transform(name, name.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -105,7 +107,7 @@ Column read_column(const std::filesystem::path& file, std::string name) {
     const bool known =
         column.field == "time" ? !numbered : column.field == "angle" || column.field == "direction";
     if (!known || (numbered && (error != std::errc() || next != end || column.region == 0)))
-        refuse(file, "its first line names a column '" + name +
+        refuse(file, "is no table of keys: its first line has a column '" + io::escaped(written) +
                          "'; there are time, angle, direction, and angle1, direction1, angle2, ..");
     return column;
 }

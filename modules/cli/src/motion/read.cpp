@@ -84,7 +84,8 @@ struct KeyTimes {
           interpolation(read_interpolation(fields, true)),
           repeats(fields.flag("repeat")) {
         if (!keys.is_array() || keys.size() < 2)
-            throw InputError(fields.place("keys") + ": are not two keys or more in an array");
+            throw InputError(fields.place("keys") +
+                             ": are fewer than two keys in an array; give two keys or more");
     }
 
     [[nodiscard]] std::string place(std::size_t i) const {
