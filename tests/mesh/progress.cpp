@@ -113,7 +113,7 @@ TEST_CASE("progress: shares of a file that is read ascend to 1, whatever its for
         mesh::save(mesh, folder / name);
     for (const char* name :
          {"text.ply", "text.stl", "binary.ply", "binary.stl", "sheet.obj", "sheet.glb", "sheet.gltf"}) {
-        CAPTURE(name);
+        CAPTURE(std::string(name));
         Said said;
         mesh::LoadOptions options;
         options.progress = said.listener();
@@ -127,7 +127,7 @@ TEST_CASE("progress: a tiny file ends at 1, too, and a broken one does not") {
     const Folder folder;
     const mesh::Mesh mesh = sheet(1);
     for (const char* name : {"sheet.ply", "sheet.stl", "sheet.obj", "sheet.glb", "sheet.gltf"}) {
-        CAPTURE(name);
+        CAPTURE(std::string(name));
         mesh::save(mesh, folder / name);
         Said said;
         mesh::LoadOptions options;
@@ -145,7 +145,7 @@ TEST_CASE("progress: a tiny file ends at 1, too, and a broken one does not") {
 TEST_CASE("progress: shares of a refinement ascend to 1, and nobody is told of it later") {
     const Folder folder;
     for (const char* name : {"sheet.ply", "sheet.stl", "sheet.obj", "sheet.glb"}) {
-        CAPTURE(name);
+        CAPTURE(std::string(name));
         mesh::save(sheet(150), folder / name);
         Said reading, refining;
         mesh::LoadOptions options;
