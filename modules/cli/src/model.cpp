@@ -283,6 +283,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     const std::filesystem::path& file = model.file;
     const bool given = !fit.empty();
     const fit::Cylinder cylinder = in_file(file, [&] {
+        const Progress progress("fitting " + file.string());
         const fit::Geometry geometry = geometry_of(model.rest);
         fit::check(geometry);
         const fit::Cylinder found =

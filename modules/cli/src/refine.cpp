@@ -60,7 +60,8 @@ void run_refine(const RefineOptions& options) {
     report.finish(outputs);
 }
 
-constexpr double cuts_found = 0.3;  ///< the share of refine()'s time by when it is known where to cut
+constexpr double cuts_found =
+    0.3;  ///< the share of refine()'s time, roughly, by when it is known where to cut
 
 /// Returns nothing if the refined mesh would be too large and that is allowed.
 std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const fit::Cylinder& cylinder,

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 enum class Format { unknown, obj, ply, stl, glb, gltf };
 
-/// Shares of load()'s time by when its stages are over, as measured with files of 70 to 200 MB.
+/// Shares of load()'s time by when its stages are over, roughly.
 constexpr double bytes_read = 0.1, mesh_read = 0.95;
 
 constexpr const char* known_endings = ".obj, .ply, .stl, .glb or .gltf";
