@@ -49,11 +49,16 @@ TEST_CASE("animate: without --max-error, how near shapes are is reported, and no
 TEST_CASE("animate: a clip of few frames takes no more shapes than --max-error asks for") {
     const Folder folder;
     base(folder);
-    const auto targets = [&](const char* max_error) {
-        return report(folder, {"animate", "base.ply", "-o", "worm.glb", "--swing", "60", "--frames", "12",
-                               "--max-error", max_error})["gltf"]["targets"]
-            .get<int>();
+    folder.write("keys.csv",
+                 "time,angle1,direction1,angle2,direction2\n0,0,0,0,0\n1,150,90,-80,200\n2,-120,40,160,-60\n"
+                 "3,90,250,90,10\n4,-160,120,40,300\n5,60,330,-170,70\n6,170,200,120,150\n");
+    const auto gltf = [&](const Words& words) {
+        const Words keys{"animate", "base.ply", "-o", "worm.glb", "--keys", "keys.csv", "--fps", "1"};
+        return report(folder, keys + Words{"--interpolation", "linear"} + words)["gltf"];
     };
-    CHECK(targets("10") < targets("1"));
-    CHECK(targets("1") < 7);
+    const nlohmann::json near = gltf({"--max-error", "10"});
+    CHECK(near["within"] == true);
+    CHECK(near["targets"] == 6);
+    CHECK(gltf({"--max-error", "10", "--targets", "5"})["within"] == false);
+    CHECK(gltf({"--max-error", "0.1"})["targets"] == 7);
 }

@@ -45,11 +45,11 @@ enum class GltfLimit : std::uint8_t {
 /// they are those of the values in the file, over all vertices of all frames, before the placement.
 struct GltfReport {
     std::size_t frames = 0;
-    std::size_t targets = 0;  ///< in the file, 0 if nothing moves
-    bool exact = false;       ///< the targets are the frames themselves: nothing is left out
-    GltfLimit limit = GltfLimit::none;
-    double size = 0;       ///< the mesh's largest extent at rest
-    double max_error = 0;  ///< largest distance of a vertex from where its frame has it
+    std::size_t targets = 0;            ///< in the file, 0 if nothing moves
+    bool exact = false;                 ///< the targets are the frames themselves: nothing is left out
+    GltfLimit limit = GltfLimit::none;  ///< why max_error is not kept
+    double size = 0;                    ///< the mesh's largest extent at rest
+    double max_error = 0;               ///< largest distance of a vertex from where its frame has it
     double rms_error = 0;
     double max_angle = 0;  ///< largest angle between a normal and that of its frame; 0 without normals
     double rms_angle = 0;
