@@ -186,7 +186,7 @@ TEST_CASE("animate: animated glTF and a vertex-animation texture") {
     mesh::save(mesh::load(folder / "base.ply"), folder / "worm.mesh.glb");
     CHECK(run(folder, Words{"animate", "worm.mesh.glb", "-o", "worm.json"} + swing).code == 2);
     const json texture = report(folder, Words{"animate", "base.ply", "-o", "worm.json"} + swing);
-    CHECK(texture["texture"]["files"].size() == 5);
+    CHECK(texture["texture"]["files"].size() == 6);
     CHECK(texture["texture"]["position_error"].get<double>() < 1e-3);
     CHECK(Pixels(folder / "worm.positions.png").width == texture["texture"]["width"].get<std::size_t>());
 }

@@ -29,7 +29,7 @@ TEST_CASE("clip: 300 frames of the caterpillar on its way take less than 5 MB, h
             " of the length, on average by ", report.rms_error / report.size, ", normals by ",
             report.max_angle, " and ", report.rms_angle);
     CHECK(static_cast<double>(report.bytes) < 5 * megabyte);
-    CHECK(report.within);
+    CHECK(report.within());
     CHECK(report.max_error <= clip::GltfOptions{}.max_error * report.size);
     CHECK(report.rms_error <= 8e-4 * report.size);
     check_valid({folder / "clip.glb"}, true);

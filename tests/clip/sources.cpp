@@ -19,7 +19,7 @@ MadeFrames walking(const mesh::Mesh& mesh) {
 clip::GltfReport check_clip(const mesh::Mesh& mesh, clip::Frames& frames) {
     const Folder folder;
     clip::GltfReport report = saved_clip(mesh, frames, folder / "clip.glb");
-    CHECK(report.within);
+    CHECK(report.within());
     CHECK(report.max_error <= clip::GltfOptions{}.max_error * report.size);
     check_follows(folder / "clip.glb", mesh, frames, report);
     (void)saved_clip(mesh, frames, folder / "clip.gltf");

@@ -197,7 +197,7 @@ TEST_CASE("vertex texture: placements that are listed are not in the texels") {
             CHECK(json["placements"][frame][i].get<float>() ==
                   matrix[static_cast<glm::length_t>(i / 3)][static_cast<glm::length_t>(i % 3)]);
     }
-    CHECK(listed.files.size() == 5);
+    CHECK(listed.files.size() == 6);
 }
 
 TEST_CASE("vertex texture: the JSON says what a player needs") {
@@ -213,6 +213,7 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     CHECK(json["normals"] == "worm.vat.normals.png");
     CHECK(json["mesh"] == "worm.vat.mesh.glb");
     CHECK(json["shader"] == "worm.vat.glsl");
+    CHECK(json["shader_hlsl"] == "worm.vat.hlsl");
     CHECK(json["vertices"] == 300);
     CHECK(json["frames"] == 9);
     CHECK(json["frames_per_second"] == 24);
@@ -223,9 +224,10 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     CHECK(glm::vec3(vector_of(json["high"])) == texture.high);
     for (const auto& file : texture.files) CHECK(std::filesystem::is_regular_file(file));
     CHECK(folder.files() == texture.files.size());
-    const std::filesystem::path source =
-        GOFFER_SOURCE_DIR "/modules/clip/include/goffer/clip/vertex_texture.glsl";
-    CHECK(bytes_of(folder / "worm.vat.glsl") == bytes_of(source));
+    for (const std::string language : {"glsl", "hlsl"}) {
+        const std::string source = GOFFER_SOURCE_DIR "/modules/clip/include/goffer/clip/vertex_texture.";
+        CHECK(bytes_of(folder / ("worm.vat." + language)) == bytes_of(source + language));
+    }
 }
 
 TEST_CASE("vertex texture: an image that is cut off is no image") {

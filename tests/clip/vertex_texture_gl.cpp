@@ -47,9 +47,9 @@ void main() {
 )";
 }
 
-GLuint program_for(Api api) {
+GLuint program_for(Api api, const std::string& text) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_VERTEX_SHADER, shader_text(api)));
+    glAttachShader(program, compiled(GL_VERTEX_SHADER, text));
     if (api == Api::es30)  // which has no program without one
         glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
     const char* const outputs[] = {"played_position", "played_normal"};
@@ -81,12 +81,36 @@ void upload(Api api, GLenum unit, const WideImage& image) {
                  image.rgb.data());
 }
 
+/// What the program in use makes of vertices 0, 1, ..
+std::vector<Vertex> drawn(std::size_t vertices) {
+    GLuint array = 0;
+    glGenVertexArrays(1, &array);
+    glBindVertexArray(array);
+    const auto bytes = static_cast<GLsizeiptr>(vertices * sizeof(Vertex));
+    const GLuint fed = buffer(GL_TRANSFORM_FEEDBACK_BUFFER, vertices * sizeof(Vertex), nullptr);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, fed);
+    const draw::OffscreenTarget target_pixel(1, 1);
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices));
+    glEndTransformFeedback();
+    std::vector<Vertex> result(vertices);
+    const void* const mapped = glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, GL_MAP_READ_BIT);
+    check(mapped != nullptr, "the results cannot be mapped");
+    std::copy_n(static_cast<const Vertex*>(mapped), vertices, result.begin());
+    glUnmapBuffer(GL_TRANSFORM_FEEDBACK_BUFFER);
+    glDeleteBuffers(1, &fed);
+    glDeleteVertexArrays(1, &array);
+    check(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
+    return result;
+}
+
 /// Plays the files of a texture. Its context must be current.
 class Player {
 public:
     Player(Api api, const clip::VertexTexture& texture, std::size_t vertices, std::size_t frames,
            bool turned = false)
-        : program_(program_for(api)), vertices_(vertices) {
+        : program_(program_for(api, shader_text(api))), vertices_(vertices) {
         glUseProgram(program_);
         for (const GLenum image : {0u, 1u}) {
             const WideImage stored = read_wide_image(texture.files[1 + image]);
@@ -96,34 +120,16 @@ public:
         glUniform1i(at("normals"), 1);
         glUniform1i(at("clip.width"), static_cast<GLint>(texture.layout.width));
         glUniform1i(at("clip.rows_per_frame"), static_cast<GLint>(texture.layout.rows_per_frame));
-        glUniform1i(at("clip.height"), turned ? static_cast<GLint>(texture.layout.height) : 0);
+        glUniform1i(at("clip.flipped_height"), turned ? static_cast<GLint>(texture.layout.height) : 0);
         glUniform3fv(at("clip.low"), 1, &texture.low.x);
         glUniform3fv(at("clip.high"), 1, &texture.high.x);
         glUniform1i(at("frames"), static_cast<GLint>(frames));
-        GLuint array = 0;
-        glGenVertexArrays(1, &array);
-        glBindVertexArray(array);
-        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0,
-                         buffer(GL_TRANSFORM_FEEDBACK_BUFFER, vertices * sizeof(Vertex), nullptr));
     }
 
     std::vector<Vertex> play(float frame, bool repeats) {
         glUniform1f(at("frame"), frame);
         glUniform1i(at("repeats"), repeats ? 1 : 0);
-        const draw::OffscreenTarget target_pixel(1, 1);
-        glEnable(GL_RASTERIZER_DISCARD);
-        glBeginTransformFeedback(GL_POINTS);
-        glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices_));
-        glEndTransformFeedback();
-        std::vector<Vertex> result(vertices_);
-        const void* const mapped =
-            glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0,
-                             static_cast<GLsizeiptr>(vertices_ * sizeof(Vertex)), GL_MAP_READ_BIT);
-        check(mapped != nullptr, "the results cannot be mapped");
-        std::copy_n(static_cast<const Vertex*>(mapped), vertices_, result.begin());
-        glUnmapBuffer(GL_TRANSFORM_FEEDBACK_BUFFER);
-        check(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
-        return result;
+        return drawn(vertices_);
     }
 
 private:
@@ -223,4 +229,31 @@ TEST_CASE("vertex texture: a clip of one frame stands still") {
     for (const bool repeats : {false, true})
         for (const float frame : {0.0f, 0.5f, 7.0f})
             check_moment(player, points, texture, {frame, repeats, 0, 0, 0});
+}
+
+TEST_CASE("vertex texture: a vertex's number is found in TEXCOORD_1, however large it is") {
+    std::string why;
+    const draw::OffscreenContext context(Api::core33, why);
+    if (!context) {
+        MESSAGE("skipped: ", why);
+        return;
+    }
+    const std::string text = "#version 330 core\n" + std::string(clip::vertex_texture_glsl()) +
+                             R"(uniform int number;
+out vec3 played_position;
+out vec3 played_normal;
+void main() {
+    played_position = vec3(float(goffer_vertex(float(number)) - number));
+    played_normal = vec3(1.0);
+    gl_Position = vec4(0.0);
+}
+)";
+    const GLuint program = program_for(Api::core33, text);
+    glUseProgram(program);
+    for (const int number : {0, 1, (1 << 23) - 1, 1 << 23, (1 << 23) + 1, (1 << 24) - 1}) {
+        glUniform1i(glGetUniformLocation(program, "number"), number);
+        const Vertex vertex = drawn(1)[0];
+        CHECK(vertex.position == glm::vec3(0));
+        CHECK(vertex.normal == glm::vec3(1));
+    }
 }

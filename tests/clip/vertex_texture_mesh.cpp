@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -59,16 +60,19 @@ TEST_CASE("vertex texture: its files are known before, and the model of the same
     const Folder folder;
     const std::filesystem::path file = folder / "worm.json";
     folder.write("worm.glb", "the user's own");
-    const std::vector<std::filesystem::path> expected = {file, folder / "worm.positions.png",
+    const std::vector<std::filesystem::path> expected = {file,
+                                                         folder / "worm.positions.png",
                                                          folder / "worm.normals.png",
-                                                         folder / "worm.mesh.glb", folder / "worm.glsl"};
+                                                         folder / "worm.mesh.glb",
+                                                         folder / "worm.glsl",
+                                                         folder / "worm.hlsl"};
     CHECK(clip::vertex_texture_files(file) == expected);
     CHECK(folder.files() == 1);
     const mesh::Mesh model = strip(300);
     MovingPoints points(300, 9, true);
     CHECK(saved_texture(points, model, mesh::vertex_arrays(model), file).files == expected);
     CHECK(bytes_of(folder / "worm.glb") == "the user's own");
-    CHECK(folder.files() == 6);
+    CHECK(folder.files() == 7);
     const std::string message =
         message_of<io::Error>([&] { (void)clip::vertex_texture_files(folder / "worm.glb"); });
     CHECK(tells(message, "not .json"));
@@ -102,6 +106,23 @@ TEST_CASE("vertex texture: a mesh that cannot be beside it is refused before any
         message_of<mesh::Error>([&] { saved_texture(points, model, arrays, folder / "a.json"); });
     CHECK(tells(message, "part"));
     CHECK(points.reads == 0);
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("vertex texture: a normal that is not finite is refused, and nothing is left") {
+    class Unlit : public MovingPoints {
+    public:
+        Unlit() : MovingPoints(9, 3, false) {}
+        void read(std::size_t frame, std::span<glm::vec3> positions, std::span<glm::vec3> normals) override {
+            MovingPoints::read(frame, positions, normals);
+            if (frame == 2 && !normals.empty()) normals[7].y = std::numeric_limits<float>::quiet_NaN();
+        }
+    } unlit;
+    const Folder folder;
+    const mesh::Mesh model = strip(9);
+    const std::string message = message_of<io::Error>(
+        [&] { saved_texture(unlit, model, mesh::vertex_arrays(model), folder / "a.json"); });
+    CHECK(tells(message, "frame 2, normal 7 (counted from 0) is not finite"));
     CHECK(folder.files() == 0);
 }
 

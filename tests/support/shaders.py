@@ -3,7 +3,7 @@
 """Compiles goffer's shader files for what engines use, and validates what comes out as SPIR-V.
    shaders.py packed INCLUDE_FOLDER         packed.glsl and packed.hlsl
    shaders.py deform INCLUDE_FOLDER PAGE    deform.glsl, deform.hlsl, and the shaders that the page shows
-   shaders.py clip INCLUDE_FOLDER PAGE      vertex_texture.glsl, and the shaders that the page shows
+   shaders.py clip INCLUDE_FOLDER PAGE      vertex_texture.glsl and .hlsl, and the shaders that the page shows
 Exits with 77 where no compiler is installed."""
 import pathlib
 import re
@@ -83,15 +83,30 @@ CLIP = """
 {location} out vec3 normal;
 #include <goffer/clip/vertex_texture.glsl>
 void main() {{
-    GofferClip clip = GofferClip(width, rows_per_frame, low, high, height);
+    GofferClip clip = GofferClip(width, rows_per_frame, low, high, flipped_height);
     GofferFrames at = goffer_frames(frame, frames);
     if (frames > 9) at = goffer_frames_repeated(frame, frames);
     normal = goffer_normal(shares, {vertex}, at, clip) + goffer_normal(steps, {vertex}, at, clip);
     gl_Position = vec4(goffer_position(shares, {vertex}, at, clip) + goffer_position(steps, {vertex}, at, clip), 1.0);
 }}
 """
+CLIP_HLSL = """
+Texture2D<float4> positions;
+Texture2D<float4> normals;
+#include <goffer/clip/vertex_texture.hlsl>
+cbuffer Moment { GofferClip clip; int frames; float frame; };
+struct Out { float3 normal : NORMAL; float4 position : SV_Position; };
+Out main(uint id : SV_VertexID, float2 number : TEXCOORD1) {
+    GofferFrames at = goffer_frames(frame, frames);
+    if (frames > 9) at = goffer_frames_repeated(frame, frames);
+    Out result;
+    result.normal = goffer_normal(normals, int(id), at, clip);
+    result.position = float4(goffer_position(positions, goffer_vertex(number.x), at, clip), 1.0);
+    return result;
+}
+"""
 VARIABLES = {"packed": "vec3 box_low; vec3 box_high;", "deform": "vec4 rows[34];",
-             "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int height;"}
+             "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int flipped_height;"}
 SAMPLERS = ("highp sampler2D shares", "highp usampler2D steps")
 TARGETS = {"GLSL 3.30": "#version 330 core", "GLSL 4.60": "#version 460 core", "GLSL ES 3.00": "#version 300 es",
            "GLSL ES 3.20": "#version 320 es", "Vulkan": "#version 450"}
@@ -110,7 +125,7 @@ def included(text, folder):
 
 def sources(subject, include, page):
     """For each target: a shader's text, its stage, and options of the compiler."""
-    text, hlsl = {"packed": (PACKED, PACKED_HLSL), "deform": (DEFORM, DEFORM_HLSL), "clip": (CLIP, None)}[subject]
+    text, hlsl = {"packed": (PACKED, PACKED_HLSL), "deform": (DEFORM, DEFORM_HLSL), "clip": (CLIP, CLIP_HLSL)}[subject]
     for name, version in TARGETS.items():
         uniforms = f"layout(set = 0, binding = 0) uniform Block {{ {VARIABLES[subject]} }};"
         if name != "Vulkan":
@@ -123,10 +138,11 @@ def sources(subject, include, page):
         yield name, included(filled, include), "vert", ["-V"] if name == "Vulkan" else []
     if hlsl:
         yield "HLSL", included(hlsl, include), "vert", ["-D", "-V", "-e", "main"]
-    shown = re.findall(r"^```glsl\n(.*?)^```", page.read_text(), re.M | re.S) if page else []
-    for number, example in enumerate(shown):
+    shown = re.findall(r"^```(glsl|hlsl)\n(.*?)^```", page.read_text(), re.M | re.S) if page else []
+    for number, (language, example) in enumerate(shown):
         stage = "comp" if "local_size_x" in example else "vert"
-        yield f"{page.name}, {number + 1}", included(example, include), stage, []
+        options = ["-D", "-V", "-e", "main"] if language == "hlsl" else []
+        yield f"{page.name}, {number + 1}", included(example, include), stage, options
     if page and not shown:
         sys.exit(f"{page}: there is no shader in it")
 

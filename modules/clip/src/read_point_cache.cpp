@@ -103,7 +103,7 @@ void PointCache::read(std::size_t frame, std::span<glm::vec3> positions) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             positions[i][static_cast<glm::length_t>(axis)] = io::from_bytes<float>(
                 std::string_view(bytes_).substr(point * i + sizeof(float) * axis), order);
-    check_finite(positions.first(header_.points), frame, file_, "export it again");
+    check_finite(positions.first(header_.points), "vertex", frame, file_, "export it again");
 }
 
 }  // namespace goffer::clip

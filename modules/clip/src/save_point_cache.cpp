@@ -43,7 +43,7 @@ void write_frames(Frames& frames, std::size_t vertices, const std::filesystem::p
         frames.read(frame, positions, {});
         const std::span<glm::vec3> own = std::span(positions).first(vertices);
         place(frames.placement(frame), own, {});
-        check_finite(own, frame, file, use_smaller_numbers);
+        check_finite(own, "vertex", frame, file, use_smaller_numbers);
         bytes.clear();
         for (const glm::vec3& p : own) {
             const glm::vec3 at = turned(p, axes);

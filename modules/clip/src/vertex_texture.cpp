@@ -29,7 +29,7 @@ constexpr float most = 65535;  // of a channel
 
 /// The files of a texture: NAME.json and those beside it.
 struct Names {
-    fs::path json, positions, normals, mesh, shader;
+    fs::path json, positions, normals, mesh, glsl, hlsl;
 
     explicit Names(const fs::path& file) : json(file) {
         if (file.extension() != ".json") fail(file, "the ending is not .json; give a name that ends so");
@@ -41,10 +41,11 @@ struct Names {
         positions = beside(".positions.png");
         normals = beside(".normals.png");
         mesh = beside(".mesh.glb");
-        shader = beside(".glsl");
+        glsl = beside(".glsl");
+        hlsl = beside(".hlsl");
     }
 
-    [[nodiscard]] std::vector<fs::path> all() const { return {json, positions, normals, mesh, shader}; }
+    [[nodiscard]] std::vector<fs::path> all() const { return {json, positions, normals, mesh, glsl, hlsl}; }
 };
 
 /// Numbers of a channel, and what a shader makes of them.
@@ -62,7 +63,8 @@ public:
         normals_.resize(with_normals ? positions_.size() : 0);
         frames_.read(frame, positions_, normals_);
         if (placement_ == TexturePlacement::baked) place(frames_.placement(frame), positions_, normals_);
-        check_finite(positions_, frame, file_, use_smaller_numbers);
+        check_finite(positions_, "vertex", frame, file_, use_smaller_numbers);
+        check_finite(normals_, "normal", frame, file_, use_smaller_numbers);
     }
     [[nodiscard]] const std::vector<glm::vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<glm::vec3>& normals() const { return normals_; }
@@ -181,7 +183,8 @@ nlohmann::ordered_json description(const Frames& frames, const Names& names, con
     json["positions"] = names.positions.filename().string();
     json["normals"] = names.normals.filename().string();
     json["mesh"] = names.mesh.filename().string();
-    json["shader"] = names.shader.filename().string();
+    json["shader"] = names.glsl.filename().string();
+    json["shader_hlsl"] = names.hlsl.filename().string();
     json["vertices"] = frames.vertices();
     json["frames"] = frames.count();
     json["frames_per_second"] = frames.rate();
@@ -255,7 +258,8 @@ VertexTexture save_vertex_texture(Frames& frames, const mesh::Mesh& model, const
     Reader reader(frames, placement, file);
     find_bounds(reader, frames.count(), result, file);
     write_images(reader, frames.count(), names, files, result);
-    files.add(names.shader).write(vertex_texture_glsl());
+    files.add(names.glsl).write(vertex_texture_glsl());
+    files.add(names.hlsl).write(vertex_texture_hlsl());
     // A file name need not be UTF-8; what is not is replaced.
     json.write(description(frames, names, result, placement)
                    .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
@@ -264,7 +268,11 @@ VertexTexture save_vertex_texture(Frames& frames, const mesh::Mesh& model, const
 }
 
 std::string_view vertex_texture_glsl() noexcept {
-    return {vertex_texture_text, sizeof vertex_texture_text - 1};
+    return {glsl_text, sizeof glsl_text - 1};
+}
+
+std::string_view vertex_texture_hlsl() noexcept {
+    return {hlsl_text, sizeof hlsl_text - 1};
 }
 
 }  // namespace goffer::clip

@@ -55,6 +55,22 @@ void write_point_cache(Animation& animation, const Save& save) {
     animation.report.line("mesh", mesh.string() + " has the vertices that the cache moves");
 }
 
+/// What to do where frames are off by more than was asked.
+const char* way_to_less(clip::GltfLimit limit) {
+    switch (limit) {
+        case clip::GltfLimit::targets:
+            return "allow more --targets";
+        case clip::GltfLimit::memory:
+            return "allow more with --max-memory";
+        case clip::GltfLimit::samples:
+            return "shapes are sought in 1024 of the frames; make fewer frames, or several files";
+        case clip::GltfLimit::rounding:
+        case clip::GltfLimit::none:
+            break;
+    }
+    return "what is left is the rounding of floats; give a larger one";
+}
+
 }  // namespace
 
 void write_gltf(Animation& animation) {
@@ -68,14 +84,15 @@ void write_gltf(Animation& animation) {
                                      {"max_error", done.max_error},
                                      {"rms_error", done.rms_error},
                                      {"max_normal_error", degrees(done.max_angle)},
-                                     {"within", done.within}};
+                                     {"within", done.within()}};
     animation.report.line("targets", counted(done.targets, "shape") +
                                          " of which frames are blended, within " + number(done.max_error) +
                                          " of them, " + number(100 * done.max_error / done.size) +
                                          " % of the size");
-    if (!done.within && done.targets != options.targets)
-        animation.report.warn("frames are off by more than " + number(100 * options.max_error) +
-                              " % of the size; allow more with --max-memory");
+    if (!done.within() && animation.max_error_asked)
+        animation.report.warn("frames are off by up to " + number(100 * done.max_error / done.size) +
+                              " % of the size, more than --max-error " + number(100 * options.max_error) +
+                              ": " + way_to_less(done.limit));
 }
 
 std::filesystem::path mesh_beside(const std::filesystem::path& cache) {

@@ -83,11 +83,17 @@ void run_animate(const AnimateOptions& options) {
     if (model.growth) report_growth(report, *model.growth);
     report_motion(report, request, options, seen, model);
     io::AtomicFiles outputs;
-    Animation animation{frames,          seen,
-                        options.output,  request.pattern,
-                        request.picture, options.bind.load.limits,
-                        request.gltf,    usable_threads(options.threads),
-                        outputs,         report};
+    Animation animation{frames,
+                        seen,
+                        options.output,
+                        request.pattern,
+                        request.picture,
+                        options.bind.load.limits,
+                        request.gltf,
+                        options.max_error.has_value(),
+                        usable_threads(options.threads),
+                        outputs,
+                        report};
     const auto start = std::chrono::steady_clock::now();
     in_file(options.model, [&] { request.writer->write(animation); });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;

@@ -42,6 +42,7 @@ struct Animation {
     const view::Settings& picture;
     const mesh::Limits& limits;
     const clip::GltfOptions& gltf;
+    bool max_error_asked = false;  ///< by its option, rather than being usual
     int threads = 1;
     io::AtomicFiles& outputs;  ///< for what is one file; those of a sequence take their places one by one
     Report& report;

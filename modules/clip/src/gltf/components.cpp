@@ -16,9 +16,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Beyond it the work grows with the cube, and the components do not get better: frames are alike.
-constexpr std::size_t most_samples = 1024;
-
 /// Displacements of positions, a column for each of `samples`.
 Eigen::MatrixXd shifts(Moves& moves, std::span<const std::size_t> samples) {
     const std::size_t entries = moves.rest().entries();

@@ -11,7 +11,10 @@
 
 namespace goffer::clip {
 
-/// What fits into `memory` bytes.
+/// Beyond it the work grows with the cube, and the components do not get better: frames are alike.
+inline constexpr std::size_t most_samples = 1024;
+
+/// What fits into `memory` bytes, 1 or more entries and frames given.
 struct Capacity {
     std::size_t samples = 0;     ///< frames that components are made of
     std::size_t block = 0;       ///< frames that are held at once

@@ -22,6 +22,7 @@ void check(const GltfOptions& options, const Frames& frames, const Rest& rest) {
         throw mesh::Error("max_error is no share of a size; give a number of 0 or more");
     if (options.targets && *options.targets == 0)
         throw mesh::Error("without targets nothing moves; allow 1 or more");
+    if (rest.entries() == 0) throw mesh::Error("the mesh has no vertices; give it 1 or more");
     if (frames.vertices() != rest.entries())
         throw mesh::Error("the frames have " + std::to_string(frames.vertices()) + " vertices and the mesh " +
                           std::to_string(rest.entries()) + " entries; make them of the same mesh");
@@ -62,6 +63,9 @@ GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& 
     Blend blend = reduce(moves, {allowed, options.targets, options.memory});
     prune(blend, allowed);
     const BlendError error = measure(moves, blend);
+    // What is left out beyond the components' own error is what rounding takes.
+    GltfLimit limit = GltfLimit::none;
+    if (!(error.max <= allowed)) limit = blend.limit == GltfLimit::none ? GltfLimit::rounding : blend.limit;
     std::vector<mesh::MorphTarget> targets;
     targets.reserve(blend.targets.count());
     for (std::size_t k = 0; k < blend.targets.count(); ++k)
@@ -73,7 +77,7 @@ GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& 
     return {frames.count(),
             targets.size(),
             blend.exact,
-            error.max <= allowed,
+            limit,
             rest.size,
             error.max,
             error.rms,

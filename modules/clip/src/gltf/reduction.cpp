@@ -20,7 +20,7 @@ using Eigen::Index;
 /// The frames themselves, one after the other.
 Blend all_frames(Moves& moves) {
     const std::size_t count = moves.count();
-    Blend blend{Shapes(moves.rest(), count), std::vector<float>(count * count, 0.0f), true};
+    Blend blend{Shapes(moves.rest(), count), std::vector<float>(count * count, 0.0f), true, GltfLimit::none};
     for (std::size_t f = 0; f < count; ++f) {
         moves.read(f, true);
         moves.copy(blend.targets.positions(f), blend.targets.normals(f));
@@ -54,7 +54,7 @@ Blend blend_of(Shapes components, const Weights& weights, std::size_t count) {
         matrix.col(k + 1) *= static_cast<float>(range[k]);
     }
     const bool begins_at_rest = matrix.col(0).isZero(0.0f);
-    Blend blend{std::move(components), {}, weights.of.rows() == 1};
+    Blend blend{std::move(components), {}, weights.of.rows() == 1, GltfLimit::none};
     if (begins_at_rest) blend.targets.drop_first();
     blend.weights.reserve(static_cast<std::size_t>(of.rows()) * blend.targets.count());
     for (Index f = 0; f < of.rows(); ++f) {
@@ -66,11 +66,31 @@ Blend blend_of(Shapes components, const Weights& weights, std::size_t count) {
     return blend;
 }
 
+/// What rounding to floats adds comes on top.
+double before_rounding(double max_error) {
+    return 0.98 * max_error;
+}
+
 /// How many components the error asks for; all where that is not enough.
 std::size_t enough(const std::vector<double>& max_errors, double max_error) {
-    // What rounding to floats adds comes on top.
-    const auto good = std::ranges::find_if(max_errors, [&](double e) { return e <= 0.98 * max_error; });
+    const auto good =
+        std::ranges::find_if(max_errors, [&](double e) { return e <= before_rounding(max_error); });
     return std::min(static_cast<std::size_t>(good - max_errors.begin()), max_errors.size() - 1);
+}
+
+/// How many components there may be, and why there are no more.
+struct Most {
+    std::size_t count = 0;
+    GltfLimit limit = GltfLimit::none;
+};
+
+Most most_components(std::size_t rank, const Capacity& capacity, const Reduction& how, std::size_t frames) {
+    // One target is what the others begin with.
+    if (how.targets && *how.targets - 1 < std::min(rank, capacity.components - 1))
+        return {*how.targets - 1, GltfLimit::targets};
+    if (capacity.components - 1 < rank) return {capacity.components - 1, GltfLimit::memory};
+    if (capacity.samples == frames) return {rank, GltfLimit::rounding};
+    return {rank, capacity.samples < most_samples ? GltfLimit::memory : GltfLimit::samples};
 }
 
 }  // namespace
@@ -79,20 +99,22 @@ Blend reduce(Moves& moves, const Reduction& how) {
     const Capacity capacity(how.memory, moves.rest().entries(), moves.count());
     const Spread spread = spread_of(moves, capacity);
     const auto rank = static_cast<std::size_t>(spread.values.size());
-    // One target is what the others begin with.
-    std::size_t most = std::min(rank, capacity.components - 1);
-    if (how.targets) most = std::min(most, *how.targets - 1);
-    std::size_t count = first_guess(spread, moves.rest(), how.max_error);
-    for (;;) {
-        count = std::min(count, most);
-        const bool as_many = count > 0 && count + 1 >= moves.count();
-        if (as_many && moves.count() <= capacity.components) return all_frames(moves);
+    const Most most = most_components(rank, capacity, how, moves.count());
+    const bool room_for_all =
+        moves.count() <= std::min(capacity.components, how.targets.value_or(moves.count()));
+    for (std::size_t count = first_guess(spread, moves.rest(), how.max_error);; count = 2 * count + 2) {
+        count = std::min(count, most.count);
         Shapes components = components_of(moves, spread, count, capacity);
         const Weights weights = weights_of(moves, components);
         const std::size_t used = enough(weights.max_errors, how.max_error);
-        if (count == most || weights.max_errors[used] <= 0.98 * how.max_error)
-            return blend_of(std::move(components), weights, used);
-        count = 2 * count + 2;
+        const bool met = weights.max_errors[used] <= before_rounding(how.max_error);
+        if (!met && count < most.count) continue;
+        const bool as_many = used > 0 && used + 1 >= moves.count();
+        const bool lost = !met && most.limit == GltfLimit::rounding;
+        if (room_for_all && (as_many || lost)) return all_frames(moves);
+        Blend blend = blend_of(std::move(components), weights, used);
+        if (!met) blend.limit = most.limit;
+        return blend;
     }
 }
 

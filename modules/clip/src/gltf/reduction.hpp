@@ -3,6 +3,8 @@
 
 #include "shapes.hpp"
 
+#include <goffer/clip/gltf.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,8 +16,9 @@ namespace goffer::clip {
 /// Targets, and how much of each makes a frame.
 struct Blend {
     Shapes targets;
-    std::vector<float> weights;  ///< 0..1; those of a frame together
-    bool exact = false;          ///< the targets are the frames
+    std::vector<float> weights;         ///< 0..1; those of a frame together
+    bool exact = false;                 ///< the targets are the frames
+    GltfLimit limit = GltfLimit::none;  ///< what keeps them from being as near as is asked, before rounding
 };
 
 /// How far a blend is from the frames.
@@ -27,7 +30,7 @@ struct BlendError {
 /// What decides how many targets there are.
 struct Reduction {
     double max_error = 0;                     ///< model units
-    std::optional<std::size_t> targets = {};  ///< instead, 1 or more
+    std::optional<std::size_t> targets = {};  ///< 1 or more, whatever the error
     std::uint64_t memory = 0;                 ///< bytes
 };
 

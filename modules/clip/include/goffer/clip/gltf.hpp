@@ -22,8 +22,8 @@ struct GltfOptions {
     /// below 0.
     double max_error = 4e-3;
 
-    /// How many targets there may be at most, 1 or more: where `max_error` asks for more, the error is what
-    /// it is. Unset: as many as it asks for.
+    /// How many targets there may be at most, 1 or more: where `max_error` asks for more, the error may
+    /// be larger. Unset: as many as it asks for.
     std::optional<std::size_t> targets = {};
 
     /// Bytes that finding the targets may take beside the mesh, its vertex arrays and one frame. What does
@@ -32,20 +32,31 @@ struct GltfOptions {
     std::uint64_t memory = std::uint64_t{1} << 30;
 };
 
+/// What keeps a file from following its frames as closely as GltfOptions::max_error asks.
+enum class GltfLimit : std::uint8_t {
+    none,      ///< nothing: it does
+    targets,   ///< GltfOptions::targets: with more it would be nearer
+    memory,    ///< GltfOptions::memory: more targets, or those of more frames, do not fit
+    samples,   ///< targets are those of 1024 of the frames, and others have what these do not
+    rounding,  ///< what is left is as small as the rounding of floats, which no target is made of
+};
+
 /// What was written, and how far it is from the frames. Distances are in model units and angles in radians;
 /// they are those of the values in the file, over all vertices of all frames, before the placement.
 struct GltfReport {
     std::size_t frames = 0;
-    std::size_t targets = 0;  ///< in the file, 0 if nothing moves
-    bool exact = false;       ///< the targets are the frames themselves: nothing is left out
-    bool within = true;       ///< max_error is kept; false where fewer targets were allowed, or fit in memory
-    double size = 0;          ///< the mesh's largest extent at rest
-    double max_error = 0;     ///< largest distance of a vertex from where its frame has it
+    std::size_t targets = 0;            ///< in the file, 0 if nothing moves
+    bool exact = false;                 ///< the targets are the frames themselves: nothing is left out
+    GltfLimit limit = GltfLimit::none;  ///< why max_error is not kept
+    double size = 0;                    ///< the mesh's largest extent at rest
+    double max_error = 0;               ///< largest distance of a vertex from where its frame has it
     double rms_error = 0;
     double max_angle = 0;  ///< largest angle between a normal and that of its frame; 0 without normals
     double rms_angle = 0;
     std::uint64_t bytes = 0;            ///< of the file
     std::vector<std::string> warnings;  ///< what of the mesh's source is left out, a line each
+
+    [[nodiscard]] bool within() const noexcept { return limit == GltfLimit::none; }  ///< max_error is kept
 };
 
 /// Writes `mesh`, which is at rest, with `frames` as a glTF animation into a .glb or .gltf file, as
@@ -56,14 +67,15 @@ struct GltfReport {
 /// move from their mean. One more takes the rest shape to where blending begins, so that all weights are from
 /// 0 to 1, to which programs clamp them, and so that weights of 0 are the mesh at rest. Normals follow by the
 /// same weights, as closely as these can. Tangents are left as they are at rest: normal maps are lit a little
-/// wrong where the surface turns. There are never more targets than frames; where it takes as many, they are
-/// the frames themselves. Of more than 1024 frames, or fewer where `memory` asks for it, the components are
-/// those of evenly spaced ones; all frames are measured.
+/// wrong where the surface turns. There are never more targets than frames; where it takes as many, or no
+/// fewer are near enough, they are the frames themselves. Of more than 1024 frames, or fewer where `memory`
+/// asks for it, the components are those of evenly spaced ones; all frames are measured.
 ///
 /// The placement becomes a node above the scene, with a key per frame unless it stays the same.
 ///
-/// Throws mesh::Error if the ending or the options are not these, entries do not fit, a frame is not finite,
-/// or `memory` is too little for one target and two frames; and what save_morphing() throws.
+/// Throws mesh::Error if the ending or the options are not these, there are no vertices, entries do not fit,
+/// a frame is not finite, or `memory` is too little for one target and two frames; and what save_morphing()
+/// throws.
 [[nodiscard]] GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& options,
                                    const std::filesystem::path& file, io::AtomicFiles& files);
 

@@ -4,17 +4,17 @@
 //     RGB16 for a sampler2D or, as in ES 3.00 and WebGL 2, which have no RGB16, RGB16UI for a usampler2D.
 //   - Row 0 is the image's first, its uppermost. Where a loader turns images upside down, give GofferClip their height.
 //   - `vertex` is gl_VertexID, in Vulkan gl_VertexIndex, where NAME.mesh.glb is drawn with its vertices in their order,
-//     else int(TEXCOORD_1.x + 0.5).
-// For GLSL 3.30 and ES 3.00 and later, and Vulkan. A fragment shader in ES must say
+//     else goffer_vertex(TEXCOORD_1.x).
+// For GLSL 3.30 and ES 3.00 and later, and Vulkan; vertex_texture.hlsl is the same for HLSL. A fragment shader in ES must say
 // "precision highp float; precision highp int;" first.
 
-// What NAME.json says under the same names, but for `height`.
+// What NAME.json says under the same names, but for `flipped_height`.
 struct GofferClip {
     int width;
     int rows_per_frame;
     vec3 low;
     vec3 high;
-    int height; // 0, or that of NAME.json where the loader turned the images upside down
+    int flipped_height; // 0, or the height of NAME.json where the loader turned the images upside down
 };
 
 // Two frames, and how far between them a moment is: 0 at the first one, 1 at the second.
@@ -38,10 +38,15 @@ GofferFrames goffer_frames_repeated(float frame, int frames) {
     return GofferFrames(first, first + 1 < frames ? first + 1 : 0, within - float(first));
 }
 
+// The vertex that a TEXCOORD_1.x says, which is a whole number: 0.5 more would round the larger ones away from it.
+int goffer_vertex(float number) {
+    return int(number);
+}
+
 // Where a vertex is in both images.
 ivec2 goffer_texel(int vertex, int frame, GofferClip clip) {
     int row = frame * clip.rows_per_frame + vertex / clip.width;
-    return ivec2(vertex % clip.width, clip.height == 0 ? row : clip.height - 1 - row);
+    return ivec2(vertex % clip.width, clip.flipped_height == 0 ? row : clip.flipped_height - 1 - row);
 }
 
 // `texel` has channels of 0 to 1.

@@ -15,7 +15,7 @@
 ///
 /// The texel of vertex v in frame f is column v % width of row f * rows_per_frame + v / width, counted from
 /// the image's first row, which is its uppermost. modules/clip/README.md, "Vertex-animation textures", says
-/// what is in the files, and vertex_texture.glsl plays them.
+/// what is in the files, and vertex_texture.glsl and .hlsl play them.
 
 namespace goffer::io {
 class AtomicFiles;
@@ -69,9 +69,9 @@ struct VertexTexture {
 [[nodiscard]] std::vector<std::filesystem::path> vertex_texture_files(const std::filesystem::path& file);
 
 /// Writes `frames` as a vertex-animation texture. `file` is the JSON that describes it, NAME.json; beside it
-/// are NAME.positions.png, NAME.normals.png, NAME.mesh.glb and NAME.glsl: the two images, the mesh at rest,
-/// and the text of vertex_texture.glsl. Files that are there are replaced. The JSON has U+FFFD in the place
-/// of bytes of their names that are not UTF-8.
+/// are NAME.positions.png, NAME.normals.png, NAME.mesh.glb, NAME.glsl and NAME.hlsl: the two images, the mesh
+/// at rest, and the texts of vertex_texture.glsl and .hlsl. Files that are there are replaced. The JSON has
+/// U+FFFD in the place of bytes of their names that are not UTF-8.
 ///
 /// `arrays` are those of `model` that the frames are of: by vertex_arrays(), or by vertex_arrays_with_uvs()
 /// to keep texture coordinates. The GLB has its entries in their order, once each, their coordinates as
@@ -79,13 +79,16 @@ struct VertexTexture {
 ///
 /// Frames are read twice, for the bounds and for the texels; one is in memory at a time. Files are `files`'
 /// to put in their places. Throws io::Error if a file cannot be written, its name does not end in .json,
-/// frames do not fit the arrays, vertex_texture_layout() has nothing for them, or a position is not finite;
-/// and mesh::Error, before any frame is read, if mesh::save() refuses the mesh at rest.
+/// frames do not fit the arrays, vertex_texture_layout() has nothing for them, or a position or a normal is
+/// not finite; and mesh::Error, before any frame is read, if mesh::save() refuses the mesh at rest.
 VertexTexture save_vertex_texture(Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays,
                                   const std::filesystem::path& file, io::AtomicFiles& files,
                                   TexturePlacement placement = TexturePlacement::baked);
 
 /// The text of goffer/clip/vertex_texture.glsl. Static storage; a 0 follows it. Thread-safe.
 [[nodiscard]] std::string_view vertex_texture_glsl() noexcept;
+
+/// The text of goffer/clip/vertex_texture.hlsl, likewise.
+[[nodiscard]] std::string_view vertex_texture_hlsl() noexcept;
 
 }  // namespace goffer::clip
