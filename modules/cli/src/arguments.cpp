@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -224,9 +225,30 @@ void check_output(const std::filesystem::path& file) {
     const io::AtomicFile probe(file);
 }
 
+namespace {
+
+/// Those of a .gltf. Where it cannot be read, reading it says why.
+std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending != ".gltf") return {};
+    try {
+        return mesh::named_buffers(file, {.allow_outside = true});
+    } catch (const mesh::Error&) {
+        return {};
+    }
+}
+
+}  // namespace
+
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
     std::vector<NamedFile> taken = inputs;
+    for (const NamedFile& input : inputs) {
+        for (std::filesystem::path& buffer : buffers_of(input.file))
+            taken.push_back({input.option, std::move(buffer)});
+    }
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {
             if (!is_file(output) || !is_file(other) || place_of(output.file) != place_of(other.file))

@@ -79,13 +79,11 @@ void refuse_planless(const fs::path& folder) {
                                    "give a new folder to -o"));
 }
 
-/// Refuses a report that would replace what the cache is made from, or lie in it.
+/// Refuses a report that would replace what the cache is made from.
 void check_report(const CacheRequest& request, const Scene& scene) {
     std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
     for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
-    const NamedFile report{"--json", request.json};
-    check_places(inputs, {report});
-    check_outside(request.folder, {report});
+    check_places(inputs, {{"--json", request.json}});
 }
 
 bend::BodyFile loaded(const fs::path& file, const std::string& bytes) {
@@ -201,8 +199,8 @@ void CacheRun::set_up() const {
     fs::create_directories(folder_ / "bodies", error);
     if (error) throw InputError(io::about(folder_, "cannot be made: " + error.message()));
     for (const NewFile& file : new_files_) io::write_file(folder_ / file.name, file.bytes);
-    if (before_ != plan_) {
-        fs::remove(folder_ / manifest_name, error);
+    if (before_ != plan_) fs::remove(folder_ / manifest_name, error);
+    if (before_ != plan_ || !fs::exists(folder_ / plan_name, error)) {
         io::write_file(folder_ / plan_name, json_of(plan_).dump(2) + "\n");
     }
 }

@@ -81,6 +81,7 @@ void run_make(const CacheOptions& options) {
         request.whole = false;
     }
     check_places({{"SCENE", options.input}}, {{"-o", options.output}, {"--json", options.json}});
+    check_outside(options.output, {{"--json", options.json}});
     make_cache(request);
 }
 

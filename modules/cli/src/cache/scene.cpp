@@ -95,7 +95,11 @@ void read_groups(Scene& scene, const nlohmann::json& list, const io::NamedFiles&
 /// Keeps the order in which the scene names them, whichever way that leads to their folder.
 void keep_once(std::vector<std::filesystem::path>& files) {
     std::set<std::filesystem::path> known;
-    std::erase_if(files, [&](const std::filesystem::path& file) { return !known.insert(file).second; });
+    std::erase_if(files, [&](const std::filesystem::path& file) {
+        std::error_code error;
+        const std::filesystem::path place = std::filesystem::weakly_canonical(file, error);
+        return !known.insert(error ? file : place).second;
+    });
 }
 
 }  // namespace
