@@ -9,6 +9,10 @@ import subprocess
 from common import FARM, SHARES, call, compare, environment, make_scene, need, single
 
 
+# A folder in whose name runners find what they replace, and shells what they split.
+TRICKY = "cache {}{#}%j'$x"
+
+
 def baked(printed):
     """How many shards each run of goffer baked, in the order in which they said so."""
     return [int(count) for count in re.findall(r"^shards +\d+ kept, (\d+) baked", printed, re.MULTILINE)]
@@ -19,11 +23,11 @@ def local(goffer, folder, runner):
     env = environment(goffer, {"RUNNER": runner, "JOBS": "2"})
     scene = make_scene(folder, env)
     wanted = single(scene, folder / "single", env)
-    words = ["bash", FARM / "bake_local.sh", scene, folder / "cache", SHARES, "--shard-frames", "10"]
+    words = ["bash", FARM / "bake_local.sh", scene, folder / TRICKY, SHARES, "--shard-frames", "10"]
     runs = baked(call(words, env))
     assert len(runs) == SHARES + 1 and sum(runs) == 24, f"{runs} shards were baked"
     assert runs[-1] == 0, f"the last run baked {runs[-1]} shards, which the shares should have"
-    compare(folder / "cache", wanted)
+    compare(folder / TRICKY, wanted)
 
 
 def xargs(goffer, folder):
