@@ -126,7 +126,7 @@ TEST_CASE("cache: numbers in texts share the memory that is allowed") {
     for (int i = 0; i < count; ++i) text += "1 0 0 0 1 0 0 0 1 2 2 0\n";
     const nlohmann::json entry = {{"body", "worm"}, {"count", count}, {"transforms", "places.csv"}};
     folder.write("places.csv", text);
-    scene["instances"] = {entry};
+    scene["instances"] = nlohmann::json::array({entry});
     write(folder, scene);
     const Words memory{"--prepare", "--max-memory", "500K"};
     well(folder, cache_words("one", memory));
