@@ -5,9 +5,12 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <future>
 #include <set>
+#include <thread>
 
 /// What is read is not written, whichever word names it; and what the cache keeps is kept.
 
@@ -249,4 +252,24 @@ TEST_CASE("cache: what is made anew is said, and a share makes nothing anew") {
     CHECK(anew.err.find("format was positions, and is poses") != std::string::npos);
     CHECK(anew.err.find("its scene") != std::string::npos);
     well(folder, cache_words("cache"));
+}
+
+TEST_CASE("cache: a file that changes while a cache is baked ends the run") {
+    const Folder folder;
+    nlohmann::json scene = scene_in(folder);
+    scene["frames"] = 20'000;
+    write(folder, scene);
+    const Words words = cache_words("cache", {"--shard-frames", "10"});
+    std::future<Result> baking = std::async(std::launch::async, [&] { return run(folder, words); });
+    const auto start = std::chrono::steady_clock::now();
+    while (!std::filesystem::exists(folder / "cache/shard-000001.gofferc") &&
+           std::chrono::steady_clock::now() - start < std::chrono::seconds(60))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto before = std::filesystem::last_write_time(folder / "keys.csv");
+    std::filesystem::last_write_time(folder / "keys.csv", before + std::chrono::seconds(9));
+    const Result result = baking.get();
+    CHECK(result.code == 1);
+    CHECK(result.err.find("keys.csv: has changed") != std::string::npos);
+    CHECK(!std::filesystem::exists(folder / "cache/manifest.json"));
+    CHECK(!std::filesystem::exists(folder / "cache/shard-001999.gofferc"));
 }
