@@ -9,8 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <optional>
+#include <string>
+#include <thread>
+#include <vector>
 
 using namespace goffer::io;
 using namespace goffer::test;
@@ -187,6 +191,38 @@ TEST_CASE("atomic file: a handler of signals can remove what is unfinished") {
     CHECK(bytes_of(folder / "a") == "old");
     CHECK(fs::exists(folder / "c"));
     CHECK(folder.files() == 2);
+}
+
+TEST_CASE("atomic file: a handler of signals finds what all threads are writing, in any moment") {
+    for (int round = 0; round < 100; ++round) {
+        const Folder folder;
+        const pid_t child = fork();
+        if (child == 0) {
+            std::signal(SIGTERM, [](int number) {
+                remove_unfinished();
+                _exit(number);
+            });
+            const auto writes = [&](int thread) {
+                try {
+                    while (true) write_file(folder / std::to_string(thread), "new");
+                } catch (const Error&) {  // the process ends
+                    pause();
+                }
+            };
+            std::vector<std::thread> threads;
+            for (int thread = 1; thread < 20; ++thread) threads.emplace_back(writes, thread);
+            writes(0);
+        }
+        while (folder.files() == 0) std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::microseconds(97 * round));
+        kill(child, SIGTERM);
+        int status = 0;
+        REQUIRE(waitpid(child, &status, 0) == child);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == SIGTERM);
+        for (const auto& entry : fs::directory_iterator(folder / "."))
+            CHECK(!entry.path().filename().string().starts_with(".goffer"));
+    }
 }
 
 TEST_CASE("atomic file: of several, none takes its place before all are written") {

@@ -57,6 +57,7 @@ AtomicFile::AtomicFile(fs::path target) : target_(followed(std::move(target))) {
     if (!part.stream) give_up(errno);
     stream_ = part.stream;
     beside_ = std::move(part.path);
+    noted_ = part.noted;
 }
 
 AtomicFile::~AtomicFile() {
@@ -64,7 +65,7 @@ AtomicFile::~AtomicFile() {
     if (beside_.empty()) return;
     std::error_code ignored;
     fs::remove(beside_, ignored);
-    forget_part(beside_);
+    forget_part(noted_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -93,7 +94,8 @@ void AtomicFile::commit() {
     if (fs::exists(old)) fs::permissions(beside_, old.permissions(), error);
     fs::rename(beside_, target_, error);
     if (error) give_up(error.value());
-    forget_part(std::exchange(beside_, {}));
+    beside_.clear();
+    forget_part(noted_);
     if (stream_) std::fclose(std::exchange(stream_, nullptr));
     synchronize_folder(folder_of(target_));
 }

@@ -116,12 +116,12 @@ PartFile open_part(const fs::path& folder) {
         part.stream = open_new(part.path);
         if (!part.stream && errno != EEXIST) return part;
     }
-    if (part.stream) note_unfinished(part.path);
+    if (part.stream) part.noted = note_unfinished(part.path);
     return part;
 }
 
-void forget_part(const fs::path& path) {
-    forget_unfinished(path);
+void forget_part(int noted) {
+    forget_unfinished(noted);
 }
 
 #ifdef _WIN32

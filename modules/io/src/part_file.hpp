@@ -12,14 +12,15 @@ namespace goffer::io {
 struct PartFile {
     std::FILE* stream = nullptr;  ///< null: errno says why
     std::filesystem::path path;
+    int noted = -1;  ///< for forget_part
 };
 
 /// Makes a new file in `folder`, under a name that no other has. It is locked for as long as it is open,
 /// where the system can do that.
 [[nodiscard]] PartFile open_part(const std::filesystem::path& folder);
 
-/// To be called once a part is renamed or removed.
-void forget_part(const std::filesystem::path& path);
+/// To be called with PartFile::noted once a part is renamed or removed.
+void forget_part(int noted);
 
 /// Removes the parts in `folder` that a process which is gone has left.
 void remove_stale_parts(const std::filesystem::path& folder);

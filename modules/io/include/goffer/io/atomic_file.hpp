@@ -60,6 +60,7 @@ private:
 
     std::filesystem::path target_;
     std::filesystem::path beside_;
+    int noted_ = -1;  // in the list of remove_unfinished()
     std::FILE* stream_ = nullptr;
     bool flushed_ = false;
 };
