@@ -9,6 +9,7 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/paper/base.hpp>
 
+#include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
 

@@ -7,6 +7,7 @@
 #include <goffer/io/error.hpp>
 #include <goffer/mesh/mesh.hpp>
 
+#include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "command_line.hpp"
+
 #include <goffer/engine/isa.hpp>
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
-#include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 
 #include <filesystem>

@@ -13,6 +13,7 @@
 #include <goffer/fit/sockets.hpp>
 #include <goffer/io/atomic_file.hpp>
 
+#include <CLI/CLI.hpp>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

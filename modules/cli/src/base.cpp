@@ -8,6 +8,8 @@
 #include <goffer/mesh/mesh.hpp>
 #include <goffer/paper/base.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <cstdint>
 #include <memory>
 

@@ -18,6 +18,7 @@
 #include <goffer/measure/timer.hpp>
 #include <goffer/mesh/mesh.hpp>
 
+#include <CLI/CLI.hpp>
 #include <tbb/task_arena.h>
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/io/read_file.hpp>
 
+#include <CLI/CLI.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>

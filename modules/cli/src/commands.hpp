@@ -2,6 +2,7 @@
 #pragma once
 
 #include "arguments.hpp"
+#include "command_line.hpp"
 
 /// The subcommands. Each adds itself to `app` and sets `action` when it is the one that was called.
 

@@ -10,6 +10,8 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/read_file.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <memory>
 
 namespace goffer::cli {

@@ -17,6 +17,7 @@
 #include <string>
 
 #ifndef _WIN32
+#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #endif
 

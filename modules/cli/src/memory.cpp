@@ -5,6 +5,8 @@
 
 #include <goffer/io/error.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <fstream>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/mesh/mesh.hpp>
+#include "command_line.hpp"
 
-#include <CLI/CLI.hpp>
+#include <goffer/mesh/mesh.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -9,6 +9,8 @@
 #include <goffer/fit/base.hpp>
 #include <goffer/fit/refine.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <utility>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "arguments.hpp"
+#include "command_line.hpp"
 #include "refine.hpp"
 #include "report.hpp"
 

@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 #include "model.hpp"
 
+#include <CLI/CLI.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <charconv>

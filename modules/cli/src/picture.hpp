@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "command_line.hpp"
 #include "looks.hpp"
 
 #include <goffer/bend/body.hpp>
@@ -9,7 +10,6 @@
 #include <goffer/view/picture.hpp>
 #include <goffer/view/texture.hpp>
 
-#include <CLI/CLI.hpp>
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

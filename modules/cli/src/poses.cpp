@@ -6,6 +6,8 @@
 
 #include <goffer/bend/body_input.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 

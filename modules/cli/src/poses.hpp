@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "command_line.hpp"
 #include "report.hpp"
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/pose.hpp>
 #include <goffer/fit/bind.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>

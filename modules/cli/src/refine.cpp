@@ -12,6 +12,8 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/mesh/refined.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <memory>
 #include <optional>

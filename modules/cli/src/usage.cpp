@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "usage.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <numeric>
 #include <string_view>

@@ -6,6 +6,8 @@
 
 #include <goffer/io/read_file.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <memory>

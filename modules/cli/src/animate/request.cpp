@@ -7,6 +7,8 @@
 #include <goffer/clip/vertex_texture.hpp>
 #include <goffer/io/error.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <utility>
 

@@ -4,12 +4,11 @@
 #include "animate/survey.hpp"
 #include "animate/writers.hpp"
 #include "body_file.hpp"
+#include "command_line.hpp"
 #include "model.hpp"
 #include "motion/motion.hpp"
 #include "motion/path_words.hpp"
 #include "poses.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>

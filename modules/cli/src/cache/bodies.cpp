@@ -9,6 +9,8 @@
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 
 namespace goffer::cli {

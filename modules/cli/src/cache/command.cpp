@@ -6,6 +6,8 @@
 #include "model.hpp"
 #include "threads.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <charconv>
 #include <memory>
 #include <utility>

@@ -13,6 +13,8 @@
 
 #include <goffer/io/atomic_file.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <memory>

@@ -15,6 +15,7 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/measure/timer.hpp>
 
+#include <CLI/CLI.hpp>
 #include <tbb/task_arena.h>
 
 #include <algorithm>

@@ -7,6 +7,8 @@
 
 #include <goffer/io/error.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "command_line.hpp"
 #include "motion/path.hpp"
 #include "poses.hpp"
 #include "report.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <vector>

@@ -6,6 +6,8 @@
 
 #include <goffer/io/atomic_file.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
