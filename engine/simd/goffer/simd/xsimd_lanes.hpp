@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/simd/unrolled.hpp>
+
 #include <xsimd/xsimd.hpp>
 
 #include <cstddef>
@@ -81,7 +83,7 @@ struct XsimdLanes {
     /// Refines the processor's estimate, whose last bits are the maker's choice.
     static Vec rsqrt(Vec a) {
         Vec y = xsimd::rsqrt(a);
-        for (int step = 0; step < estimate_steps; ++step) y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f));
+        unrolled<estimate_steps>([&](auto) { y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f)); });
         return y;
     }
 
@@ -93,7 +95,7 @@ struct XsimdLanes {
     }
     static Vec reciprocal(Vec a) {
         Vec y = xsimd::reciprocal(a);
-        for (int step = 0; step < estimate_steps; ++step) y = y * nmadd(a, y, Vec(2.0f));
+        unrolled<estimate_steps>([&](auto) { y = y * nmadd(a, y, Vec(2.0f)); });
         return y;
     }
     static Vec with_sign(Vec magnitude, Vec sign) {

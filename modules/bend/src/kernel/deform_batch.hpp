@@ -4,6 +4,10 @@
 #include "kernel/args.hpp"
 #include "kernel/sin_cos.hpp"
 
+#include <goffer/simd/unrolled.hpp>
+
+#include <cstddef>
+
 /// The deformation of a batch of vertices, written once for all instruction sets. `L` is any lanes.
 ///
 /// Columns hold sines and cosines of half angles, times the root of two. A rotation makes h = sqrt(2)
@@ -17,7 +21,7 @@ namespace goffer::bend {
 template <class L, std::size_t N>
 typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
     typename L::Vec sum = L::splat(coefficients[N - 1]);
-    for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(coefficients[n]));
+    simd::unrolled<N - 1>([&](auto n) { sum = L::madd(sum, x, L::splat(coefficients[N - 2 - n])); });
     return sum;
 }
 
@@ -27,10 +31,10 @@ typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec 
     const typename L::Vec xx = x * x;
     typename L::Vec even = L::splat(coefficients[N - 2]);
     typename L::Vec odd = L::splat(coefficients[N - 1]);
-    for (std::size_t n = N - 2; n > 0; n -= 2) {
-        even = L::madd(even, xx, L::splat(coefficients[n - 2]));
-        odd = L::madd(odd, xx, L::splat(coefficients[n - 1]));
-    }
+    simd::unrolled<N / 2 - 1>([&](auto n) {
+        even = L::madd(even, xx, L::splat(coefficients[N - 4 - 2 * n]));
+        odd = L::madd(odd, xx, L::splat(coefficients[N - 3 - 2 * n]));
+    });
     return L::madd(odd, x, even);
 }
 
@@ -192,12 +196,12 @@ template <class L>
 Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
                 typename L::Vec z) {
     Vector<L> result;
-    for (int row = 0; row < 3; ++row) {
+    simd::unrolled<3>([&](auto row) {
         typename L::Vec sum =
             offset ? L::madd(L::splat(matrix[row]), x, L::splat(offset[row])) : L::splat(matrix[row]) * x;
         sum = L::madd(L::splat(matrix[4 + row]), y, sum);
         result.component[row] = L::madd(L::splat(matrix[8 + row]), z, sum);
-    }
+    });
     return result;
 }
 
