@@ -256,6 +256,13 @@ TEST_CASE("P7: columns whose elements are too near to each other are named") {
     CHECK(told(after([](Crowd&, Batch& b) { b.previous_transforms.first.stride = 44; })) ==
           "previous_transform stride, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.transforms.first.stride = 48; })) == "none");
+    static_assert(sizeof(bend::Pose) == 8 && sizeof(glm::mat4x3) == 48, "as the words say");
+    const auto words = [](const bend::Fault& fault) { return std::string(bend::describe(fault).c_str()); };
+    CHECK(words(after([](Crowd&, Batch& b) { b.poses.stride = sizeof(bend::Pose); })) ==
+          "batches[1].poses: an element is smaller than a pose (8 bytes) for each region of the body, which "
+          "lie one after the other");
+    CHECK(words(after([](Crowd&, Batch& b) { b.transforms.first.stride = 44; })) ==
+          "batches[1].transform: an element is smaller than a glm::mat4x3 (48 bytes)");
 }
 
 TEST_CASE("P7: columns that are not aligned to what they hold are named") {

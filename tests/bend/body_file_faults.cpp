@@ -197,7 +197,8 @@ TEST_CASE("body file: what cannot be read as a file is said to be") {
         CHECK(!bend::load_file(name));
         return std::string(bend::describe(fault).c_str());
     };
-    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data/none.goffer") == "body file: there is none of that name");
+    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data/none.goffer") ==
+          "body file: there is no such file; check its name, and the working folder");
     CHECK(refused(GOFFER_SOURCE_DIR "/tests/data") == "body file: cannot be opened or read");
     CHECK(refused(GOFFER_SOURCE_DIR "/README.md") == "body file: not a body file; goffer bake makes one");
 }

@@ -180,7 +180,8 @@ TEST_CASE("C: a body file") {
     CHECK(goffer_body_folds(goffer_file_body(opened, 0), 0).suitable == 0);
     goffer_file_free(opened);
     CHECK(goffer_file_open("none.goffer", GOFFER_VERIFY_EVERYTHING, &error) == nullptr);
-    CHECK(std::string(error.text) == "body file: there is none of that name");
+    CHECK(std::string(error.text) ==
+          "body file: there is no such file; check its name, and the working folder");
     CHECK(goffer_file_open(nullptr, GOFFER_VERIFY_EVERYTHING, &error) == nullptr);
 }
 

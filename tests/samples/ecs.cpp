@@ -81,7 +81,8 @@ TEST_CASE("ecs: what cannot be played is said") {
     CHECK(game.play("arrays", "--creatures worm.goffer")
               .ends_with("/arrays: worm.goffer: not a number from 1 to 100000\nexit 2\n"));
     CHECK(game.play("arrays", "none.goffer")
-              .ends_with("/arrays: none.goffer: body file: there is none of that name\nexit 1\n"));
+              .ends_with("/arrays: none.goffer: body file: there is no such file; check its name, and the "
+                         "working folder\nexit 1\n"));
     CHECK(game.play("arrays", "chain.goffer")
               .ends_with("/arrays: this game is for bodies of one region\nexit 1\n"));
     CHECK(game.play("arrays", "--creatures 1 --frames 1 bald.goffer").ends_with("exit 0\n"));

@@ -37,7 +37,7 @@ const char* words_of(FileReason reason) noexcept {
         case FileReason::empty:
             return "has no body";
         case FileReason::missing:
-            return "there is none of that name";
+            return "there is no such file; check its name, and the working folder";
         case FileReason::unreadable:
             return "cannot be opened or read";
     }

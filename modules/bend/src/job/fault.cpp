@@ -68,10 +68,18 @@ std::string_view reason_of_count(Field field) noexcept {
                : "fewer elements than instances, or than the indices ask for";
 }
 
-/// Whether instances read from it.
-bool is_column(Field field) noexcept {
-    return field == Field::poses || field == Field::previous_poses || field == Field::transform ||
-           field == Field::previous_transform;
+std::string_view reason_of_stride(Field field) noexcept {
+    switch (field) {
+        case Field::poses:
+        case Field::previous_poses:
+            return "an element is smaller than a pose (8 bytes) for each region of the body, which lie one "
+                   "after the other";
+        case Field::transform:
+        case Field::previous_transform:
+            return "an element is smaller than a glm::mat4x3 (48 bytes)";
+        default:
+            return "the stride is not a multiple of 4, or below what one vertex takes";
+    }
 }
 
 std::string_view words(Field field, Reason reason) noexcept {
@@ -97,9 +105,7 @@ std::string_view words(Field field, Reason reason) noexcept {
         case Reason::too_short:
             return "its count is below what the instances' vertices take";
         case Reason::stride:
-            return is_column(field)
-                       ? "an element has less room than is read of it: a pose per region, a matrix"
-                       : "the stride is not a multiple of 4, or below what one vertex takes";
+            return reason_of_stride(field);
         case Reason::alignment:
             return "not aligned to the type of its elements";
         case Reason::overlap:
