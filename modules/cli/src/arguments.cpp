@@ -246,7 +246,12 @@ std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file)
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
     std::vector<NamedFile> taken = inputs;
-    for (const NamedFile& input : inputs) {
+    // A buffer that an output would replace is there: most runs need not look for any.
+    const bool may_replace = std::ranges::any_of(outputs, [&](const NamedFile& output) {
+        std::error_code error;
+        return is_file(output) && std::filesystem::exists(output.file, error);
+    });
+    for (const NamedFile& input : may_replace ? inputs : std::vector<NamedFile>{}) {
         for (std::filesystem::path& buffer : buffers_of(input.file))
             taken.push_back({input.option, std::move(buffer)});
     }

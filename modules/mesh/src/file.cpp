@@ -54,11 +54,14 @@ Format format_of_content(std::string_view bytes) {
     return Format::unknown;
 }
 
+Format format_of(const fs::path& file, std::string_view bytes) {
+    const Format format = format_of_content(bytes);
+    return format == Format::unknown ? format_of_ending(file) : format;
+}
+
 Mesh read(const fs::path& file, std::string_view bytes, const LoadOptions& options, Budget& budget,
           const Share& share) {
-    Format format = format_of_content(bytes);
-    if (format == Format::unknown) format = format_of_ending(file);
-    switch (format) {
+    switch (format_of(file, bytes)) {
         case Format::obj:
             return read_obj(file, bytes, options, budget, share);
         case Format::ply:
@@ -120,6 +123,18 @@ Mesh load(const fs::path& file, const LoadOptions& options) {
         check(mesh, file);
         listener.hear(1);
         return mesh;
+    } catch (const OverLimit& error) {
+        fail(file, error.what());
+    }
+}
+
+std::vector<fs::path> named_buffers(const fs::path& file, const LoadOptions& options) {
+    try {
+        Budget budget(options.limits);
+        const std::string bytes = read_bytes(file, budget);
+        const Format format = format_of(file, bytes);
+        if (format != Format::glb && format != Format::gltf) return {};
+        return gltf_buffers(file, bytes, options, budget);
     } catch (const OverLimit& error) {
         fail(file, error.what());
     }

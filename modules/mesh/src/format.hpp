@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What each format provides for load() and save(). Readers take the bytes of a file, and its path for
 /// messages and for the files that it names; they throw Error that begins with the path, or OverLimit.
@@ -28,6 +29,12 @@ class Budget;
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes,
                              const LoadOptions& options, Budget& budget,
                              const Share& share);  // .gltf and .glb
+
+/// The files that the buffers of a .gltf or .glb lie in; none where it is broken, of which read_gltf() says
+/// more.
+[[nodiscard]] std::vector<std::filesystem::path> gltf_buffers(const std::filesystem::path& file,
+                                                              std::string_view bytes,
+                                                              const LoadOptions& options, Budget& budget);
 
 /// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);

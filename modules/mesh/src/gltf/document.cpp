@@ -55,6 +55,10 @@ Container split_glb(std::string_view bytes) {
     return parts;
 }
 
+Container parts_of(std::string_view bytes) {
+    return bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
+}
+
 /// Looks at brackets before the parser runs (its callback would take quadratic time for long arrays), and at
 /// what its values will take: by what a value, a member and a list are in memory, with the room that lists
 /// leave for more.
@@ -198,10 +202,24 @@ std::string_view Document::view(const Value& buffer_view) const {
                                            buffer_view["byteLength"].whole());
 }
 
+std::vector<std::filesystem::path> named_buffers(std::string_view bytes, const io::NamedFiles& files,
+                                                 Budget& budget) {
+    const Json json = parse(parts_of(bytes).json, budget, {});
+    std::vector<std::filesystem::path> named;
+    each(json, "buffers", [&](const Json& buffer) {
+        const bool has_uri = buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
+        if (!has_uri) return;
+        const std::string& uri = buffer["uri"].get_ref<const std::string&>();
+        if (uri.empty() || is_data_uri(uri) || has_scheme(uri)) return;
+        if (const auto place = files.find(path_of(uri))) named.push_back(*place);
+    });
+    return named;
+}
+
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,
                                               const LoadOptions& options, Budget& budget,
                                               const Share& share) {
-    const Container parts = bytes.starts_with("glTF") ? split_glb(bytes) : Container{bytes, {}, false};
+    const Container parts = parts_of(bytes);
     const auto document = std::make_shared<Document>(io::NamedFiles(file, options.allow_outside));
     document->limits = options.limits;
     document->json = parse(parts.json, budget, share.part(0, 0.3));

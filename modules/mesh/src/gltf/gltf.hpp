@@ -94,6 +94,11 @@ struct Document : Source {
                                                             const LoadOptions& options, Budget& budget,
                                                             const Share& share);
 
+/// Returns the files that the buffers of a .glb or .gltf lie in, but for those that `files` does not find.
+/// Throws Error without the file's name where it is no document.
+[[nodiscard]] std::vector<std::filesystem::path> named_buffers(std::string_view bytes,
+                                                               const io::NamedFiles& files, Budget& budget);
+
 /// Refuses a document whose meshes are compressed. Where they are also there in plain, for readers that do
 /// not know the compression, takes the compressed copies out.
 void use_plain_data(Json& json);

@@ -469,6 +469,17 @@ double opening_share(std::string_view bytes) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> gltf_buffers(const std::filesystem::path& file, std::string_view bytes,
+                                                const LoadOptions& options, Budget& budget) {
+    try {
+        return gltf::named_buffers(bytes, io::NamedFiles(file, options.allow_outside), budget);
+    } catch (const OverLimit&) {
+        throw;
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
                Budget& budget, const Share& share) {
     try {
