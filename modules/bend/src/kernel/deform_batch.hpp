@@ -31,10 +31,10 @@ typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec 
     const typename L::Vec xx = x * x;
     typename L::Vec even = L::splat(coefficients[N - 2]);
     typename L::Vec odd = L::splat(coefficients[N - 1]);
-    simd::unrolled<N / 2 - 1>([&](auto n) {
-        even = L::madd(even, xx, L::splat(coefficients[N - 4 - 2 * n]));
-        odd = L::madd(odd, xx, L::splat(coefficients[N - 3 - 2 * n]));
-    });
+    for (std::size_t n = N - 2; n > 0; n -= 2) {
+        even = L::madd(even, xx, L::splat(coefficients[n - 2]));
+        odd = L::madd(odd, xx, L::splat(coefficients[n - 1]));
+    }
     return L::madd(odd, x, even);
 }
 
