@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/simd/unrolled.hpp>
 #include <goffer/simd/x86_rows.hpp>
 #include <goffer/simd/xsimd_lanes.hpp>
 
@@ -36,8 +35,8 @@ private:
     /// Each register of `rows` holds two rows: those of lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
     template <class Visit>
     static void visit_rows(const __m256 (&rows)[4], const Visit& visit) {
-        unrolled<4>([&](auto i) { visit(i, _mm256_castps256_ps128(rows[i])); });
-        unrolled<4>([&](auto i) { visit(4 + i, _mm256_extractf128_ps(rows[i], 1)); });
+        for (std::size_t i = 0; i < 4; ++i) visit(i, _mm256_castps256_ps128(rows[i]));
+        for (std::size_t i = 0; i < 4; ++i) visit(4 + i, _mm256_extractf128_ps(rows[i], 1));
     }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/simd/unrolled.hpp>
 #include <goffer/simd/x86_rows.hpp>
 #include <goffer/simd/xsimd_lanes.hpp>
 
@@ -59,10 +58,10 @@ private:
     /// Each register of `rows` holds four rows: those of lanes 0, 4, 8 and 12, of 1, 5, 9 and 13, and so on.
     template <class Visit>
     static void visit_rows(const __m512 (&rows)[4], const Visit& visit) {
-        unrolled<4>([&](auto i) { visit(i, _mm512_castps512_ps128(rows[i])); });
-        unrolled<4>([&](auto i) { visit(4 + i, _mm512_extractf32x4_ps(rows[i], 1)); });
-        unrolled<4>([&](auto i) { visit(8 + i, _mm512_extractf32x4_ps(rows[i], 2)); });
-        unrolled<4>([&](auto i) { visit(12 + i, _mm512_extractf32x4_ps(rows[i], 3)); });
+        for (std::size_t i = 0; i < 4; ++i) visit(i, _mm512_castps512_ps128(rows[i]));
+        for (std::size_t i = 0; i < 4; ++i) visit(4 + i, _mm512_extractf32x4_ps(rows[i], 1));
+        for (std::size_t i = 0; i < 4; ++i) visit(8 + i, _mm512_extractf32x4_ps(rows[i], 2));
+        for (std::size_t i = 0; i < 4; ++i) visit(12 + i, _mm512_extractf32x4_ps(rows[i], 3));
     }
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <goffer/simd/unrolled.hpp>
-
 #include <xsimd/xsimd.hpp>
 
 #include <cstddef>
@@ -83,7 +81,7 @@ struct XsimdLanes {
     /// Refines the processor's estimate, whose last bits are the maker's choice.
     static Vec rsqrt(Vec a) {
         Vec y = xsimd::rsqrt(a);
-        unrolled<estimate_steps>([&](auto) { y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f)); });
+        for (int step = 0; step < estimate_steps; ++step) y = y * madd(a * y, Vec(-0.5f) * y, Vec(1.5f));
         return y;
     }
 
@@ -95,7 +93,7 @@ struct XsimdLanes {
     }
     static Vec reciprocal(Vec a) {
         Vec y = xsimd::reciprocal(a);
-        unrolled<estimate_steps>([&](auto) { y = y * nmadd(a, y, Vec(2.0f)); });
+        for (int step = 0; step < estimate_steps; ++step) y = y * nmadd(a, y, Vec(2.0f));
         return y;
     }
     static Vec with_sign(Vec magnitude, Vec sign) {

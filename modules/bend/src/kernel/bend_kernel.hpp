@@ -6,8 +6,6 @@
 #include "kernel/lines.hpp"
 #include "kernel/weave.hpp"
 
-#include <goffer/simd/unrolled.hpp>
-
 #include <cstddef>
 
 /// The kernels: they deform batch after batch of vertices and write the values. `L` is ScalarLanes,
@@ -55,24 +53,19 @@ void store_batch(float* to, typename L::Vec value, bool whole, std::size_t count
     }
 }
 
-/// Stores one component of a unit's batches.
-template <class L>
-void store_component(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*part, std::size_t c,
-                     float* to, std::size_t count, bool whole, Write write) {
-    for (std::size_t b = 0; b < batches<L>; ++b) {
-        const std::size_t before = b * L::width;
-        store_batch<L>(to + before, (results[b].*part).component[c], whole,
-                       count < before ? 0 : count - before, write);
-    }
-}
-
 /// Stores the batches of a unit. Completes each line before it begins the next one, since the processor has
 /// few buffers for lines that go past the cache.
 template <class L>
 void store_planes(const Results<L> (&results)[batches<L>], Vector<L> Results<L>::*part, float* const* out,
                   std::size_t j, std::size_t count, Write write) {
     const bool whole = count == unit<L> || write == Write::staged;
-    simd::unrolled<3>([&](auto c) { store_component<L>(results, part, c, out[c] + j, count, whole, write); });
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t b = 0; b < batches<L>; ++b) {
+            const std::size_t before = b * L::width;
+            store_batch<L>(out[c] + j + before, (results[b].*part).component[c], whole,
+                           count < before ? 0 : count - before, write);
+        }
+    }
 }
 
 template <class L>
@@ -164,15 +157,15 @@ template <class L, int N>
 void write_records(const Results<L> (&results)[batches<L>], float* to, bool non_temporal) {
     using Single = typename L::Single;
     for (std::size_t b = 0; b < batches<L>; ++b) {
-        simd::unrolled<L::width / Single::width>([&](auto part) {
+        for (std::size_t part = 0; part < L::width / Single::width; ++part) {
             typename Single::Vec planes[N];
-            simd::unrolled<N>([&](auto c) {
+            for (int c = 0; c < N; ++c) {
                 const Vector<L>& from = c < 3 ? results[b].position : results[b].normal;
                 planes[c] = L::single(from.component[c % 3], part);
-            });
+            }
             store_records<Single, N>(planes, to, non_temporal);
             to += N * Single::width;
-        });
+        }
     }
 }
 

@@ -4,10 +4,6 @@
 #include "kernel/args.hpp"
 #include "kernel/sin_cos.hpp"
 
-#include <goffer/simd/unrolled.hpp>
-
-#include <cstddef>
-
 /// The deformation of a batch of vertices, written once for all instruction sets. `L` is any lanes.
 ///
 /// Columns hold sines and cosines of half angles, times the root of two. A rotation makes h = sqrt(2)
@@ -21,7 +17,7 @@ namespace goffer::bend {
 template <class L, std::size_t N>
 typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
     typename L::Vec sum = L::splat(coefficients[N - 1]);
-    simd::unrolled<N - 1>([&](auto n) { sum = L::madd(sum, x, L::splat(coefficients[N - 2 - n])); });
+    for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(coefficients[n]));
     return sum;
 }
 
@@ -196,12 +192,12 @@ template <class L>
 Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
                 typename L::Vec z) {
     Vector<L> result;
-    simd::unrolled<3>([&](auto row) {
+    for (int row = 0; row < 3; ++row) {
         typename L::Vec sum =
             offset ? L::madd(L::splat(matrix[row]), x, L::splat(offset[row])) : L::splat(matrix[row]) * x;
         sum = L::madd(L::splat(matrix[4 + row]), y, sum);
         result.component[row] = L::madd(L::splat(matrix[8 + row]), z, sum);
-    });
+    }
     return result;
 }
 

@@ -4,10 +4,6 @@
 #include "kernel/args.hpp"
 #include "kernel/sin_cos.hpp"
 
-#include <goffer/simd/unrolled.hpp>
-
-#include <cstddef>
-
 /// Set-up, for as many instances at a time as a register has lanes. The result of a lane depends on that lane
 /// alone, so an instance gets the same bits whatever its neighbors. `L` is lanes of single registers.
 
@@ -38,7 +34,7 @@ struct Vector3 {
 template <class L>
 typename L::Vec horner(const float (&terms)[arc_terms], typename L::Vec x) {
     typename L::Vec sum = L::splat(terms[arc_terms - 1]);
-    simd::unrolled<arc_terms - 1>([&](auto n) { sum = L::madd(sum, x, L::splat(terms[arc_terms - 2 - n])); });
+    for (std::size_t n = arc_terms - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(terms[n]));
     return sum;
 }
 
@@ -146,14 +142,14 @@ private:
         Vec power = L::splat(region_.length);
         Vec arc_z[arc_terms], arc_x[arc_terms];
         const Vec quarter = L::splat(half_turn / 2);
-        simd::unrolled<arc_terms>([&](auto n) {
+        for (std::size_t n = 0; n < arc_terms; ++n) {
             const auto term = [&](float large, float small) {
                 return L::where_less(quarter, part_, L::splat(large), L::splat(small));
             };
             arc_z[n] = power * term(half_terms.sinc[n], quarter_terms.sinc[n]);
             arc_x[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
             power = power * square;
-        });
+        }
         put([](Coefficients& k) -> float* { return k.arc_z; }, arc_z[0], arc_z[1], arc_z[2], arc_z[3]);
         put([](Coefficients& k) -> float* { return k.arc_x; }, arc_x[0], arc_x[1], arc_x[2], arc_x[3]);
     }

@@ -3,8 +3,6 @@
 
 #include "kernel/args.hpp"
 
-#include <goffer/simd/unrolled.hpp>
-
 #include <cstddef>
 #include <utility>
 
@@ -69,26 +67,24 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_te
         planes[c * group], planes[c * group + group - 1])...};
     const typename L::Vec batches[N / group] = {
         records<L, N, group, c>(spread, std::make_integer_sequence<int, N / group - 1>())...};
-    simd::unrolled<N / group>([&](auto j) {
+    for (std::size_t j = 0; j < N / group; ++j) {
         float* at = to + j * L::width;
         non_temporal ? L::stream(at, batches[j]) : L::store(at, batches[j]);
-    });
+    }
 }
 
 /// Stores a register of each plane as records of rows of four.
 template <class L, int N>
 void store_rows(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
     typename L::Row rows[N / 4][L::width];
-    simd::unrolled<N / 4>([&](auto g) {
+    for (std::size_t g = 0; g < N / 4; ++g) {
         const auto keep = [&](std::size_t i, typename L::Row row) { rows[g][i] = row; };
         L::for_rows(planes[4 * g], planes[4 * g + 1], planes[4 * g + 2], planes[4 * g + 3], keep);
-    });
-    simd::unrolled<L::width>([&](auto i) {
-        simd::unrolled<N / 4>([&](auto g) {
+    }
+    for (std::size_t i = 0; i < L::width; ++i) {
+        for (std::size_t g = 0; g < N / 4; ++g, to += 4)
             non_temporal ? L::stream_row(to, rows[g][i]) : L::store_row(to, rows[g][i]);
-            to += 4;
-        });
-    });
+    }
 }
 
 /// Stores a register of each plane as records of N floats.
@@ -114,7 +110,7 @@ GOFFER_FLATTENED void weave(const float* const* planes, std::size_t lines, float
     for (std::size_t c = 0; c < N; ++c) from[c] = planes[c];
     for (std::size_t i = 0; i < lines * line_floats; i += L::width, to += N * L::width) {
         typename L::Vec batch[N];
-        simd::unrolled<N>([&](auto c) { batch[c] = L::load(from[c] + i); });
+        for (std::size_t c = 0; c < N; ++c) batch[c] = L::load(from[c] + i);
         store_records<L, N>(batch, to, non_temporal);
     }
 }
