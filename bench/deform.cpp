@@ -136,6 +136,7 @@ void register_deform(Fixture& fixture) {
         float wrinkle_weight;
     };
     const Like others[] = {{"-regions8", Shape::regions, 1},
+                           {"-joints8", Shape::joints, 1},
                            {"-arc", Shape::arc, 1},
                            {"-taper", Shape::taper, 1},
                            {"-bare", Shape::plain, 0}};

@@ -74,6 +74,11 @@ bend::Body bind_model(const Model& model) {
         options.folds = 1;
         options.regions.assign(8, {1.0 / 8, std::nullopt});
     }
+    if (model.shape == Shape::joints) {
+        options = {};
+        options.shape = fit::ShapeMode::cylinder;
+        options.regions.assign(8, {1.0 / 8, 3});
+    }
     if (model.shape == Shape::regions16) {
         options.folds = 0;
         options.regions.assign(16, {1.0 / 16, std::nullopt});

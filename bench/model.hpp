@@ -23,6 +23,7 @@ inline constexpr int folds = 5;
 enum class Shape {
     plain,      ///< one region, straight at rest
     regions,    ///< eight regions of a fold each
+    joints,     ///< eight with even folds that run on over their joints
     regions16,  ///< sixteen without folds
     arc,        ///< bent at rest by one radian
     taper,      ///< straight, 1.4 times as thick at one end as in the middle, 0.6 times at the other

@@ -16,7 +16,7 @@ TEST_CASE("body file: a body that was saved and loaded deforms to the same bits"
         const AlignedBytes mapped(bytes);
         BodyFileFault fault;
         const std::optional<BodyFile> file = bend::load(mapped.bytes(), &fault);
-        INFO(bend::describe(fault).c_str());
+        INFO(std::string(bend::describe(fault).c_str()));
         REQUIRE(file.has_value());
         const bend::Body& loaded = file->levels.at(0).body;
         CHECK(loaded.vertex_count() == body.vertex_count());
@@ -122,7 +122,7 @@ TEST_CASE("body file: the angle of a table without rows may be anything") {
     const std::array<bend::LevelInput, 2> levels{bend::LevelInput{&body, {}}, bend::LevelInput{&body, {}}};
     BodyFileFault fault;
     const std::vector<std::byte> bytes = bend::save({levels, {}, {}, {}}, &fault);
-    INFO(bend::describe(fault).c_str());
+    INFO(std::string(bend::describe(fault).c_str()));
     REQUIRE(!bytes.empty());
     CHECK(bend::load_copy(bytes).has_value());
 }
@@ -130,7 +130,7 @@ TEST_CASE("body file: the angle of a table without rows may be anything") {
 TEST_CASE("body file: one of version 1 is read, and bends as it did when it was written") {
     BodyFileFault fault;
     const auto file = bend::load_file(GOFFER_SOURCE_DIR "/tests/data/cylinder_v1.goffer", &fault);
-    INFO(bend::describe(fault).c_str());
+    INFO(std::string(bend::describe(fault).c_str()));
     REQUIRE(file.has_value());
     REQUIRE(file->levels.size() == 2);
     CHECK(file->sockets.at(0).name == "tip");

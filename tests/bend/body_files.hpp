@@ -28,7 +28,8 @@ using bend::BodyFileFault;
 using bend::FileReason;
 using bend::FileSection;
 
-/// A random body, straight or bent at rest, with one radius or a shape, of one region or three.
+/// A random body, straight or bent at rest, with one radius or a shape, of one region or three,
+/// some of which wrinkle over their joints.
 inline bend::Body random_body(Random& random) {
     LooseVertices loose(random, 60, 0.15);
     const bool shape = random() % 2 == 0, bent = random() % 2 == 0;
@@ -54,6 +55,7 @@ inline bend::Body random_body(Random& random) {
         }
         if (bent) region.rest_angle = 0.5, region.rest_direction = 1, region.onset = 1e-3;
     }
+    blend_some(random, regions, loose.vertices);
     return loose.body(regions);
 }
 
@@ -83,7 +85,7 @@ inline std::vector<std::byte> saved(const bend::Body& body) {
     const Drawn drawn(body);
     BodyFileFault fault;
     std::vector<std::byte> bytes = bend::save(drawn.input(), &fault);
-    INFO(bend::describe(fault).c_str());
+    INFO(std::string(bend::describe(fault).c_str()));
     REQUIRE(!bytes.empty());
     return bytes;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "support/accuracy.hpp"
 #include "support/bound_case.hpp"
-#include "support/chains.hpp"
+#include "support/chain_checks.hpp"
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/bend/bounds.hpp>
@@ -14,50 +13,6 @@
 /// Bodies of several regions, and bodies bent at rest: P1, P2, P4, P5, P8, P9 and P10 of them.
 
 namespace goffer::test {
-namespace {
-
-/// Every instruction set against the reference, in random poses.
-Worst worst_of(Random& random, const BoundCase& one, double position, double direction) {
-    Worst worst;
-    const std::size_t count = one.test_mesh.positions.size();
-    Output out(count);
-    for (int k = 0; k < 4; ++k) {
-        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
-        const Expected expected(ChainReference(one.test_mesh, one.options, one.binding, poses), count);
-        for (const Isa isa : isas_here()) {
-            CAPTURE(name(isa));
-            const bend::DeformJob job = make_job(one.binding.body, poses, isa, out);
-            REQUIRE(bend::validate(job).none());
-            CHECK_FALSE(bend::run(job).clamped);
-            const Worst here(expected, out, one.test_mesh.cylinder.length);
-            CHECK(here.position <= position);
-            CHECK(here.normal <= direction);
-            CHECK(here.tangent <= direction);
-            CHECK(here.unit <= 1e-6);
-            worst.add(here);
-        }
-    }
-    return worst;
-}
-
-void check_rest(const BoundCase& one) {
-    const std::size_t count = one.test_mesh.positions.size();
-    Output out(count);
-    const std::vector<bend::Pose> poses = one.binding.body.rest_poses();
-    for (const Isa isa : isas_here()) {
-        CAPTURE(name(isa));
-        bend::run(make_job(one.binding.body, poses, isa, out));
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t vertex = one.binding.order.empty() ? i : one.binding.order[i];
-            const glm::dvec3 rest(one.test_mesh.positions[vertex]);
-            REQUIRE(glm::length(out.position(i) - rest) <= 1e-6 * one.test_mesh.cylinder.length);
-            REQUIRE(angle_between(out.normal(i), glm::dvec3(one.test_mesh.normals[vertex])) < 4e-4);
-            REQUIRE(angle_between(out.tangent(i), glm::dvec3(one.test_mesh.tangents[vertex])) < 4e-4);
-        }
-    }
-}
-
-}  // namespace
 
 TEST_CASE("P1, P2, P4: regions agree with the double chain") {
     Random random(61);

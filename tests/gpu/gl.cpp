@@ -26,12 +26,13 @@ layout(location = 1) in vec4 wrinkle;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec4 shape;
 layout(location = 4) in vec4 tangent;
+layout(location = 5) in vec4 joint;
 uniform int rows_per_instance;
 out vec3 bent_position;
 out vec3 bent_normal;
 out vec4 bent_tangent;
 void main() {
-    GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent);
+    GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent, joint);
     GofferBent bent = goffer_deform(vertex, gl_InstanceID * rows_per_instance);
     bent_position = bent.position;
     bent_normal = bent.normal;
@@ -55,7 +56,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Vertices { float vertices[]; };
 layout(std430, binding = 1) readonly buffer Rows { vec4 rows[]; };
 layout(std430, binding = 2) writeonly buffer Results { float results[]; };
-uniform int rows_per_instance, vertex_count, instance_count, stride, shape, tangent;
+uniform int rows_per_instance, vertex_count, instance_count, stride, shape, tangent, joint;
 vec4 goffer_row(int row) { return rows[row]; }
 vec4 four(int at) { return vec4(vertices[at], vertices[at + 1], vertices[at + 2], vertices[at + 3]); }
 void main() {
@@ -68,6 +69,7 @@ void main() {
     vertex.normal = vec3(vertices[at + 8], vertices[at + 9], vertices[at + 10]);
     vertex.shape = shape < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : four(at + shape);
     vertex.tangent = tangent < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : four(at + tangent);
+    vertex.joint = joint < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : four(at + joint);
     GofferBent bent = goffer_deform(vertex, i / vertex_count * rows_per_instance);
     for (int c = 0; c < 3; ++c) {
         results[10 * i + c] = bent.position[c];
@@ -117,6 +119,7 @@ void set_attributes(const gpu::VertexLayout& layout) {
     attribute(2, 3, layout, layout.normal);
     attribute(3, 4, layout, layout.shape);
     attribute(4, 4, layout, layout.tangent);
+    attribute(5, 4, layout, layout.joint);
 }
 
 /// Binds the coefficients as a texture buffer, or as a texture of whole lines.
@@ -172,6 +175,7 @@ public:
             };
             set("shape", floats(layout.shape));
             set("tangent", floats(layout.tangent));
+            set("joint", floats(layout.joint));
             glBindBufferBase(target, 0, buffer(target, vertices.size(), vertices.data()));
             glBindBufferBase(target, 1, buffer(target, rows.size_bytes(), rows.data()));
             glBindBufferBase(target, 2, buffer(target, bytes, nullptr));

@@ -59,6 +59,7 @@ public:
         vertex.normal = at(i, layout_.normal, 3);
         vertex.shape = at(i, layout_.shape, 4);
         vertex.tangent = at(i, layout_.tangent, 4);
+        vertex.joint = at(i, layout_.joint, 4);
         return vertex;
     }
 
@@ -155,6 +156,13 @@ TEST_CASE("a vertex has what its body has, and no more") {
     CHECK(gpu::vertex_layout(plain) == expected);
     expected = {.stride = 76, .shape = 44, .tangent = 60};
     CHECK(gpu::vertex_layout(loose_shaped_body(random, 20)) == expected);
+    expected = {.stride = 76, .tangent = 44, .joint = 60};
+    bend::RegionInput regions[] = {loose_region(10), loose_region(10)};
+    LooseVertices loose(random, 20, 0.11);
+    std::ranges::sort(std::span(loose.vertices).first(10), {}, &bend::RestVertex::z);
+    std::ranges::sort(std::span(loose.vertices).last(10), {}, &bend::RestVertex::z);
+    regions[0].blend = 0.2;
+    CHECK(gpu::vertex_layout(loose.body(regions)) == expected);
     const std::vector<bend::RestVertex> vertices(5, bend::RestVertex{.z = 0.5, .rho = 0.1});
     const std::vector<bend::RestVector> normals(5, bend::RestVector{1, 0, 0});
     CHECK(gpu::vertex_layout(bare_body(vertices, normals)) == gpu::VertexLayout());

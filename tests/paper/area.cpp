@@ -131,7 +131,8 @@ TEST_CASE("a wrinkle toward the center of the arc, not along the cross-section's
     }
     const double after = goffer::test::lateral_area(columns, rows, [&](auto column, auto row) {
         const double z = length * row / (rows - 1), phi = angle * z / length;
-        const double f = amplitudes[column] * shape(body.profile, body.folds, std::abs(2 * z / length - 1));
+        const double f =
+            amplitudes[column] * shape(body.profile, body.folds.count, std::abs(2 * z / length - 1));
         return bare.position({2 * std::numbers::pi * column / columns, z, radius}) +
                f * glm::dvec3(std::cos(phi), 0, -std::sin(phi));
     });

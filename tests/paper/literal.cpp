@@ -44,8 +44,8 @@ TEST_CASE("the stable form is eq 2-5, wrinkled by eq 6-10") {
             const Pose pose{angle, in(-4, 4)};
             const Cylindrical v{in(-4, 4), in(0, 10), in(0.5, 1.5)};
             const double q = squeeze(angle * body.radius / body.length, v.beta, pose.direction);
-            const double f = amplitude(body.profile, body.folds, body.length, q) *
-                             shape(body.profile, body.folds, std::abs(2 * v.z / body.length - 1));
+            const double f = amplitude(body.profile, body.folds.count, body.length, q) *
+                             shape(body.profile, body.folds.count, std::abs(2 * v.z / body.length - 1));
             const glm::dvec3 expected = eq_2_to_5(body, pose, v, f);
             CHECK(glm::length(ClosedForm(body, pose).position(v) - expected) < 1e-11);
         }

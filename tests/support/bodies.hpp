@@ -180,8 +180,23 @@ inline bend::Body loose_body(Random& random, std::size_t count, double widest = 
     return LooseVertices(random, count, widest).body({&region, 1});
 }
 
+/// Lets wrinkles pass over some joints of `regions`, of length 1, and sorts the vertices as these ask for.
+inline void blend_some(Random& random, std::span<bend::RegionInput> regions,
+                       std::span<bend::RestVertex> vertices) {
+    const auto relative = [](const bend::RegionInput& r) { return r.rest_angle != 0 || r.onset != 0; };
+    for (std::size_t r = 0; r + 1 < regions.size(); ++r) {
+        if (random() % 3 == 0 || relative(regions[r]) != relative(regions[r + 1])) continue;
+        regions[r].blend = uniform(random, 0.01, 0.5);
+        regions[r].blend_gain = uniform(random, 0.5, 2);
+    }
+    for (const bend::RegionInput& region : regions) {
+        std::ranges::sort(vertices.first(region.vertex_count), {}, &bend::RestVertex::z);
+        vertices = vertices.subspan(region.vertex_count);
+    }
+}
+
 /// The same of a region for each of `counts`, with so many vertices. Some regions are bent at rest, some have
-/// an onset or factors of their own.
+/// an onset or factors of their own, and some wrinkle over their joints.
 inline bend::Body loose_chain(Random& random, std::span<const std::size_t> counts) {
     std::vector<bend::RegionInput> regions;
     std::size_t sum = 0;
@@ -199,7 +214,9 @@ inline bend::Body loose_chain(Random& random, std::span<const std::size_t> count
         }
         sum += count;
     }
-    return LooseVertices(random, sum, 0.11).body(regions);
+    LooseVertices loose(random, sum, 0.11);
+    blend_some(random, regions, loose.vertices);
+    return loose.body(regions);
 }
 
 /// A body of these vertices, without wrinkles. Length 1, radius 0.1.
@@ -266,7 +283,7 @@ inline paper::Parameters parameters_of(const fit::Binding& binding, const fit::B
                                        std::size_t region) {
     const fit::RegionBinding& found = binding.regions[region];
     const fit::Cylinder& cylinder = binding.cylinder;
-    paper::Parameters body{found.length, found.shape ? found.shape->radius() : cylinder.radius, found.folds,
+    paper::Parameters body{found.length, found.shape ? found.shape->radius() : cylinder.radius, found.wave,
                            options.profile, options.amplitude};
     body.rest_angle = cylinder.rest_angle * body.length / cylinder.length;
     body.rest_direction = cylinder.rest_direction;

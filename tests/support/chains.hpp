@@ -59,7 +59,7 @@ public:
                 test_mesh.cylinder.axis),
           rest_{test_mesh.cylinder.rest_angle, test_mesh.cylinder.rest_direction},
           shape_(shape_of(binding.cylinder)),
-          chain_(regions(options, binding), doubled(poses)) {}
+          chain_(regions(options, binding), doubled(poses), blends(binding)) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {
         const At at = rest(i);
@@ -80,6 +80,11 @@ public:
                                       paper::straightened_tangent(
                                           glm::transpose(axes_) * own, at.whole, binding_.cylinder.length,
                                           binding_.cylinder.radius, rest_, shape_.get()));
+    }
+
+    /// A place of region `region`, which counts z from where that begins.
+    [[nodiscard]] glm::dvec3 place(std::size_t region, const paper::Cylindrical& rest) const {
+        return test_mesh_.cylinder.origin + axes_ * chain_.position(region, rest);
     }
 
 private:
@@ -108,6 +113,13 @@ private:
         for (std::size_t r = 0; r < binding.regions.size(); ++r)
             bodies.push_back(parameters_of(binding, options, r));
         return bodies;
+    }
+
+    static std::vector<double> blends(const fit::Binding& binding) {
+        std::vector<double> result;
+        for (const fit::RegionBinding& region : binding.regions) result.push_back(region.blend);
+        result.pop_back();
+        return result;
     }
 
     static std::vector<paper::Pose> doubled(std::span<const bend::Pose> poses) {

@@ -44,11 +44,12 @@ layout(location = 1) in vec4 wrinkle;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec4 shape;
 layout(location = 4) in vec4 tangent;
+layout(location = 5) in vec4 joint;
 {location} out vec3 results;
 #include <goffer/gpu/deform.glsl>
 vec4 goffer_row(int row) {{ return rows[row]; }}
 void main() {{
-    GofferBent bent = goffer_deform(GofferVertex(column, wrinkle, normal, shape, tangent), 0);
+    GofferBent bent = goffer_deform(GofferVertex(column, wrinkle, normal, shape, tangent, joint), 0);
     results = bent.normal + bent.tangent.xyz;
     gl_Position = vec4(bent.position, bent.tangent.w);
 }}
@@ -59,7 +60,7 @@ StructuredBuffer<float4> rows;
 float4 goffer_row(int row) { return rows[row]; }
 struct In {
     float4 column : COLUMN; float4 wrinkle : WRINKLE; float3 normal : NORMAL; float4 shape : SHAPE;
-    float4 tangent : TANGENT; uint instance : SV_InstanceID;
+    float4 tangent : TANGENT; float4 joint : JOINT; uint instance : SV_InstanceID;
 };
 struct Out { float3 normal : NORMAL; float4 tangent : TANGENT; float4 position : SV_Position; };
 Out main(In from) {
@@ -69,6 +70,7 @@ Out main(In from) {
     vertex.normal = from.normal;
     vertex.shape = from.shape;
     vertex.tangent = from.tangent;
+    vertex.joint = from.joint;
     GofferBent bent = goffer_deform(vertex, 17 * int(from.instance));
     Out result;
     result.normal = bent.normal;

@@ -100,6 +100,7 @@ typedef struct goffer_bind_options {
     const double* axis;                 /* null, or 3 numbers from base to tip */
     const double* shares;               /* null, or what each region is of the length; adds up to 1 */
     size_t region_count;                /* of shares */
+    int folds_apart;                    /* not 0: folds end where regions meet, instead of running on */
 } goffer_bind_options;
 
 GOFFER_API goffer_bind_options goffer_bind_defaults(void);
@@ -315,7 +316,7 @@ GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, gof
 
 /* Where the attributes of a vertex lie in its record, bytes; SIZE_MAX: the body does not have it. */
 typedef struct goffer_vertex_layout {
-    size_t stride, column, wrinkle, normal, shape, tangent;
+    size_t stride, column, wrinkle, normal, shape, tangent, joint;
 } goffer_vertex_layout;
 
 GOFFER_API goffer_vertex_layout goffer_body_vertex_layout(const goffer_body* body);

@@ -40,6 +40,7 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     if (given.folds >= 0) options.folds = given.folds;
     if (given.fold_length != 0) options.fold_length = given.fold_length;
     if (given.one_radius != 0) options.shape = fit::ShapeMode::cylinder;
+    options.folds_over_joints = given.folds_apart == 0;
     if (!(given.onset < 0)) options.onset = given.onset;
     options.wrinkle_range = {given.wrinkle_first, given.wrinkle_last};
     if (given.region_count > 0 && given.shares == nullptr)

@@ -29,7 +29,8 @@ void set_up(const goffer_crowd& crowd, std::size_t index, float* result, const S
 
 goffer_vertex_layout goffer_body_vertex_layout(const goffer_body* body) {
     const gpu::VertexLayout layout = gpu::vertex_layout(*body_of(body));
-    return {layout.stride, layout.column, layout.wrinkle, layout.normal, layout.shape, layout.tangent};
+    return {layout.stride, layout.column,  layout.wrinkle, layout.normal,
+            layout.shape,  layout.tangent, layout.joint};
 }
 
 void goffer_body_write_vertices(const goffer_body* body, void* result) {

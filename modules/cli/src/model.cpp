@@ -165,6 +165,11 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         ->check(CLI::IsMember({"auto", "cylinder"}))
         ->capture_default_str();
     command
+        .add_option("--joints", words.joints,
+                    "Where regions meet, let folds of --profile even run on: over; or end: apart")
+        ->check(CLI::IsMember({"over", "apart"}))
+        ->capture_default_str();
+    command
         .add_flag("--paper", words.paper,
                   "Bend as the paper has it: --profile damped --shape cylinder --amplitude paper --onset 0")
         ->excludes(command.get_option("--profile"))
@@ -184,8 +189,8 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         ->check(number_within(0, 1, "a squeeze"));
     add_fit_words(command, words.axis, words.rest);
     for (const char* option :
-         {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness", "--shape", "--paper",
-          "--wrinkle-range", "--wrinkle-mask", "--onset", "--axis", "--rest"})
+         {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness", "--shape", "--joints",
+          "--paper", "--wrinkle-range", "--wrinkle-mask", "--onset", "--axis", "--rest"})
         words.choices.push_back(command.get_option(option));
     add_load_words(command, words.load);
 }
@@ -216,6 +221,7 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
     if (words.wrinkle_range) options.wrinkle_range = parse_wrinkle_range(*words.wrinkle_range);
     if (words.wrinkle_mask) mask_channel = parse_wrinkle_mask(*words.wrinkle_mask);
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
+    options.folds_over_joints = words.joints == "over";
     refine = words.refine.empty() ? "on" : words.refine;
     if (refine == "on" && words.folds == "0")
         throw UsageError(

@@ -31,6 +31,7 @@ struct BindWords {
     std::string profile = "even";
     double roundness = 0.25;
     std::string shape = "auto";
+    std::string joints = "over";
     bool paper = false;  ///< as the paper has it
     std::optional<std::string> wrinkle_range = {};
     std::optional<std::string> wrinkle_mask = {};  ///< a channel of the vertex colors
@@ -52,8 +53,8 @@ void add_load_words(CLI::App& command, mesh::LoadOptions& options);
 /// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
-/// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --paper, --wrinkle-range,
-/// --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
+/// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --joints, --paper,
+/// --wrinkle-range, --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.

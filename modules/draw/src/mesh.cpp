@@ -77,6 +77,7 @@ void read_columns(const gpu::VertexLayout& layout) {
     read_attribute(normal, 3, layout.stride, layout.normal);
     read_if_any(shape, 4, layout, layout.shape);
     read_if_any(tangent, 4, layout, layout.tangent);
+    read_if_any(joint, 4, layout, layout.joint);
 }
 
 /// Records once more, behind all others.

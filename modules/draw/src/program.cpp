@@ -78,6 +78,7 @@ layout(location = 3) in vec4 column;
 layout(location = 4) in vec4 wrinkle;
 layout(location = 5) in vec4 shape;
 layout(location = 6) in vec4 tangent;
+layout(location = 8) in vec4 joint;
 uniform sampler2D coefficients;
 uniform int rows_per_instance;
 vec4 goffer_row(int row) {
@@ -85,7 +86,7 @@ vec4 goffer_row(int row) {
     return texelFetch(coefficients, ivec2(row % width, row / width), 0);
 }
 void main() {
-    GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent);
+    GofferVertex vertex = GofferVertex(column, wrinkle, normal, shape, tangent, joint);
     GofferBent bent = goffer_deform(vertex, gl_InstanceID * rows_per_instance);
     put(bent.position, bent.normal);
 }

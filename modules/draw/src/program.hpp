@@ -21,7 +21,8 @@ enum Attribute : GLuint {
     wrinkle = 4,
     shape = 5,
     tangent = 6,
-    uv = 7
+    uv = 7,
+    joint = 8
 };
 
 /// The texture unit of surfaces' textures. That of coefficients is 0.

@@ -66,18 +66,40 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
             asked = sensible_folds(stretch, std::min(capacity, BindOptions::max_folds), options.fold_length);
         FoldPlan plan = plan_folds(cylinder, rows, options, start, stretch.length, asked);
         rest.push_back({start, stretch.length, plan.folds, plan.shape});
-        found.push_back({stretch.length, plan.folds, capacity, std::move(plan.shape)});
+        found.push_back({stretch.length, plan.folds, capacity, std::move(plan.shape), plan.folds});
         if (even && !options.wrinkle_range.whole()) {
             // Any mesh will do where it stays smooth.
             const double low = std::max(options.wrinkle_range.first * cylinder.length, start);
             const double high =
                 std::min(options.wrinkle_range.last * cylinder.length, start + stretch.length);
             const double smooth = 1 - std::max(high - low, 0.0) / stretch.length;
-            found.back().folds_capacity = static_cast<int>(std::ceil(smooth * rest.back().folds)) +
+            found.back().folds_capacity = static_cast<int>(std::ceil(smooth * rest.back().folds.count)) +
                                           (low < high ? rows.folds(options.profile, low, high) : 0);
         }
     }
+    if (even && options.folds_over_joints && options.amplitude != Amplitude::area) {
+        join_folds(rest);
+        for (std::size_t r = 0; r < rest.size(); ++r)
+            found[r].wave = rest[r].folds, found[r].blend = rest[r].blend;
+    }
     return found;
+}
+
+/// How thick a body is near the joints of a region, in the regions beyond them, over the radius of that
+/// region: the wrinkles of the region reach there.
+double scale_beyond(std::span<const RestRegion> regions, std::size_t r) {
+    double scale = 0;
+    const auto look = [&](const RestRegion& beyond, double z) {
+        if (regions[r].shape && beyond.shape)
+            scale =
+                std::max(scale, beyond.shape->scale(z) * beyond.shape->radius() / regions[r].shape->radius());
+    };
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        if (r > 0 && regions[r - 1].blend != 0)
+            look(regions[r - 1], regions[r - 1].length - part * regions[r - 1].blend);
+        if (regions[r].blend != 0) look(regions[r + 1], part * regions[r].blend);
+    }
+    return scale;
 }
 
 /// The base that `options` ask for.
@@ -95,8 +117,9 @@ double largest_rho(std::span<const bend::RestVertex> vertices) {
     return largest;
 }
 
-/// The slices of a region with a shape.
-Girths girths_of(const RestRegion& rest, paper::Profile profile, std::span<const bend::RestVertex> vertices) {
+/// The slices of a region with a shape. `scale_beyond`: see the function.
+Girths girths_of(const RestRegion& rest, paper::Profile profile, std::span<const bend::RestVertex> vertices,
+                 double scale_beyond) {
     constexpr std::size_t count = 64;
     Girths girths{rest.length, rest.shape->radius(), std::vector<Girth>(count)};
     for (std::size_t i = 0; i < count; ++i) {
@@ -113,6 +136,7 @@ Girths girths_of(const RestRegion& rest, paper::Profile profile, std::span<const
         Girth& girth = girths.slices[static_cast<std::size_t>(slice)];
         girth.rho = std::max(girth.rho, vertex.rho);
     }
+    if (scale_beyond > 0) girths.slices.push_back({scale_beyond, scale_beyond * girths.radius, 0});
     return girths;
 }
 
@@ -123,6 +147,8 @@ struct Plan {
     const RestRegion& rest;
     double largest_rho;
     Girths girths;  // of a region with a shape
+    double scale_beyond;
+    double blend_gain;
 
     /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
     /// no wrinkle at rest.
@@ -136,18 +162,23 @@ struct Plan {
 };
 
 bend::RegionInput region_input(const Plan& plan, double onset, std::size_t vertex_count) {
-    const auto& [cylinder, options, rest, rho, girths] = plan;
+    const RestRegion& rest = plan.rest;
+    const Cylinder& cylinder = plan.cylinder;
+    const BindOptions& options = plan.options;
     const double radius = rest.shape ? rest.shape->radius() : cylinder.radius;
     bend::RegionInput region;
     region.length = rest.length;
     region.vertex_count = vertex_count;
-    region.onset = rest.folds == 0 ? 0 : onset;
+    region.onset = rest.folds.count == 0 ? 0 : onset;
     region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
     region.rest_direction = cylinder.rest_direction;
     region.max_angle = plan.max_angle(1);
     region.radius = radius;
     // Between the heights that a shape was looked at it may be thicker by a trace.
-    region.max_scale = rest.shape ? std::max(1.0, 1.001 * rest.shape->max_scale()) : 1;
+    region.max_scale =
+        rest.shape ? std::max(1.0, 1.001 * std::max(rest.shape->max_scale(), plan.scale_beyond)) : 1;
+    region.blend = rest.blend;
+    region.blend_gain = plan.blend_gain;
     region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length, radius,
                                       region.max_angle, options.table_rows, region.max_scale);
     return region;
@@ -188,8 +219,10 @@ struct Draft {
         std::size_t first = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
+            const double beyond = scale_beyond(places, i);
             plans.push_back({cylinder, options, places[i], largest_rho(own),
-                             places[i].shape ? girths_of(places[i], options.profile, own) : Girths{}});
+                             places[i].shape ? girths_of(places[i], options.profile, own, beyond) : Girths{},
+                             beyond, i + 1 < places.size() ? gain_at_joint(places[i], places[i + 1]) : 1});
             regions.push_back(region_input(plans[i], onset, own.size()));
             first += own.size();
         }
@@ -204,15 +237,21 @@ void keep_shallow(double body_length, const RestRegion& rest, const bend::Region
     constexpr double most_depth = 0.23, right_angle = std::numbers::pi / 2, most_squeeze = 0.999;
     if (input.rest_angle != 0) return;
     const double kappa = right_angle * input.radius / body_length;
-    const paper::Wave wave(profile, rest.folds, std::min(2 * kappa * input.max_scale, most_squeeze));
+    const paper::Wave wave(profile, rest.folds.total, std::min(2 * kappa * input.max_scale, most_squeeze));
+    const double half_wave = rest.folds.wave_length(rest.length) / 2;
     for (std::size_t i = 0; i < factors.size(); ++i) {
         const double z = rest.length * static_cast<double>(i) / static_cast<double>(factors.size() - 1);
         const double scale = rest.shape ? rest.shape->scale(z) : 1;
-        const double amplitude =
-            wave.column(std::min(2 * kappa * scale, most_squeeze)).amplitude * rest.length / 2;
+        const double amplitude = wave.column(std::min(2 * kappa * scale, most_squeeze)).amplitude * half_wave;
         const double depth = profile.trough() * amplitude * (rest.shape ? rest.shape->depth(z) : 1);
         if (depth > 0) factors[i] = std::min(factors[i], most_depth * scale * input.radius / depth);
     }
+}
+
+/// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it.
+void meet(double& factor, double& next) {
+    constexpr double least = 0.1;  // so that neither side's wrinkle is lost in the other's
+    factor = next = std::max((factor + next) / 2, least);
 }
 
 /// Gives each region the weights m(z) with which the slices of the mesh keep their area, as far as shallow
@@ -222,13 +261,17 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
                   const Share& share) {
     std::vector<double> heights;
     for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
+    std::vector<std::vector<double>> factors;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        std::vector<double> factors = solve_weights(body, geometry, mesh.order, heights, i, places[i].folds,
-                                                    share.step(i, places.size()));
-        if (factors.empty()) continue;
-        if (!options.fold_length && !regions_of(options)[i].folds)
-            keep_shallow(body.length(), places[i], body.region_inputs()[i], options.profile, factors);
-        places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors);
+        factors.push_back(solve_weights(body, geometry, mesh.order, heights, i, places[i].folds.count,
+                                        share.step(i, places.size())));
+        if (factors[i].empty() || options.fold_length || regions_of(options)[i].folds) continue;
+        keep_shallow(body.length(), places[i], body.region_inputs()[i], options.profile, factors[i]);
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (factors[i].empty()) continue;
+        if (places[i].blend != 0 && !factors[i + 1].empty()) meet(factors[i].back(), factors[i + 1].front());
+        places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors[i]);
     }
 }
 

@@ -112,13 +112,24 @@ std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<co
     return own;
 }
 
-/// Bends a body, one region at a time.
+/// Bends a body, one region at a time, together with those that its folds run on into.
 class Poser {
 public:
     explicit Poser(const bend::Body& body) : body_(body), poses_(body.rest_poses()) {}
 
-    /// The surface with all regions at rest but one.
+    /// The surface with a region in a pose, and others at rest, but for those that share its wave: they are
+    /// bent along the same arc, as far as they can, so that what passes over the joints is neither lost nor
+    /// gained.
     void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {
+        const std::span<const bend::RegionInput> inputs = body_.region_inputs();
+        const bend::Pose rest = body_.rest_pose(region);
+        const auto follow = [&](std::size_t r) {
+            const auto share = static_cast<float>(inputs[r].length / inputs[region].length);
+            const float angle = body_.rest_pose(r).angle + share * (pose.angle - rest.angle);
+            poses_[r] = {std::min(angle, body_.max_angle(r)), pose.direction};
+        };
+        for (std::size_t r = region; r > 0 && inputs[r - 1].blend != 0; --r) follow(r - 1);
+        for (std::size_t r = region; inputs[r].blend != 0; ++r) follow(r + 1);
         poses_[region] = pose;
         deform(0, surface.bare);
         deform(1, surface.wrinkle);

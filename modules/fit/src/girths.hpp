@@ -24,6 +24,6 @@ struct Girths {
 
 /// As largest_angle() in bind.hpp, with the largest of all slices.
 [[nodiscard]] double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude,
-                                   int folds, double factor);
+                                   paper::FoldRange folds, double factor);
 
 }  // namespace goffer::fit

@@ -61,18 +61,26 @@ std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cyl
     return vertices;
 }
 
-/// The geometry's vertices region by region.
+/// Which part of its region a height is in: 0 within a blend of its beginning, 2 of its end, 1 between.
+std::size_t part_of(std::span<const RestRegion> regions, std::size_t r, double z) {
+    const RestRegion& region = regions[r];
+    if (r > 0 && regions[r - 1].blend != 0 && z - region.start < regions[r - 1].blend) return 0;
+    return region.blend != 0 && z - region.start > region.length - region.blend ? 2 : 1;
+}
+
+/// The geometry's vertices region by region, those near joints before and behind the others.
 std::vector<std::uint32_t> region_order(std::span<const RestRegion> regions,
                                         std::span<const paper::Cylindrical> vertices,
                                         std::vector<std::size_t>& counts) {
-    std::vector<std::size_t> region(vertices.size());
+    std::vector<std::size_t> place(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        region[i] = region_at(regions, vertices[i].z);
-        ++counts[region[i]];
+        const std::size_t region = region_at(regions, vertices[i].z);
+        place[i] = 3 * region + part_of(regions, region, vertices[i].z);
+        ++counts[region];
     }
     std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return region[i]; });
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return place[i]; });
     return order;
 }
 
@@ -174,11 +182,58 @@ glm::dmat3 axes_of(const Cylinder& cylinder) {
     return axes;
 }
 
+namespace {
+
+/// What the wave of a region is multiplied by at one of its ends.
+double wave_depth(const RestRegion& region, double z) {
+    return region.shape ? region.shape->depth(z) : 1;
+}
+
+/// How far about a joint wrinkles pass into each other: a quarter of the shorter fold there, from its crest
+/// or trough at the joint to where it crosses the surface at rest. 0 where one of the regions hardly
+/// wrinkles.
+double blend_at_joint(const RestRegion& region, const RestRegion& next) {
+    constexpr double least_depth = 0.05, least_share = 2e-5;
+    if (region.folds.count == 0 || next.folds.count == 0) return 0;
+    const double depth = wave_depth(region, region.length), next_depth = wave_depth(next, 0);
+    if (!(std::min(depth, next_depth) > least_depth)) return 0;
+    const auto quarter_fold = [](const RestRegion& r, double d) {
+        return r.length / (4 * r.folds.count) * std::min(d, 1.0);
+    };
+    const double blend = std::min(quarter_fold(region, depth), quarter_fold(next, next_depth));
+    return blend > least_share * std::max(region.length, next.length) ? blend : 0;
+}
+
+}  // namespace
+
+void join_folds(std::vector<RestRegion>& regions) {
+    for (std::size_t first = 0; first < regions.size();) {
+        std::size_t last = first + 1;
+        int total = regions[first].folds.count;
+        for (; last < regions.size(); ++last) {
+            RestRegion& before = regions[last - 1];
+            before.blend = blend_at_joint(before, regions[last]);
+            if (before.blend == 0) break;
+            total += regions[last].folds.count;
+        }
+        int before = 0;
+        for (; first < last; ++first) {
+            const int own = regions[first].folds.count;
+            regions[first].folds = {own, before, total};
+            before += own;
+        }
+    }
+}
+
+double gain_at_joint(const RestRegion& region, const RestRegion& next) {
+    return region.blend == 0 ? 1 : wave_depth(next, 0) / wave_depth(region, region.length);
+}
+
 std::vector<RestRegion> rest_regions(const Binding& binding) {
     std::vector<RestRegion> places;
     double start = 0;
     for (const RegionBinding& region : binding.regions) {
-        places.push_back({start, region.length, region.folds, region.shape});
+        places.push_back({start, region.length, region.wave, region.shape, region.blend});
         start += region.length;
     }
     return places;
@@ -200,7 +255,7 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
         rest.drift = region.shape->drift(z);
         radius = region.shape->radius() * rest.scale;
     }
-    if (region.folds == 0) return rest;
+    if (region.folds.count == 0) return rest;
     const auto [wave, slope] = paper::wave_at(region.shape.get(), profile, region.folds, region.length, z);
     const double weight = paper::depth_weight(at.rho, radius);
     const double weight_by_rho = at.rho > 1e-9 * radius ? weight / at.rho : 2 / radius;

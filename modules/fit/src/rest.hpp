@@ -25,9 +25,16 @@ namespace goffer::fit {
 struct RestRegion {
     double start = 0;  ///< z where it begins
     double length = 0;
-    int folds = 0;
+    paper::FoldRange folds = 0;
     std::shared_ptr<const paper::Shape> shape = {};  ///< null: of a cylinder, with folds of one length
+    double blend = 0;                                ///< bend::RegionInput::blend
 };
+
+/// Lets the folds of neighboring regions run on over their joints, wherever both wrinkle there.
+void join_folds(std::vector<RestRegion>& regions);
+
+/// Returns bend::RegionInput::blend_gain at the joint of two regions.
+[[nodiscard]] double gain_at_joint(const RestRegion& region, const RestRegion& next);
 
 /// Returns the regions that `binding` was made with.
 [[nodiscard]] std::vector<RestRegion> rest_regions(const Binding& binding);

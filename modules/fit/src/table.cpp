@@ -18,42 +18,45 @@ constexpr double max_even_squeeze =
     0.9;  // of even folds and of bodies with a shape: beyond it, a row's polynomial is off by more than 2e-6
 constexpr int factor_points = 16;  // angles at which m is solved; it is smooth in their root and close to one
 
-bool wrinkles(paper::Amplitude amplitude, int folds) {
-    return amplitude != paper::Amplitude::none && folds > 0;
+using paper::FoldRange;
+
+bool wrinkles(paper::Amplitude amplitude, FoldRange folds) {
+    return amplitude != paper::Amplitude::none && folds.count > 0;
 }
 
-void check_shape(paper::Profile profile, int folds, double length, double radius) {
+void check_shape(paper::Profile profile, FoldRange folds, double length, double radius) {
     if (!(length > 0) || !std::isfinite(length))
         throw Error("length: " + text(length) + " is not a positive number");
     if (!(radius > 0) || !std::isfinite(radius))
         throw Error("radius: " + text(radius) + " is not a positive number");
     const int most = BindOptions::max_folds * 2 / profile.folds_of_length(1);
-    if (folds < 0 || folds > most)
-        throw Error("folds: " + std::to_string(folds) + " is outside 0.." + std::to_string(most));
+    if (folds.count < 0 || folds.count > most)
+        throw Error("folds: " + std::to_string(folds.count) + " is outside 0.." + std::to_string(most));
     if (!(profile.roundness >= 0 && profile.roundness <= 0.5))
         throw Error("roundness: " + text(profile.roundness) + " is outside 0..0.5");
 }
 
 /// Q(q) = (1 - q) a(q) / sqrt(q): the smooth part of eq 7's solution, A = (L / 2) sqrt(q) Q(q).
-Chebyshev smooth_amplitude(paper::Profile profile, int folds, double largest_squeeze) {
-    const paper::Wave wave(profile, folds, largest_squeeze);
+Chebyshev smooth_amplitude(paper::Profile profile, FoldRange folds, double largest_squeeze) {
+    const paper::Wave wave(profile, folds.total, largest_squeeze);
     return {0, largest_squeeze, squeeze_points,
             [&](double q) { return wave.column(q).amplitude / std::sqrt(q); }};
 }
 
 /// m(alpha) as a function of the root of alpha / max_angle; 1 throughout in modes other than `area`.
-Chebyshev area_factors(paper::Profile profile, paper::Amplitude amplitude, int folds, double length,
+Chebyshev area_factors(paper::Profile profile, paper::Amplitude amplitude, FoldRange folds, double length,
                        double radius, double max_angle) {
     const bool solved = amplitude == paper::Amplitude::area;
     return {0, 1, solved ? factor_points : 1, [&](double root) {
-                return solved ? paper::area_factor(profile, folds, length, radius, root * root * max_angle)
-                              : 1.0;
+                return solved
+                           ? paper::area_factor(profile, folds.total, length, radius, root * root * max_angle)
+                           : 1.0;
             }};
 }
 
 }  // namespace
 
-bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude amplitude, int folds,
+bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude amplitude, FoldRange folds,
                                       double length, double radius, double max_angle, int rows,
                                       double max_scale) {
     check_shape(profile, folds, length, radius);
@@ -74,7 +77,7 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
     for (int i = 0; i < rows; ++i) {
         const double root = static_cast<double>(i) / (rows - 1);
         const double largest_squeeze = largest_t * root * root * max_angle * radius / length;
-        const double scale = length / 2 * factor(root);
+        const double scale = folds.wave_length(length) / 2 * factor(root);
         const Chebyshev profile_in_t(0, 1, static_cast<int>(bend::wrinkle_degree) + 1,
                                      [&](double t) { return scale * q_part(largest_squeeze * t); });
         const std::vector<double> coefficients = profile_in_t.monomials();
@@ -86,7 +89,7 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
     return table;
 }
 
-double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int folds, double length,
+double largest_angle(paper::Profile profile, paper::Amplitude amplitude, FoldRange folds, double length,
                      double radius, double rho_max, double factor) {
     check_shape(profile, folds, length, radius);
     if (!(rho_max >= 0) || !std::isfinite(rho_max)) {
@@ -94,8 +97,9 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
     }
     const double outermost = std::max(rho_max, radius);
     const double most = profile.kind == Profile::Kind::even ? max_even_squeeze : 1 - 1e-9;
+    const double half_wave = folds.wave_length(length) / 2;
     std::optional<paper::Wave> wave;
-    if (wrinkles(amplitude, folds)) wave.emplace(profile, folds, most);
+    if (wrinkles(amplitude, folds)) wave.emplace(profile, folds.total, most);
     const auto search = [&](double own) {
         double low = 0;
         double high = most * length / (2 * radius);
@@ -103,7 +107,7 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
             const double alpha = (low + high) / 2;
             const double squeeze = 2 * alpha * radius / length;
             const double lift =
-                wave ? own * profile.crest() * wave->column(squeeze).amplitude * length / 2 : 0;
+                wave ? own * profile.crest() * wave->column(squeeze).amplitude * half_wave : 0;
             (length / alpha - radius > outermost + lift ? low : high) = alpha;
         }
         return low;
@@ -113,23 +117,22 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, int fol
     if (amplitude != paper::Amplitude::area || !wrinkles(amplitude, folds)) return angle;
     // m grows with the angle, so the factor at the plain limit is no smaller than the one at the limit that
     // it gives.
-    return inside * search(factor * paper::area_factor(profile, folds, length, radius, angle));
+    return inside * search(factor * paper::area_factor(profile, folds.total, length, radius, angle));
 }
 
-double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude, int folds,
-                     double factor) {
+double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude,
+                     FoldRange folds, double factor) {
     constexpr double inside = 0.999;
     double thickest = 0;
     for (const Girth& girth : girths.slices) thickest = std::max(thickest, girth.scale);
     const bool wrinkled = wrinkles(amplitude, folds);
-    const double per_length = 1 / girths.length;
+    const double per_length = 1 / girths.length, half_wave = folds.wave_length(girths.length) / 2;
     const Chebyshev q_part = wrinkled ? smooth_amplitude(profile, folds, max_even_squeeze)
                                       : Chebyshev(0, 1, 1, [](double) { return 0.0; });
     double low = 0, high = max_even_squeeze * girths.length / (2 * girths.radius * thickest);
     const auto fits = [&](double alpha, const Girth& girth) {
         const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, max_even_squeeze);
-        const double lift =
-            wrinkled ? factor * girth.depth * girths.length / 2 * std::sqrt(q) * q_part(q) : 0;
+        const double lift = wrinkled ? factor * girth.depth * half_wave * std::sqrt(q) * q_part(q) : 0;
         return girths.length / alpha - girths.radius > girth.rho + lift;
     };
     for (int step = 0; step < 60; ++step) {

@@ -3,6 +3,7 @@
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/gpu/vertices.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <initializer_list>
@@ -39,6 +40,8 @@ VertexLayout vertex_layout(const bend::Body& body) noexcept {
     };
     if (columns.scale != nullptr || columns.rest_scale != nullptr) add(layout.shape);
     if (columns.tangent_sign != nullptr) add(layout.tangent);
+    const auto blends = [](const bend::RegionInput& region) { return region.blend != 0; };
+    if (std::ranges::any_of(body.region_inputs(), blends)) add(layout.joint);
     return layout;
 }
 
@@ -58,6 +61,10 @@ void write_vertices(const bend::Body& body, std::span<std::byte> result) noexcep
                           value_or(from.rest_scale, i, 0), value_or(from.scale, i, 1)});
             if (layout.tangent != VertexLayout::none)
                 to.write({from.tangent[0][i], from.tangent[1][i], from.tangent[2][i], from.tangent_sign[i]});
+            if (layout.joint == VertexLayout::none) continue;
+            const bend::NeighborShare beyond = bend::neighbor_share(body, r, from.height[i]);
+            to.write({static_cast<float>(beyond.neighbor) * beyond.share, beyond.slope, beyond.gain,
+                      beyond.scale});
         }
     }
 }

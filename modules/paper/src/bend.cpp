@@ -25,7 +25,7 @@ void require(const Parameters& body, const Pose& pose) {
         refuse("length is ", body.length, ": it must be a positive number");
     if (!(body.radius > 0 && std::isfinite(body.radius)))
         refuse("radius is ", body.radius, ": it must be a positive number");
-    if (body.folds < 0) refuse("folds is ", body.folds, ": it must be 0 (no wrinkle) or more");
+    if (body.folds.count < 0) refuse("folds is ", body.folds.count, ": it must be 0 (no wrinkle) or more");
     if (!(std::abs(pose.angle) < body.length / (2 * body.radius))) {
         refuse("angle is ", pose.angle,
                " rad: it must be below length / (2 radius) = ", body.length / (2 * body.radius));

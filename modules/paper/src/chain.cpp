@@ -3,6 +3,7 @@
 
 #include "bend.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -22,7 +23,28 @@ Frame end_frame(const Frame& base, const Parameters& body, const Pose& pose) {
     return end;
 }
 
-Chain::Chain(std::span<const Parameters> regions, std::span<const Pose> poses) {
+namespace {
+
+/// What the wave of a region is multiplied by at height z.
+double wave_depth(const Parameters& body, double z) {
+    return body.shape ? body.shape->depth(z) : 1;
+}
+
+/// Whether the wave of one region runs on in the next one.
+bool runs_on(const FoldRange& folds, const FoldRange& next) {
+    return folds.count > 0 && next.count > 0 && folds.total == next.total &&
+           folds.before + folds.count == next.before;
+}
+
+}  // namespace
+
+double share_of_neighbor(double distance, double blend) {
+    const double x = std::max(1 - distance / blend, 0.0);
+    return x * x * (1.5 - x);
+}
+
+Chain::Chain(std::span<const Parameters> regions, std::span<const Pose> poses, std::span<const double> blends)
+    : regions_(regions.begin(), regions.end()), ends_(regions.size()) {
     if (regions.empty() || regions.size() != poses.size()) {
         throw std::invalid_argument("poses: " + std::to_string(poses.size()) + " for " +
                                     std::to_string(regions.size()) + " regions: it must be one for each");
@@ -32,20 +54,61 @@ Chain::Chain(std::span<const Parameters> regions, std::span<const Pose> poses) {
         maps_.emplace_back(regions[i], poses[i]);
         frames_.push_back(end_frame(frames_[i], regions[i], poses[i]));
     }
+    if (!blends.empty() && blends.size() + 1 != regions.size()) {
+        throw std::invalid_argument("blends: " + std::to_string(blends.size()) + " for " +
+                                    std::to_string(regions.size()) +
+                                    " regions: it must be one for each joint");
+    }
+    for (std::size_t i = 0; i < blends.size(); ++i) {
+        if (blends[i] != 0) add_joint(i, blends[i]);
+    }
+}
+
+void Chain::add_joint(std::size_t region, double blend) {
+    const Parameters &own = regions_[region], &next = regions_[region + 1];
+    if (!runs_on(own.folds, next.folds))
+        throw std::invalid_argument("blends: no wave runs over the joint behind region " +
+                                    std::to_string(region));
+    if (!(blend > 0 && ends_[region].below.blend + blend <= own.length && blend <= next.length))
+        throw std::invalid_argument("blends: " + std::to_string(blend) + " does not lie within the regions");
+    const double gain = wave_depth(next, 0) / wave_depth(own, own.length);
+    const double scale = own.radius / next.radius;
+    ends_[region].above = {blend, gain, scale};
+    ends_[region + 1].below = {blend, 1 / gain, 1 / scale};
+}
+
+Depth Chain::depth(std::size_t region, const Cylindrical& rest) const {
+    const double scale = maps_[region].scale(rest.z), length = regions_[region].length;
+    const auto& [below, above] = ends_[region];
+    Depth depth = maps_[region].depth(rest.beta, scale);
+    const auto blend_with = [&](std::size_t neighbor, const Side& side, double distance, double toward) {
+        if (side.blend == 0 || distance >= side.blend) return;
+        const Depth other = maps_[neighbor].depth(rest.beta, scale * side.scale);
+        const double x = std::min(1 - distance / side.blend, 1.0);
+        const double share = share_of_neighbor(distance, side.blend),
+                     share_slope = 3 * x * (1 - x) / side.blend;
+        depth.by_z = toward * share_slope * (side.gain * other.amplitude - depth.amplitude);
+        depth.by_scale += share * (side.gain * side.scale * other.by_scale - depth.by_scale);
+        depth.by_beta += share * (side.gain * other.by_beta - depth.by_beta);
+        depth.amplitude += share * (side.gain * other.amplitude - depth.amplitude);
+    };
+    blend_with(region - 1, below, rest.z, -1);
+    blend_with(region + 1, above, length - rest.z, 1);
+    return depth;
 }
 
 glm::dvec3 Chain::position(std::size_t region, const Cylindrical& rest) const {
-    return frames_[region].origin + frames_[region].axes * maps_[region].position(rest);
+    return frames_[region].origin + frames_[region].axes * maps_[region].position(rest, depth(region, rest));
 }
 
 glm::dvec3 Chain::normal(std::size_t region, const Cylindrical& rest,
                          const CylindricalVector& rest_normal) const {
-    return frames_[region].axes * maps_[region].normal(rest, rest_normal);
+    return frames_[region].axes * maps_[region].normal(rest, rest_normal, depth(region, rest));
 }
 
 glm::dvec3 Chain::tangent(std::size_t region, const Cylindrical& rest,
                           const CylindricalVector& rest_tangent) const {
-    return frames_[region].axes * maps_[region].tangent(rest, rest_tangent);
+    return frames_[region].axes * maps_[region].tangent(rest, rest_tangent, depth(region, rest));
 }
 
 }  // namespace goffer::paper

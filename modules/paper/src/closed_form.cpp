@@ -19,7 +19,7 @@ namespace goffer::paper {
 namespace {
 
 double area_factor(const Parameters& body, double alpha) {
-    return area_factor(body.profile, body.folds, body.length, body.radius, alpha);
+    return area_factor(body.profile, body.folds.total, body.length, body.radius, alpha);
 }
 
 glm::dvec3 unit(const glm::dvec3& v) {
@@ -37,6 +37,15 @@ void require_rest(const Parameters& body) {
         throw std::invalid_argument(
             "amplitude area: no factor is known for a body with a rest arc, an onset or a shape");
     }
+}
+
+void require_folds(const Parameters& body) {
+    const FoldRange& folds = body.folds;
+    if (folds.whole()) return;  // what a Wave looks at
+    if (folds.count < 1 || folds.before < 0 || folds.before > folds.total - folds.count)
+        throw std::invalid_argument("folds: those of the region do not lie in its wave");
+    if (body.profile.kind != Profile::Kind::even || body.amplitude == Amplitude::area)
+        throw std::invalid_argument("folds: only even ones run on over joints, and not with amplitude area");
 }
 
 void require_shape(const Parameters& body, double alpha) {
@@ -92,17 +101,9 @@ struct ClosedForm::LocalShape {
     double arc_z;               // height of the place on a cylinder that has the same arc angle
 };
 
-/// Amplitude A of a column, model units.
-struct ClosedForm::Depth {
-    double amplitude = 0;
-    double slope = 0;     // by beta
-    double by_scale = 0;  // by s
-};
-
 /// The Jacobian at a vertex, from (e_rho, e_beta, e_z) to the bent frame, is upper triangular: rows (outward,
 /// across, along), (0, around, 0), (0, 0, stretch).
 struct ClosedForm::Local {
-    double wrinkle;  // f
     double outward;
     double across;
     double along;
@@ -114,22 +115,24 @@ struct ClosedForm::Local {
 ClosedForm::ClosedForm(const Parameters& body, const Pose& pose) : body_(body) {
     const Bend bend = bend_of(body, pose);
     require_rest(body);
+    require_folds(body);
     alpha_ = bend.alpha;
     theta_ = bend.theta;
     kappa_ = bend.kappa();
     require_shape(body, alpha_);
-    if (body.folds == 0 || body.amplitude == Amplitude::none) return;
+    if (body.folds.count == 0 || body.amplitude == Amplitude::none) return;
     const double max_scale = body.shape ? body.shape->max_scale() : 1;
-    wave_ = std::make_shared<const Wave>(body.profile, body.folds, std::min(2 * kappa_ * max_scale, 0.9999));
+    wave_ = std::make_shared<const Wave>(body.profile, body.folds.total,
+                                         std::min(2 * kappa_ * max_scale, 0.9999));
     factor_ = body.amplitude == Amplitude::area ? area_factor(body, alpha_) : 1;
 }
 
-ClosedForm::Depth ClosedForm::column(double beta, double scale) const {
+Depth ClosedForm::depth(double beta, double scale) const {
     if (!wave_) return {};
-    if (body_.rest_angle != 0 || body_.onset != 0) return relative_column(beta, scale);
+    if (body_.rest_angle != 0 || body_.onset != 0) return relative_depth(beta, scale);
     const double kappa = kappa_ * scale;
     const Column relative = wave_->column(squeeze(kappa, beta, theta_));
-    const double size = factor_ * body_.length / 2;
+    const double size = factor_ * half_wave();
     // sqrt(q) = sqrt(2 kappa) |h|, with the sign of h blended where the amplitude has its corner.
     const double half = (beta - theta_) / 2, h = std::cos(half);
     const double side = std::clamp(h / crease_width, -1.0, 1.0);
@@ -140,7 +143,7 @@ ClosedForm::Depth ClosedForm::column(double beta, double scale) const {
 }
 
 // The column's own length is L S_0, with S_0 its scale at rest; it is squeezed to S / S_0 of that.
-ClosedForm::Depth ClosedForm::relative_column(double beta, double scale) const {
+Depth ClosedForm::relative_depth(double beta, double scale) const {
     const double kappa = kappa_ * scale;
     const double rest_kappa = body_.rest_angle * body_.radius / body_.length * scale;
     const double rest_scale = 1 - squeeze(rest_kappa, beta, body_.rest_direction);
@@ -154,7 +157,7 @@ ClosedForm::Depth ClosedForm::relative_column(double beta, double scale) const {
     const double q_slope = (difference_slope - q * rest_slope) / rest_scale;
     const double root_by_q = per_root * (1 - q * per_root * per_root / 2);
     const Column relative = wave_->column(root * root);
-    const double size = factor_ * body_.length / 2;
+    const double size = factor_ * half_wave();
     // dq/ds = q / (s S_0), since q is difference / rest_scale, and both depend linearly on s.
     return {size * rest_scale * relative.amplitude,
             size * (rest_scale * relative.slope * root_by_q * q_slope + rest_slope * relative.amplitude),
@@ -162,7 +165,7 @@ ClosedForm::Depth ClosedForm::relative_column(double beta, double scale) const {
 }
 
 double ClosedForm::column_amplitude(double beta) const {
-    return column(beta, 1).amplitude;
+    return depth(beta, 1).amplitude;
 }
 
 ClosedForm::LocalShape ClosedForm::shape_at(const Cylindrical& rest) const {
@@ -183,42 +186,53 @@ ClosedForm::LocalShape ClosedForm::shape_at(const Cylindrical& rest) const {
 }
 
 glm::dvec3 ClosedForm::position(const Cylindrical& rest) const {
+    return position(rest, depth(rest.beta, scale(rest.z)));
+}
+
+glm::dvec3 ClosedForm::normal(const Cylindrical& rest, const CylindricalVector& rest_normal) const {
+    return normal(rest, rest_normal, depth(rest.beta, scale(rest.z)));
+}
+
+glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent) const {
+    return tangent(rest, rest_tangent, depth(rest.beta, scale(rest.z)));
+}
+
+glm::dvec3 ClosedForm::position(const Cylindrical& rest, const Depth& depth) const {
     const LocalShape shape = shape_at(rest);
-    const double wrinkle = wave_ ? column(rest.beta, shape.scale).amplitude * shape.wave : 0;
+    const double wrinkle = depth.amplitude * shape.wave;
     return Bend{body_.length, body_.radius, alpha_, theta_}.position({rest.beta, shape.arc_z, rest.rho},
                                                                      wrinkle);
 }
 
-ClosedForm::Local ClosedForm::local(const Cylindrical& rest) const {
+ClosedForm::Local ClosedForm::local(const Cylindrical& rest, const Depth& depth) const {
     const LocalShape shape = shape_at(rest);
     const double c = std::cos(rest.beta - theta_), s = std::sin(rest.beta - theta_);
     const double curvature = alpha_ / body_.length;
     Local at{};
     at.frame = bent_frame(c, s, curvature * shape.arc_z);
-    at.outward = at.around = 1;
-    if (wave_) {
-        const Depth depth = column(rest.beta, shape.scale);
-        at.wrinkle = depth.amplitude * shape.wave;
-        at.outward += shape.inner ? depth.amplitude * shape.wave_per_rho : 0;
-        at.around += depth.amplitude * shape.wave_per_rho;
-        at.across = depth.slope * shape.wave_per_rho;
-        at.along = depth.amplitude * shape.wave_slope + depth.by_scale * shape.scale_slope * shape.wave;
-    }
-    at.stretch = ((1 - kappa_) - curvature * (rest.rho + at.wrinkle) * c) * (1 - kappa_ * (shape.scale - 1));
+    at.around = 1 + depth.amplitude * shape.wave_per_rho;
+    at.outward = shape.inner ? at.around : 1;
+    at.across = depth.by_beta * shape.wave_per_rho;
+    at.along =
+        depth.amplitude * shape.wave_slope + (depth.by_scale * shape.scale_slope + depth.by_z) * shape.wave;
+    const double rho = rest.rho + depth.amplitude * shape.wave;
+    at.stretch = ((1 - kappa_) - curvature * rho * c) * (1 - kappa_ * (shape.scale - 1));
     return at;
 }
 
 // Cofactors of the Jacobian: its inverse transpose times the determinant, without a division.
-glm::dvec3 ClosedForm::normal(const Cylindrical& rest, const CylindricalVector& rest_normal) const {
-    const Local at = local(rest);
+glm::dvec3 ClosedForm::normal(const Cylindrical& rest, const CylindricalVector& rest_normal,
+                              const Depth& depth) const {
+    const Local at = local(rest, depth);
     const glm::dvec3 bent{at.around * at.stretch * rest_normal.rho,
                           at.stretch * (at.outward * rest_normal.beta - at.across * rest_normal.rho),
                           at.around * (at.outward * rest_normal.z - at.along * rest_normal.rho)};
     return unit(turned(at.frame * bent, theta_));
 }
 
-glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent) const {
-    const Local at = local(rest);
+glm::dvec3 ClosedForm::tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent,
+                               const Depth& depth) const {
+    const Local at = local(rest, depth);
     const glm::dvec3 bent{
         at.outward * rest_tangent.rho + at.across * rest_tangent.beta + at.along * rest_tangent.z,
         at.around * rest_tangent.beta, at.stretch * rest_tangent.z};
@@ -247,12 +261,13 @@ double depth_weight(double rho, double radius) {
     return std::min(1.0, 2 * rho / radius);
 }
 
-double shape_slope_z(Profile profile, int folds, double length, double z) {
-    const double x = 2 * z / length - 1;
+double shape_slope_z(Profile profile, FoldRange folds, double length, double z) {
+    const double x = folds.place(z / length);
     // Only `damped` has a crease to blend; the slopes of the others are odd in x as they are.
     const double side = profile.kind == Profile::Kind::damped ? std::clamp(x / crease_width, -1.0, 1.0)
                                                               : std::copysign(1.0, x);
-    return side * shape_slope(profile, folds, std::abs(x)) * 2 / length;
+    return side * shape_slope(profile, folds.total, std::min(std::abs(x), 1.0)) * 2 /
+           folds.wave_length(length);
 }
 
 Cylindrical to_cylindrical(const glm::dvec3& point) {

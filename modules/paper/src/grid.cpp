@@ -28,6 +28,7 @@ Grid::Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows)
                                     ": it needs 3 columns and 2 rows or more");
     }
     if (body.shape) throw std::invalid_argument("shape: the paper's grid has none");
+    if (!body.folds.whole()) throw std::invalid_argument("folds: the paper's grid has no wave that runs on");
     static_cast<void>(bend_of(body, {}));  // throws if length, radius or folds is out of range
 }
 
@@ -63,7 +64,8 @@ BentGrid Grid::bend(const Pose& pose) const {
         const double amplitude = map.column_amplitude(beta);  // eq 7-10, once per column
         for (std::uint32_t row = 0; row < rows_; ++row) {
             const double u = std::abs(2.0 * row / (rows_ - 1) - 1);
-            const double oscillation = body_.folds > 0 ? shape(body_.profile, body_.folds, u) : 0;  // eq 6
+            const double oscillation =
+                body_.folds.count > 0 ? shape(body_.profile, body_.folds.count, u) : 0;  // eq 6
             for (std::size_t shell = 0; shell < BentGrid::shells.size(); ++shell) {
                 const double rho = BentGrid::shells[shell] * body_.radius;
                 const double wrinkle = amplitude * oscillation * depth_weight(rho, body_.radius);

@@ -158,12 +158,12 @@ double Shape::folds_between(double low, double high) const {
     return (high - low) * sum;
 }
 
-double Shape::place(double z) const {
+double Shape::folds_share(double z) const {
     const double length = radius_.length(), step = length / fold_steps;
     const double at = std::clamp(z, 0.0, length);
     const auto begun = std::min(static_cast<std::size_t>(at / step), folds_.size() - 2);
     const double folds = folds_[begun] + folds_between(step * static_cast<double>(begun), at);
-    return 2 * folds / folds_.back() - 1;
+    return folds / folds_.back();
 }
 
 double Shape::depth(double z) const {
@@ -175,21 +175,21 @@ double Shape::depth_slope(double z) const {
     return folds_.back() / fold_length_.length() * product;
 }
 
-double Shape::wave(Profile profile, int folds, double z) const {
-    return depth(z) * shape(profile, folds, std::min(std::abs(place(z)), 1.0));
+double Shape::wave(Profile profile, FoldRange folds, double z) const {
+    return depth(z) * shape(profile, folds.total, std::min(std::abs(folds.place(folds_share(z))), 1.0));
 }
 
-// With p the place, dp/dz = 2 / (fold_length folds_.back()), so that depth dp/dz = 2 weight / L.
-double Shape::wave_slope(Profile profile, int folds, double z) const {
-    const double p = std::clamp(place(z), -1.0, 1.0), length = radius_.length();
-    return weight_(z) * shape_slope_z(profile, folds, length, (p + 1) / 2 * length) +
-           depth_slope(z) * shape(profile, folds, std::abs(p));
+// With t the share of folds, dt/dz = 1 / (fold_length folds_.back()), so that depth dt/dz = weight / L.
+double Shape::wave_slope(Profile profile, FoldRange folds, double z) const {
+    const double share = std::clamp(folds_share(z), 0.0, 1.0), length = radius_.length();
+    return weight_(z) * shape_slope_z(profile, folds, length, share * length) +
+           depth_slope(z) * shape(profile, folds.total, std::min(std::abs(folds.place(share)), 1.0));
 }
 
-WaveAt wave_at(const Shape* shape, Profile profile, int folds, double length, double z) {
+WaveAt wave_at(const Shape* shape, Profile profile, FoldRange folds, double length, double z) {
     if (shape != nullptr) return {shape->wave(profile, folds, z), shape->wave_slope(profile, folds, z)};
-    const double u = std::min(std::abs(2 * z / length - 1), 1.0);
-    return {paper::shape(profile, folds, u), shape_slope_z(profile, folds, length, z)};
+    const double u = std::min(std::abs(folds.place(z / length)), 1.0);
+    return {paper::shape(profile, folds.total, u), shape_slope_z(profile, folds, length, z)};
 }
 
 }  // namespace goffer::paper

@@ -54,33 +54,47 @@ std::vector<double> extrema_before_half_waves(Profile profile, int folds) {
     return found;
 }
 
-// The fade moves the extrema of the end folds, and a roundness above 1/4 makes more of them: they are looked
-// for. Between two of them there is a place where g' is steepest, which the quarters of a fold are near to.
-std::vector<double> ends_of_even(Profile profile, int folds) {
-    constexpr int steps_of_fold = 32;
-    const int steps = std::max(folds, 2) * steps_of_fold / 2;
-    std::vector<double> found;
-    for (int i = 0; i < steps; ++i) {
-        const double low = (i - 0.5) / steps, high = (i + 0.5) / steps;
-        if (i > 0 && (shape_slope(profile, folds, low) > 0) != (shape_slope(profile, folds, high) > 0))
-            found.push_back(extremum(profile, folds, low, high));
+// The extrema of half a fold of `even`, from u = `low` to low + 1 / k. The fade moves those of the end folds,
+// and a roundness above 1/4 makes more of them: they are looked for. Between two of them there is a place
+// where g' is steepest, which the quarters of a fold are near to.
+std::vector<double> extrema_of_half_fold(Profile profile, int folds, double low) {
+    constexpr int steps = 16;
+    const double length = 1.0 / folds, step = length / steps;
+    std::vector<double> found{low + length / 2};
+    for (int i = 0; i <= steps; ++i) {
+        const double from = std::max(low + (i - 0.5) * step, 0.0), to = std::min(low + (i + 0.5) * step, 1.0);
+        if (from > 0 && (shape_slope(profile, folds, from) > 0) != (shape_slope(profile, folds, to) > 0))
+            found.push_back(extremum(profile, folds, from, to));
     }
-    for (int i = 1; i < 2 * folds; ++i) found.push_back(i / (2.0 * folds));
-    found.push_back(1 - 1.0 / folds);  // where the fade begins
-    std::ranges::sort(found);
     return found;
 }
 
-/// Places between which g' is smooth and does not change its sign.
-std::vector<double> pieces(Profile profile, int folds) {
-    std::vector<double> ends = profile.kind == Profile::Kind::even
-                                   ? ends_of_even(profile, folds)
-                                   : extrema_before_half_waves(profile, folds);
-    ends.insert(ends.begin(), 0);
-    ends.push_back(1);
+/// A stretch of u, of which there are `times` in the wave.
+struct Stretch {
+    double low, high;
+    double times;
+    std::vector<double> extrema;
+};
+
+/// The half folds of `even` between the one that fades and mid-height are alike but for their direction.
+std::vector<Stretch> stretches(Profile profile, int folds) {
+    if (profile.kind != Profile::Kind::even) return {{0, 1, 1, extrema_before_half_waves(profile, folds)}};
+    const double half_fold = 1.0 / folds, fade = 1 - half_fold;
+    std::vector<Stretch> found{{fade, 1, 1, extrema_of_half_fold(profile, folds, fade)}};
+    if (folds > 1) found.push_back({0, half_fold, folds - 1.0, extrema_of_half_fold(profile, folds, 0)});
+    return found;
+}
+
+/// Places in a stretch between which g' is smooth and does not change its sign.
+std::vector<double> pieces(Stretch stretch) {
+    std::vector<double>& ends = stretch.extrema;
+    std::erase_if(ends, [&](double u) { return u <= stretch.low || u >= stretch.high; });
+    ends.push_back(stretch.low);
+    ends.push_back(stretch.high);
+    std::ranges::sort(ends);
     const auto too_near = [](double a, double b) { return b - a < 1e-9; };
     ends.erase(std::unique(ends.begin(), ends.end(), too_near), ends.end());
-    ends.back() = 1;
+    ends.back() = stretch.high;
     return ends;
 }
 
@@ -118,14 +132,15 @@ Wave::Wave(Profile profile, int folds, double largest_squeeze, Accuracy accuracy
     require_roundness(profile.roundness);
     require_squeeze(largest_squeeze);
     const Rule rule = rule_for(largest_squeeze, accuracy);
-    const std::vector<double> ends = pieces(profile, folds);
-    nodes_.reserve((ends.size() - 1) * rule.at.size());
-    for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
-        const double width = ends[piece + 1] - ends[piece];
-        for (std::size_t i = 0; i < rule.at.size(); ++i) {
-            const double u = ends[piece] + width * rule.at[i];
-            nodes_.push_back(
-                {width * rule.weight[i], paper::shape(profile, folds, u), shape_slope(profile, folds, u)});
+    for (const Stretch& stretch : stretches(profile, folds)) {
+        const std::vector<double> ends = pieces(stretch);
+        for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
+            const double width = ends[piece + 1] - ends[piece];
+            for (std::size_t i = 0; i < rule.at.size(); ++i) {
+                const double u = ends[piece] + width * rule.at[i];
+                nodes_.push_back({stretch.times * width * rule.weight[i], paper::shape(profile, folds, u),
+                                  shape_slope(profile, folds, u)});
+            }
         }
     }
     for (const Node& node : nodes_) {

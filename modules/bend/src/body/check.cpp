@@ -86,9 +86,9 @@ struct Wrinkle {
 /// For a relative squeeze, kernels evaluate a polynomial in q, whose coefficients are the row's divided by
 /// powers of kappa (taken as at least 1e-4). A row has an effect from the angle of the row before it on. q /
 /// kappa stays below 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
-Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
+Wrinkle wrinkle_of(const RegionInput& region, double radius, double max_scale) noexcept {
     const bool relative = compares_with_rest(region);
-    const double per_angle = radius / region.length, max_scale = region.max_scale;
+    const double per_angle = radius / region.length;
     const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle * max_scale);
     const double step = max_scale * (relative ? 4.5 : 2), factor = max_factor(region.factors);
     const auto& rows = region.table.rows;
@@ -108,6 +108,17 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
         largest.depth = std::max(largest.depth, root * factor * depth);
     }
     return largest;
+}
+
+/// The wrinkle of `neighbor` near a joint, as one of `own`. `gain`: the neighbor's wave over the own one
+/// there.
+Wrinkle wrinkle_beyond(const RegionInput& own, const RegionInput& neighbor, double gain,
+                       double radius) noexcept {
+    const double beyond = radius_of(neighbor, radius), scale = radius_of(own, radius) / beyond;
+    Wrinkle wrinkle = wrinkle_of(neighbor, beyond, std::max(neighbor.max_scale, own.max_scale * scale));
+    wrinkle.depth *= gain;
+    wrinkle.amplitude *= gain * std::pow(std::max(scale, 1.0), wrinkle_degree + 0.5);
+    return wrinkle;
 }
 
 bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
@@ -134,7 +145,8 @@ BodyFault check_region(const RegionInput& region, std::size_t index, double body
     if (const Reason reason = check_table(region.factors); reason != Reason::none)
         return {BodyField::factors, reason, index};
     Reason reason = check_table(region.table);
-    if (reason == Reason::none && !wrinkle_fits(wrinkle_of(region, radius))) reason = Reason::out_of_range;
+    if (reason == Reason::none && !wrinkle_fits(wrinkle_of(region, radius, region.max_scale)))
+        reason = Reason::out_of_range;
     return reason == Reason::none ? BodyFault{} : BodyFault{BodyField::table, reason, index};
 }
 
@@ -148,11 +160,59 @@ BodyFault check_counts(const BodyInput& input) noexcept {
     return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
 }
 
+/// Checks what region `r` says of its joint with the next one.
+BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
+    const RegionInput& own = input.regions[r];
+    if (own.blend == 0) return {};
+    const BodyFault blend{BodyField::blend, Reason::out_of_range, r};
+    if (!std::isfinite(own.blend)) return {BodyField::blend, Reason::not_finite, r};
+    if (r + 1 == input.regions.size()) return blend;
+    const RegionInput& next = input.regions[r + 1];
+    constexpr double least = 1e-5;  // of a region's length
+    const double before = r == 0 ? 0 : input.regions[r - 1].blend,
+                 longest = std::max(own.length, next.length);
+    const bool fits = own.blend >= least * longest && before + own.blend <= own.length * (1 + 1e-9) &&
+                      own.blend + next.blend <= next.length * (1 + 1e-9);
+    const bool alike = compares_with_rest(own) == compares_with_rest(next);
+    if (!fits || !alike || own.table.empty() || next.table.empty()) return blend;
+    const double most = Range::max_blend_gain;
+    const Limited gain{BodyField::blend_gain, own.blend_gain, 1 / most, most};
+    if (const BodyFault fault = first_fault({&gain, 1}, r); !fault.none()) return fault;
+    const bool below = wrinkle_fits(wrinkle_beyond(own, next, own.blend_gain, input.radius));
+    const bool above = wrinkle_fits(wrinkle_beyond(next, own, 1 / own.blend_gain, input.radius));
+    return below && above ? BodyFault{} : BodyFault{BodyField::blend_gain, Reason::out_of_range, r};
+}
+
+/// Whether a vertex is near the joint where its region begins, or ends.
+struct Near {
+    bool below, above;
+};
+
+/// Checks that vertices near joints are where kernels look for them.
+BodyFault check_order(std::span<const RestVertex> vertices, std::size_t first, const RegionInput& region,
+                      double blend_before) noexcept {
+    Near last{true, false};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const double z = vertices[i].z;
+        const bool below = blend_before != 0 && z < blend_before;
+        const Near here{below, !below && region.blend != 0 && z > region.length - region.blend};
+        if ((here.below && !last.below) || (last.above && !here.above))
+            return {BodyField::vertices, Reason::out_of_range, first + i};
+        last = here;
+    }
+    return {};
+}
+
 BodyFault check_vertices(const BodyInput& input) noexcept {
     std::size_t i = 0;
+    double blend_before = 0;
     for (const RegionInput& region : input.regions) {
+        const auto r = static_cast<std::size_t>(&region - input.regions.data());
         const double radius = radius_of(region, input.radius);
-        const double depth = deepest_wrinkle(region, radius);
+        const double depth = deepest_wrinkle(input.regions, r, input.radius);
+        const std::span<const RestVertex> own = input.vertices.subspan(i, region.vertex_count);
+        if (const BodyFault fault = check_order(own, i, region, blend_before); !fault.none()) return fault;
+        blend_before = region.blend;
         for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
             const BodyFault fault = check_vertex(input.vertices[i], i, region, radius, depth);
             if (!fault.none()) return fault;
@@ -191,6 +251,9 @@ BodyFault check_regions(const BodyInput& input) noexcept {
         const BodyFault fault = check_region(input.regions[r], r, input.radius);
         if (!fault.none()) return fault;
     }
+    for (std::size_t r = 0; r < input.regions.size(); ++r) {
+        if (const BodyFault fault = check_joint(input, r); !fault.none()) return fault;
+    }
     return {};
 }
 
@@ -206,8 +269,15 @@ BodyFault check_vectors(const BodyInput& input) noexcept {
 
 }  // namespace
 
-double deepest_wrinkle(const RegionInput& region, double radius) noexcept {
-    return wrinkle_of(region, radius).depth;
+double deepest_wrinkle(std::span<const RegionInput> regions, std::size_t r, double radius) noexcept {
+    const RegionInput& own = regions[r];
+    const double depth = wrinkle_of(own, radius_of(own, radius), own.max_scale).depth;
+    double beyond = 0;
+    if (r > 0 && regions[r - 1].blend != 0)
+        beyond = wrinkle_beyond(own, regions[r - 1], 1 / regions[r - 1].blend_gain, radius).depth;
+    if (own.blend != 0)
+        beyond = std::max(beyond, wrinkle_beyond(own, regions[r + 1], own.blend_gain, radius).depth);
+    return std::max(depth, (depth + beyond) / 2);
 }
 
 BodyFault check_rig(const BodyInput& input) noexcept {

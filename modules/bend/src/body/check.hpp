@@ -5,6 +5,7 @@
 #include <goffer/bend/body_input.hpp>
 
 #include <cstddef>
+#include <span>
 
 /// The parts of Body::check.
 
@@ -13,8 +14,10 @@ namespace goffer::bend {
 /// Checks all of `input` but its vertices, and how many of them its regions have.
 [[nodiscard]] BodyFault check_rig(const BodyInput& input) noexcept;
 
-/// An upper bound of the depth of a region's wrinkles in any pose, model units. `radius`: of its base.
-[[nodiscard]] double deepest_wrinkle(const RegionInput& region, double radius) noexcept;
+/// An upper bound of the depth of the wrinkles of region `r` in any pose, model units, with what its
+/// neighbors add to them. `radius`: of the body.
+[[nodiscard]] double deepest_wrinkle(std::span<const RegionInput> regions, std::size_t r,
+                                     double radius) noexcept;
 
 /// Checks vertex `index`, which is one of `region`; `depth` is the deepest_wrinkle() there.
 [[nodiscard]] BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,

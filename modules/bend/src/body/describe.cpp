@@ -48,10 +48,19 @@ Words words_of(BodyField field) noexcept {
         case BodyField::factors:
             return {"regions", ".factors",
                     "no rows or two and more, of finite numbers, up to 1e-12 radians or more"};
+        case BodyField::blend:
+            return {
+                "regions", ".blend",
+                "0, or a length with which both regions have room for their blends (1e-5 of each at "
+                "least), and two regions that wrinkle, either both with a rest angle or an onset or neither"};
+        case BodyField::blend_gain:
+            return {"regions", ".blend_gain",
+                    "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};
         case BodyField::vertex_count:
             return {"", "regions.vertex_count", "adding up to the number of vertices"};
         case BodyField::vertices:
-            return {"", "vertices", "at least one"};
+            return {"vertices", "",
+                    "at least one, and those within a blend of a joint before or behind all others"};
         case BodyField::beta:
             return {"vertices", ".beta", "a number"};
         case BodyField::z:

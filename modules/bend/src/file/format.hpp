@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The records of a body file, version 1, as they lie in it. A change here is a new version.
+/// The records of a body file, version 2, as they lie in it. A change here is a new version.
 /// See modules/bend/README.md, "The body file".
 
 namespace goffer::bend {
@@ -38,10 +38,16 @@ struct RigRecord {
     double radius;
 };
 
-struct RegionRecord {
+/// As version 1 has it, in which wrinkles vanish at joints.
+struct FirstRegionRecord {
     double length, max_angle, rest_angle, rest_direction, onset, radius, max_scale;
     float table_max_angle, factors_max_angle;
     std::uint32_t wrinkle_rows, factor_rows;  ///< how many of these sections' are its own
+};
+
+struct RegionRecord {
+    FirstRegionRecord first;
+    double blend, blend_gain;
 };
 
 /// Characters of the section `names`.
@@ -90,9 +96,10 @@ inline constexpr std::size_t most_rows = 4096;
 inline constexpr std::size_t shared_sections = 8;  ///< from `rig` to `notes`
 inline constexpr std::size_t level_sections = 7;   ///< from `level` to `parts`
 
-// Version 1 has these sizes, whatever the compiler thinks of padding.
+// These are their sizes, whatever the compiler thinks of padding.
 static_assert(sizeof(FileHeader) == 64 && sizeof(SectionRecord) == 16 && sizeof(RigRecord) == 104);
-static_assert(sizeof(RegionRecord) == 72 && sizeof(MaterialRecord) == 24 && sizeof(SocketRecord) == 128);
+static_assert(sizeof(FirstRegionRecord) == 72 && sizeof(RegionRecord) == 88);
+static_assert(sizeof(MaterialRecord) == 24 && sizeof(SocketRecord) == 128);
 static_assert(sizeof(LevelRecord) == 56 && sizeof(BandsRecord) == 288 && sizeof(PartRecord) == 20);
 static_assert(wrinkle_degree == 7 && FactorTable::directions == 16 && Bands::count == 11);
 static_assert(all_columns == 14 && all_shape_columns == 3 && all_rest_columns == 5);

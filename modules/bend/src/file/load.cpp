@@ -94,9 +94,24 @@ private:
         return {FileReason::index, section, BodyFileFault::nowhere, index};
     }
 
+    /// The regions, of any version. Too many of them are not looked at.
+    [[nodiscard]] std::vector<RegionRecord> region_records() const {
+        if (sections_.version() != 1) {
+            const auto records = sections_.get<RegionRecord>(FileSection::regions);
+            const std::size_t most = std::min(records.size(), max_regions + 1);
+            return {records.begin(), records.begin() + static_cast<std::ptrdiff_t>(most)};
+        }
+        std::vector<RegionRecord> records;
+        for (const FirstRegionRecord& record : sections_.get<FirstRegionRecord>(FileSection::regions)) {
+            records.push_back({record, 0, 1});
+            if (records.size() > max_regions) break;
+        }
+        return records;
+    }
+
     [[nodiscard]] BodyFileFault load_rig() {
         const auto rigs = sections_.get<RigRecord>(FileSection::rig);
-        const auto regions = sections_.get<RegionRecord>(FileSection::regions);
+        const std::vector<RegionRecord> regions = region_records();
         auto rows = sections_.get<WrinkleRow>(FileSection::wrinkle_rows);
         auto factors = sections_.get<std::array<float, FactorTable::directions>>(FileSection::factor_rows);
         if (rigs.size() != 1) return count(FileSection::rig);
@@ -106,7 +121,7 @@ private:
             for (int c = 0; c < 3; ++c) rig_.axes[i][c] = rigs[0].axes[3 * i + c];
         }
         rig_.radius = rigs[0].radius;
-        for (const RegionRecord& record : regions) {
+        for (const auto& [record, blend, blend_gain] : regions) {
             if (record.wrinkle_rows > std::min(rows.size(), most_rows))
                 return count(FileSection::wrinkle_rows);
             if (record.factor_rows > std::min(factors.size(), most_rows))
@@ -119,6 +134,8 @@ private:
             region.onset = record.onset;
             region.radius = record.radius;
             region.max_scale = record.max_scale;
+            region.blend = blend;
+            region.blend_gain = blend_gain;
             region.table.max_angle = record.table_max_angle;
             region.table.rows.assign(rows.begin(), rows.begin() + record.wrinkle_rows);
             region.factors.max_angle = record.factors_max_angle;
@@ -151,10 +168,8 @@ private:
         const auto records = sections_.get<SocketRecord>(FileSection::sockets);
         file_.sockets.reserve(records.size());
         std::vector<double> depths;  // of the regions' wrinkles
-        for (const RegionInput& region : regions_) {
-            if (records.empty()) break;
-            depths.push_back(deepest_wrinkle(region, radius_of(region, rig_.radius)));
-        }
+        for (std::size_t r = 0; r < regions_.size() && !records.empty(); ++r)
+            depths.push_back(deepest_wrinkle(regions_, r, rig_.radius));
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto name = this->name(records[i].name);
             if (!name) return no_such(FileSection::sockets, i);
@@ -350,7 +365,7 @@ BodyFileFault check_start(const FileHeader& header, std::uint64_t size) noexcept
         constexpr std::uint32_t other_order = 0x04030201;
         return fault(header.byte_order == other_order ? FileReason::byte_order : FileReason::not_a_body_file);
     }
-    if (header.version != body_file_version) return fault(FileReason::version);
+    if (header.version == 0 || header.version > body_file_version) return fault(FileReason::version);
     if (header.bytes > size) return fault(FileReason::truncated);
     return fault(header.bytes < size ? FileReason::too_long : FileReason::none);
 }

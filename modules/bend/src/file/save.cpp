@@ -114,10 +114,12 @@ void add_rig(Writer& out, const Body& body) {
     }
     rig.radius = body.radius();
     for (const RegionInput& region : body.region_inputs()) {
-        regions.push_back({region.length, region.max_angle, region.rest_angle, region.rest_direction,
-                           region.onset, region.radius, region.max_scale, region.table.max_angle,
-                           region.factors.max_angle, static_cast<std::uint32_t>(region.table.rows.size()),
-                           static_cast<std::uint32_t>(region.factors.rows.size())});
+        regions.push_back({{region.length, region.max_angle, region.rest_angle, region.rest_direction,
+                            region.onset, region.radius, region.max_scale, region.table.max_angle,
+                            region.factors.max_angle, static_cast<std::uint32_t>(region.table.rows.size()),
+                            static_cast<std::uint32_t>(region.factors.rows.size())},
+                           region.blend,
+                           region.blend_gain});
         rows.insert(rows.end(), region.table.rows.begin(), region.table.rows.end());
         factors.insert(factors.end(), region.factors.rows.begin(), region.factors.rows.end());
     }

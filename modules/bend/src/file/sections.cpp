@@ -16,12 +16,12 @@ FileSection section_at(std::size_t place) {
     return static_cast<FileSection>(first + (place < shared_sections ? place : shared_sections + in_level));
 }
 
-std::size_t size_of(FileSection section) {
+std::size_t size_of(FileSection section, std::uint32_t version) {
     switch (section) {
         case FileSection::rig:
             return sizeof(RigRecord);
         case FileSection::regions:
-            return sizeof(RegionRecord);
+            return version == 1 ? sizeof(FirstRegionRecord) : sizeof(RegionRecord);
         case FileSection::wrinkle_rows:
             return sizeof(WrinkleRow);
         case FileSection::factor_rows:
@@ -59,7 +59,7 @@ BodyFileFault FileSections::check() const {
         const std::uint64_t begin = aligned(end);
         if (record.offset != begin || begin > size || !zeros(end, begin))
             return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
-        const std::uint64_t bytes_each = size_of(section_at(i));
+        const std::uint64_t bytes_each = size_of(section_at(i), version());
         if (record.count > (size - begin) / bytes_each)
             return {FileReason::layout, FileSection::directory, BodyFileFault::nowhere, i};
         end = begin + record.count * bytes_each;

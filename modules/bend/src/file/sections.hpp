@@ -19,6 +19,11 @@ public:
 
     [[nodiscard]] BodyFileFault check() const;
 
+    /// The version that the header says.
+    [[nodiscard]] std::uint32_t version() const {
+        return reinterpret_cast<const FileHeader*>(bytes_.data())->version;
+    }
+
     /// The records of a section. T is what size_of() has for it.
     template <class T>
     [[nodiscard]] std::span<const T> get(FileSection section, std::size_t level = 0) const {

@@ -46,7 +46,7 @@ void quantize(Coefficients& k, const Bounds& bounds) noexcept {
 
 }  // namespace
 
-static_assert(sizeof(BatchRunner) <= std::size_t{48} << 10, "crowd.hpp states how much stack a run takes");
+static_assert(sizeof(BatchRunner) <= std::size_t{56} << 10, "crowd.hpp states how much stack a run takes");
 
 BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
     : batch_(batch),
@@ -178,6 +178,37 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
     }
 }
 
+/// Calls deform(input, begin, end) with what kernels are called with for the vertices [begin, end), one after
+/// the other, until all of [first, last) are deformed, which are of region `region`. Where wrinkles pass into
+/// those beyond a joint it is some vertices at a time. What begins or ends between `first` and `last` does so
+/// where lines do: wrinkles that no longer pass into others have the same bits either way.
+template <class Deform>
+void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
+                             std::size_t last, const Deform& deform) noexcept {
+    const Joint &below = body_.details[region].below, &above = body_.details[region].above;
+    const Coefficients* const k = coefficients(member, set_of(pass.pass));
+    const Squeeze* const squeeze = squeezes(member, set_of(pass.pass));
+    std::size_t below_end = first, above_begin = last;
+    if (squeeze[region] != Squeeze::none) {
+        if (below.last > first) below_end = std::min({line_behind(member, below.last), above.first, last});
+        if (above.first < last) above_begin = std::max(line_before(member, above.first), below_end);
+    }
+    const auto blend = [&](const Joint& joint, std::size_t begin, std::size_t end) {
+        while (begin < end) {
+            const std::size_t next = block_end(member, begin, end, BlendColumns::vertices);
+            const bool in_lines = begin >= members_[member].peeled && line_before(member, begin) == begin;
+            deform(blending_.blend(body_, kernels_, region, joint, {k, squeeze}, pass.streams, begin,
+                                   next - begin, in_lines),
+                   begin, next);
+            begin = next;
+        }
+    };
+    blend(below, first, below_end);
+    if (below_end < above_begin)
+        deform(KernelInput{&body_.columns, &k[region], squeeze[region], below_end}, below_end, above_begin);
+    blend(above, above_begin, last);
+}
+
 /// Calls deform(region, begin, end) for each region that vertices in [first, last) belong to.
 template <class Deform>
 void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept {
@@ -208,11 +239,10 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
 /// Kernels write the caller's planes. Past the cache, lines that regions share go through the stage.
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, WriteMode::planes, first, last,
-                 [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
-                     const std::size_t set = set_of(pass.pass);
-                     kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
-                         body_.columns, coefficients(member, set)[region],
-                         behind(pass.planes, members_[member].vertex + begin), begin, end - begin,
+                 [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
+                     kernels_.plane_kernel(input.squeeze, pass.streams)(
+                         *input.columns, *input.k, behind(pass.planes, members_[member].vertex + begin),
+                         input.first, end - begin,
                          plan_.non_temporal() ? Write::non_temporal : Write::cached);
                  });
 }
@@ -220,20 +250,18 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
 /// Kernels write the caller's records, likewise.
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, WriteMode::records, first, last,
-                 [&](const PassPlan& pass, std::size_t region, std::size_t begin, std::size_t end) {
+                 [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
                      const Record& record = plan_.records()[pass.places[0].record];
                      const std::size_t vertex = members_[member].vertex + begin;
-                     const std::size_t set = set_of(pass.pass);
                      const bool non_temporal = plan_.non_temporal();
-                     kernels_.weaving_kernel(squeezes(member, set)[region], pass.streams)(
-                         body_.columns, coefficients(member, set)[region],
-                         record.first + vertex * record.floats, begin, end - begin,
-                         non_temporal ? Write::non_temporal : Write::cached,
+                     kernels_.weaving_kernel(input.squeeze, pass.streams)(
+                         *input.columns, *input.k, record.first + vertex * record.floats, input.first,
+                         end - begin, non_temporal ? Write::non_temporal : Write::cached,
                          non_temporal ? record.to_line(vertex) : 0);
                  });
 }
 
-/// Calls deform(pass, region, begin, end) for each pass in the mode `mode`, and for each stretch of
+/// Calls deform(pass, input, begin, end) for each pass in the mode `mode`, and for each stretch of
 /// vertices of one region. Into the cache, a stretch is all of the region. Past the cache it is whole lines,
 /// except at `first` and `last`, and lines that regions share go through the stage.
 template <class Deform>
@@ -252,8 +280,13 @@ void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t f
             first = joints;
             continue;
         }
-        for (const PassPlan& pass : plan_.passes())
-            if (pass.mode == mode) deform(pass, region, first, end);
+        for (const PassPlan& pass : plan_.passes()) {
+            if (pass.mode != mode) continue;
+            each_input(member, pass, region, first, end,
+                       [&](const KernelInput& input, std::size_t begin, std::size_t to) {
+                           deform(pass, input, begin, to);
+                       });
+        }
         first = end;
     }
 }
@@ -265,11 +298,13 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
         const std::size_t end = block_end(member, first, last, stage_.capacity());
         for (const PassPlan& pass : plan_.passes()) {
             if (pass.mode != mode) continue;
-            const std::size_t set = set_of(pass.pass);
-            each_piece(first, end, [&](std::size_t region, std::size_t from, std::size_t to) {
-                kernels_.plane_kernel(squeezes(member, set)[region], pass.streams)(
-                    body_.columns, coefficients(member, set)[region], stage_.output(pass, from - first), from,
-                    to - from, Write::staged);
+            each_piece(first, end, [&](std::size_t region, std::size_t begin, std::size_t piece_end) {
+                each_input(member, pass, region, begin, piece_end,
+                           [&](const KernelInput& input, std::size_t from, std::size_t to) {
+                               kernels_.plane_kernel(input.squeeze, pass.streams)(
+                                   *input.columns, *input.k, stage_.output(pass, from - first), input.first,
+                                   to - from, Write::staged);
+                           });
             });
         }
         stage_.write(plan_, kernels_, mode, members_[member].vertex + first, end - first,

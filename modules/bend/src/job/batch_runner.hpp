@@ -5,6 +5,7 @@
 #include "kernel/args.hpp"
 #include "output/output_plan.hpp"
 #include "output/staging_buffer.hpp"
+#include "pose/blending.hpp"
 #include "pose/posed_group.hpp"
 
 #include <goffer/bend/crowd.hpp>
@@ -17,7 +18,7 @@ namespace goffer::bend {
 /// Deforms instances of a batch. What all of them share (kernels, columns, outputs) is looked up once, when
 /// the runner is made. Instances are taken in groups, whose coefficients fit into the first-level cache. Each
 /// group is set up, and its vertices are deformed block by block: the rest columns of a block stay in that
-/// cache, too, while they serve the whole group. Lives on the stack and takes at most 48 KB.
+/// cache, too, while they serve the whole group. Lives on the stack and takes at most 56 KB.
 class BatchRunner {
 public:
     /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
@@ -69,6 +70,9 @@ private:
     [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
                                         std::size_t most) const noexcept;
     template <class Deform>
+    void each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
+                    std::size_t last, const Deform& deform) noexcept;
+    template <class Deform>
     void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
                                          std::size_t last) const noexcept;
@@ -91,6 +95,7 @@ private:
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;
     StagingBuffer stage_;
+    Blending blending_;
 };
 
 }  // namespace goffer::bend

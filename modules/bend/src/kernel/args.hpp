@@ -50,6 +50,27 @@ enum class Write : unsigned char {
     staged,        ///< whole units: may overwrite up to max_unit values beyond the end
 };
 
+/// How the wrinkles of a region pass into those of the one beyond a joint, for vertices of that region. At
+/// height v, x = at + per_height v is 0 where that begins and 1 at the joint.
+struct JointBlend {
+    float at, per_height;
+    float per_length;  ///< dx/dz
+    /// What the neighbor's amplitudes are multiplied by here, term by term, and its squeezes where these are
+    /// relative: its wave over that of the region, and the radii of both, may differ.
+    float gain[amplitude_terms];
+    float squeeze;
+};
+
+/// Rest columns that have their wrinkles: of vertices near a joint, for kernels that add none. The first ones
+/// belong to the first vertex of a call.
+struct BlendColumns {
+    static constexpr std::size_t vertices = 256;  ///< of a call, at most
+    static constexpr std::size_t places = vertices + max_unit;
+    alignas(64) float rho[places];
+    alignas(64) float normal[3][places];
+    alignas(64) float tangent[3][places];
+};
+
 /// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
 struct PlaneOutput {
     float* position[3];
@@ -67,6 +88,14 @@ using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, con
 /// past the cache.
 using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, float* record,
                                std::size_t first, std::size_t count, Write write, std::size_t peeled);
+
+/// Wrinkles `count` vertices of one region from vertex `first` on, at most BlendColumns::places, of which
+/// some are near the joint that `joint` tells of. `neighbor` are the coefficients of the region beyond it.
+/// Writes normals only if it is a kernel of directions, tangents only if these are wanted too. Reads no other
+/// rest vertices, unless `count` is less than a batch.
+using BlendKernel = void (*)(const RestColumns& rest, const Coefficients& own, const Coefficients& neighbor,
+                             const JointBlend& joint, std::size_t first, std::size_t count, bool tangents,
+                             BlendColumns& out);
 
 /// Writes 16 * lines records, each of one float from every plane. `non_temporal`: past the cache, to be
 /// fenced by the caller; `to` must then begin a cache line.
@@ -116,6 +145,8 @@ using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::si
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
+    BlendKernel blending[squeeze_count]
+                        [2];     ///< of positions alone, and of directions too; null without wrinkles
     Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null below min_woven
     CopyLines copy_lines;
     WriteRows write_rows[max_woven + 1];  ///< indexed by the floats of a row; null where there is none
@@ -126,6 +157,9 @@ struct KernelSet {
     }
     [[nodiscard]] WeavingKernel weaving_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
+    }
+    [[nodiscard]] BlendKernel blend_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
+        return blending[static_cast<unsigned char>(squeeze)][streams == StreamSet::positions ? 0 : 1];
     }
 };
 

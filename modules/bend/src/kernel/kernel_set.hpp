@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/bend_kernel.hpp"
+#include "kernel/blend_kernel.hpp"
 #include "kernel/copy_kernel.hpp"
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
@@ -34,6 +35,11 @@ constexpr void add_kernels(KernelSet& set) {
     add_kernels<L, records, squeeze, StreamSet::positions_normals>(set);
     add_kernels<L, records, squeeze, StreamSet::positions_normals_tangents>(set);
     add_kernels<L, records, squeeze, StreamSet::packed>(set);
+    if constexpr (squeeze != Squeeze::none) {
+        BlendKernel(&blending)[2] = set.blending[static_cast<unsigned char>(squeeze)];
+        blending[0] = &blend_wrinkles<L, squeeze, false>;
+        blending[1] = &blend_wrinkles<L, squeeze, true>;
+    }
 }
 
 template <class L, int... n>

@@ -186,9 +186,8 @@ float shift_of(const Bands& bands, const Coefficients& k, float amplitude) noexc
     return 1.01f * along * (k.one_minus_kappa + k.curvature * widest);
 }
 
-/// The bounds of a region that has vertices.
-Bounds bounds_of(const Bands& bands, const Coefficients& k, Squeeze squeeze) noexcept {
-    const Float4 amplitude = amplitudes(k, squeeze, bands.max_scale);
+/// The bounds of a region that has vertices. `amplitude`: by sectors.
+Bounds bounds_of(const Bands& bands, const Coefficients& k, Float4 amplitude) noexcept {
     const float height = (bands.highest - bands.lowest) / static_cast<float>(Bands::count);
     const float longest = height + k.curvature * bands.max_drift_step;
     const float length = k.one_minus_kappa * k.arc_z[0] * longest;  // of a band's arc; arc_z[0] is L
@@ -226,30 +225,23 @@ Bounds nowhere() noexcept {
     return {glm::vec3(far), glm::vec3(-far)};
 }
 
-void take(Bounds& bounds, const BodyData& body, std::size_t region, const Coefficients& k,
-          Squeeze squeeze) noexcept {
-    if (body.regions[region].first == body.regions[region].last) return;
-    const Bounds own = bounds_of(body.details[region].bands, k, squeeze);
-    bounds = {glm::min(bounds.low, own.low), glm::max(bounds.high, own.high)};
-}
-
 Bounds bounds_of(const Body& body, std::span<const Pose> poses, const glm::mat4x3& transform, float weight,
                  Isa isa) noexcept {
     assert(!body.empty());
     const BodyData& data = *body.data();
-    Bounds bounds = nowhere();
-    each_region(data, kernels(isa).setup, poses, transform, weight,
-                [&](std::size_t region, const Coefficients& k, Squeeze squeeze) {
-                    take(bounds, data, region, k, squeeze);
-                });
-    return bounds;
+    const PosedInstance posed(data, kernels(isa).setup, poses, transform, weight);
+    return bounds_of(data, posed.k, posed.squeezes);
 }
 
 }  // namespace
 
 Bounds bounds_of(const BodyData& body, const Coefficients* k, const Squeeze* squeezes) noexcept {
     Bounds bounds = nowhere();
-    for (std::size_t r = 0; r < body.regions.size(); ++r) take(bounds, body, r, k[r], squeezes[r]);
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+        if (body.regions[r].first == body.regions[r].last) continue;
+        const Bounds own = bounds_of(body.details[r].bands, k[r], amplitudes(body, r, k, squeezes));
+        bounds = {glm::min(bounds.low, own.low), glm::max(bounds.high, own.high)};
+    }
     return bounds;
 }
 
@@ -274,15 +266,20 @@ void bounds(std::span<const DeformJob> jobs, std::span<Bounds> result) noexcept 
 void bounds(const Batch& batch, std::span<Bounds> result, Isa isa) noexcept {
     assert(batch.body != nullptr && !batch.body->empty() && result.size() >= batch.count);
     const BodyData& body = *batch.body->data();
-    Coefficients k[setup_width];
-    each_group(batch, body, kernels(isa).setup, Time::now, [&](PosedGroup& group, std::size_t first) {
-        const std::span<Bounds> boxes = result.subspan(first, group.count());
-        std::ranges::fill(boxes, nowhere());
-        for (std::size_t r = 0; r < body.regions.size(); ++r) {
-            group.set_up(r, k, 1);
-            for (std::size_t i = 0; i < boxes.size(); ++i) take(boxes[i], body, r, k[i], group.squeeze(i));
+    const std::size_t regions = body.regions.size();
+    constexpr std::size_t max_coefficients = 2 * max_regions;
+    Coefficients k[max_coefficients];
+    Squeeze squeezes[max_coefficients];
+    const std::size_t together = std::min(max_coefficients / regions, setup_width);
+    const auto take = [&](PosedGroup& group, std::size_t first) {
+        for (std::size_t r = 0; r < regions; ++r) {
+            group.set_up(r, k + r, regions);
+            for (std::size_t i = 0; i < group.count(); ++i) squeezes[i * regions + r] = group.squeeze(i);
         }
-    });
+        for (std::size_t i = 0; i < group.count(); ++i)
+            result[first + i] = bounds_of(body, k + i * regions, squeezes + i * regions);
+    };
+    each_group(batch, body, kernels(isa).setup, Time::now, together, take);
 }
 
 }  // namespace goffer::bend

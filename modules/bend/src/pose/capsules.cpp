@@ -58,10 +58,9 @@ glm::vec3 placed(const Coefficients& k, const CenterLine& line, int i) noexcept 
     return point;
 }
 
-void region_capsules(const Region& region, const Bands& bands, const Coefficients& k, Squeeze squeeze,
+void region_capsules(const Region& region, const Bands& bands, const Coefficients& k, float deepest,
                      float scale, std::span<Capsule> result) {
     constexpr float margin = 1.00001f;  // for rounding
-    const Float4 deepest = amplitudes(k, squeeze, bands.max_scale);
     const float count = static_cast<float>(result.size());
     const float step = (bands.highest - bands.lowest) / count;
     const float slack = k.curvature * bands.drift_error;
@@ -75,10 +74,9 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
         // bound.
         const float sagitta = (turn < 3 ? arc * turn / 8 : arc) + k.one_minus_kappa * region.length * slack;
         const CenterLine line = center_line(k, Float4{begin, end, begin, begin});
-        const float radius =
-            region.first == region.last
-                ? 0
-                : scale * margin * (widest(bands, deepest[sectors - 1], from, from + step) + sagitta);
+        const float radius = region.first == region.last
+                                 ? 0
+                                 : scale * margin * (widest(bands, deepest, from, from + step) + sagitta);
         result[i] = {placed(k, line, 0), placed(k, line, 1), radius};
     }
 }
@@ -91,11 +89,12 @@ void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> resul
     assert(result.size() >= capsule_count(*job.body, pieces));
     const BodyData& body = *job.body->data();
     const float scale = largest_scale(job.transform);
-    each_region(body, kernels(job.isa).setup, poses_of(job), job.transform, job.wrinkle_weight,
-                [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
-                    region_capsules(body.regions[r], body.details[r].bands, k, squeeze, scale,
-                                    result.subspan(r * pieces, pieces));
-                });
+    const PosedInstance posed(body, kernels(job.isa).setup, poses_of(job), job.transform, job.wrinkle_weight);
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+        const float deepest = amplitudes(body, r, posed.k, posed.squeezes)[sectors - 1];
+        region_capsules(body.regions[r], body.details[r].bands, posed.k[r], deepest, scale,
+                        result.subspan(r * pieces, pieces));
+    }
 }
 
 }  // namespace goffer::bend

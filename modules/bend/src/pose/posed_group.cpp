@@ -120,4 +120,14 @@ void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) n
     setup_(details.setup, columns_, count_, wrinkled_, k, step);
 }
 
+PosedInstance::PosedInstance(const BodyData& body, Setup setup, std::span<const Pose> poses,
+                             const glm::mat4x3& transform, float weight) noexcept {
+    PosedGroup group(body, setup);
+    group.add(poses, transform, weight);
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+        group.set_up(r, &k[r], 1);
+        squeezes[r] = group.squeeze(0);
+    }
+}
+
 }  // namespace goffer::bend

@@ -76,29 +76,24 @@ private:
     SetupColumns columns_;
 };
 
-/// Sets up one instance and calls visit(region, k, squeeze) for each of its regions, from base to tip.
-template <class Visit>
-PoseState each_region(const BodyData& body, Setup setup, std::span<const Pose> poses,
-                      const glm::mat4x3& transform, float weight, const Visit& visit) noexcept {
-    PosedGroup group(body, setup);
-    const PoseState state = group.add(poses, transform, weight);
-    Coefficients k;
-    for (std::size_t r = 0; r < body.regions.size(); ++r) {
-        group.set_up(r, &k, 1);
-        visit(r, k, group.squeeze(0));
-    }
-    return state;
-}
+/// One instance, set up: 9 KB.
+struct PosedInstance {
+    Coefficients k[max_regions];  ///< one per region
+    Squeeze squeezes[max_regions];
 
-/// Calls visit(group, first) for all instances of a batch, up to setup_width at a time: those from `first`
-/// on.
+    PosedInstance(const BodyData& body, Setup setup, std::span<const Pose> poses,
+                  const glm::mat4x3& transform, float weight) noexcept;
+};
+
+/// Calls visit(group, first) for all instances of a batch, up to `most` <= setup_width at a time: those from
+/// `first` on.
 template <class Visit>
-void each_group(const Batch& batch, const BodyData& body, Setup setup, Time time,
+void each_group(const Batch& batch, const BodyData& body, Setup setup, Time time, std::size_t most,
                 const Visit& visit) noexcept {
     PosedGroup group(body, setup);
-    for (std::size_t first = 0; first < batch.count; first += setup_width) {
+    for (std::size_t first = 0; first < batch.count; first += most) {
         group.clear();
-        for (std::size_t i = first; i < batch.count && i < first + setup_width; ++i)
+        for (std::size_t i = first; i < batch.count && i < first + most; ++i)
             group.add(batch, element_of(batch, i), time);
         visit(group, first);
     }

@@ -30,7 +30,7 @@ void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time ti
     const BodyData& body = *batch.body->data();
     const std::size_t regions = body.regions.size();
     assert(result.size() >= batch.count * regions);
-    each_group(batch, body, kernels(isa).setup, time, [&](PosedGroup& group, std::size_t first) {
+    each_group(batch, body, kernels(isa).setup, time, setup_width, [&](PosedGroup& group, std::size_t first) {
         Coefficients* const k = &result[first * regions];
         for (std::size_t r = 0; r < regions; ++r) {
             group.set_up(r, k + r, regions);
@@ -44,6 +44,20 @@ void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time ti
 RestColumns rest_columns(const Body& body) noexcept {
     assert(!body.empty());
     return body.data()->columns;
+}
+
+NeighborShare neighbor_share(const Body& body, std::size_t region, float height) noexcept {
+    assert(region < body.region_count());
+    const RegionData& details = body.data()->details[region];
+    const auto share_of = [height](const Joint& joint, int neighbor) -> NeighborShare {
+        const JointBlend& blend = joint.blend;
+        const float x = blend.at + blend.per_height * height;
+        return {neighbor, x * x * (1.5f - x), 3 * blend.per_length * (x - x * x), blend.gain[0],
+                blend.squeeze};
+    };
+    if (details.below.blends() && details.below.nears(height)) return share_of(details.below, -1);
+    if (details.above.blends() && details.above.nears(height)) return share_of(details.above, 1);
+    return {};
 }
 
 void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa) noexcept {

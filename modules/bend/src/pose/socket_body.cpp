@@ -11,7 +11,9 @@ namespace goffer::bend {
 std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> sockets) {
     std::vector<std::size_t> place(sockets.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
-    std::ranges::stable_sort(place, {}, [&](std::size_t i) { return sockets[i].region; });
+    std::ranges::stable_sort(place, {}, [&](std::size_t i) {  // by height too, as blends ask for
+        return std::pair(sockets[i].region, sockets[i].vertex.z);
+    });
     std::vector<std::size_t> counts(body.region_count());
     std::vector<RestVertex> vertices;
     std::vector<RestVector> normals, tangents;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/kernels.hpp"
+#include "pose/blending.hpp"
 #include "pose/posed_group.hpp"
 
 #include <goffer/bend/sockets.hpp>
@@ -35,20 +36,30 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
     const PlaneOutput out = {{planes[0], planes[1], planes[2]},
                              {planes[3], planes[4], planes[5]},
                              {planes[6], planes[7], planes[8], planes[9]}};
-    each_region(
-        body, set.setup, poses_of(job), job.transform, job.wrinkle_weight,
-        [&](std::size_t r, const Coefficients& k, Squeeze squeeze) {
-            const PlaneKernel kernel = set.plane_kernel(squeeze, StreamSet::positions_normals_tangents);
-            const Region& region = body.regions[r];
-            for (std::size_t first = region.first; first < region.last; first += chunk) {
-                const std::size_t count = std::min(chunk, region.last - first);
-                kernel(body.columns, k, out, first, count, Write::staged);
-                for (std::size_t i = 0; i < count; ++i) {
-                    const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
-                    frames[place_[first + i]] = {tangent, glm::cross(normal, tangent), normal, vector(0, i)};
-                }
+    const PosedInstance posed(body, set.setup, poses_of(job), job.transform, job.wrinkle_weight);
+    constexpr StreamSet streams = StreamSet::positions_normals_tangents;
+    Blending blending;
+    const auto deform = [&](std::size_t r, const Joint* joint, std::size_t first, std::size_t last) {
+        for (; first < last; first += chunk) {
+            const std::size_t count = std::min(chunk, last - first);
+            const KernelInput input = joint == nullptr || posed.squeezes[r] == Squeeze::none
+                                          ? KernelInput{&body.columns, &posed.k[r], posed.squeezes[r], first}
+                                          : blending.blend(body, set, r, *joint, {posed.k, posed.squeezes},
+                                                           streams, first, count, true);
+            set.plane_kernel(input.squeeze, streams)(*input.columns, *input.k, out, input.first, count,
+                                                     Write::staged);
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
+                frames[place_[first + i]] = {tangent, glm::cross(normal, tangent), normal, vector(0, i)};
             }
-        });
+        }
+    };
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+        const Joint &below = body.details[r].below, &above = body.details[r].above;
+        deform(r, &below, below.first, below.last);
+        deform(r, nullptr, below.last, above.first);
+        deform(r, &above, above.first, above.last);
+    }
 }
 
 }  // namespace goffer::bend

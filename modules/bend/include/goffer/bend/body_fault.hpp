@@ -10,8 +10,8 @@
 
 namespace goffer::bend {
 
-/// The part of a BodyInput that is at fault. From `length` to `factors`: a member of a region; from `beta` to
-/// `drift`: a member of a vertex.
+/// The part of a BodyInput that is at fault. From `length` to `blend_gain`: a member of a region; from `beta`
+/// to `drift`: a member of a vertex.
 enum class BodyField : std::uint8_t {
     none,
     origin,
@@ -27,8 +27,10 @@ enum class BodyField : std::uint8_t {
     onset,
     table,
     factors,
+    blend,
+    blend_gain,
     vertex_count,  ///< of all regions together
-    vertices,      ///< how many there are
+    vertices,      ///< how many there are, or their order: see RegionInput::blend
     beta,
     z,
     rho,

@@ -32,7 +32,7 @@
 namespace goffer::bend {
 
 /// The version that save() writes. load() also takes all older ones.
-inline constexpr std::uint32_t body_file_version = 1;
+inline constexpr std::uint32_t body_file_version = 2;
 
 /// The most levels of detail that a file can have.
 inline constexpr std::size_t max_levels = 16;

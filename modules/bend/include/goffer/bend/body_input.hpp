@@ -20,7 +20,8 @@ struct BodyInput {
     glm::dmat3 axes{1};    ///< columns e1, e2, e3 of the body frame, orthonormal, right-handed
     double radius = 0;     ///< r > 0, model units
     std::span<const RegionInput> regions;  ///< from base to tip, 1..max_regions
-    std::span<const RestVertex> vertices;  ///< at least one; all of a region's, then all of the next one's
+    /// At least one; all of a region's, then all of the next one's. See RegionInput::blend.
+    std::span<const RestVertex> vertices;
     std::span<const RestVector> normals;   ///< one per vertex, of unit length
     std::span<const RestVector> tangents;  ///< none, or one per vertex, of unit length
     std::span<const float> tangent_signs;  ///< as many as tangents: w, the bitangent's sign
@@ -44,7 +45,8 @@ struct WorkingRange {
     static constexpr double max_wrinkle = 1e18;   ///< largest |wrinkle| and |slope|, 1 / model units
     static constexpr double max_scale = 1e3;      ///< largest scale of a vertex, and of 1 / scale
     static constexpr double max_taper = 1e3;      ///< largest |scale_slope| times the length over the scale
-    static constexpr double max_depth = 1e15;     ///< deepest wrinkle that a table may ask for
+    static constexpr double max_blend_gain = 1e3;  ///< largest blend_gain, and 1 / blend_gain
+    static constexpr double max_depth = 1e15;      ///< deepest wrinkle that a table may ask for
     static constexpr double max_growth = 1e6;  ///< largest factor that a wrinkle may stretch the surface by
     /// Largest distance of a vertex from the axis, with the deepest wrinkle added, as a multiple of the arc's
     /// radius length / max_angle. (From 1 on the body folds through itself.)

@@ -172,7 +172,7 @@ struct CrowdResult {
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
 /// taken as at rest, and transforms that are not give outputs that are not. Does not allocate, lock or log;
-/// takes up to 52 KB of stack. Thread-safe where outputs do not overlap.
+/// takes up to 56 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
 /// split, the number of threads, an instance's neighbors or `stores`.

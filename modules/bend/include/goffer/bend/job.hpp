@@ -83,7 +83,7 @@ struct DeformResult {
 
 /// Deforms all vertices on the calling thread. `job` must validate, except for its poses, weight and
 /// transforms, which may hold any bits: a weight counts as the nearest in 0..1 (a NaN as 0), and transforms
-/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 52 KB of stack.
+/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 56 KB of stack.
 /// Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone. Processors of

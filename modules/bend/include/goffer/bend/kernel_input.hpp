@@ -89,6 +89,21 @@ static_assert(sizeof(Coefficients) == coefficient_rows * 4 * sizeof(float));
 /// The columns of `body`, which is not empty, and which owns them. Does not allocate. Thread-safe.
 [[nodiscard]] RestColumns rest_columns(const Body& body) noexcept;
 
+/// What the wrinkle of a vertex near a joint has of the region beyond: its amplitude A, and derivatives of
+/// it, are A + share (A' - A), with A' the amplitude that the coefficients of that region give, times `gain`,
+/// if s is multiplied by `scale`. See modules/paper/README.md, "Folds over joints".
+struct NeighborShare {
+    int neighbor = 0;  ///< 1: the next region, -1: the one before; 0: the vertex is near no joint
+    float share = 0;   ///< 0..1/2
+    float slope = 0;   ///< of the share, by z
+    float gain = 1;
+    float scale = 1;
+};
+
+/// Returns what vertices of region `region` of `body`, which is not empty, have of it at `height`
+/// (RestColumns). Does not allocate. Thread-safe.
+[[nodiscard]] NeighborShare neighbor_share(const Body& body, std::size_t region, float height) noexcept;
+
 /// Sets up every instance of `batch`, whatever its masks say: result[i * regions + r] are the coefficients of
 /// region r of instance i, at the batch's poses, transforms and wrinkle weights. Amplitudes are 0 where
 /// nothing wrinkles. `result` is the caller's and holds batch.count * region_count() or more; it is written

@@ -7,9 +7,9 @@
 #include <cstddef>
 
 /// Regions: stretches of a body's axis, each of which bends along an arc of its own. A region begins in the
-/// frame that the end of the region before it carries (parallel transport: no twist). Wrinkles vanish at its
-/// ends, so positions meet there.
-/// See modules/paper/README.md, "Regions".
+/// frame that the end of the region before it carries (parallel transport: no twist). At a joint, wrinkles of
+/// both regions either vanish or pass into each other, so positions meet there.
+/// See modules/paper/README.md, "Regions" and "Folds over joints".
 
 namespace goffer::bend {
 
@@ -28,6 +28,13 @@ struct RegionInput {
     std::size_t vertex_count = 0;  ///< number of the body's vertices that belong to it
     double radius = 0;             ///< r of its base, the mean of its radii, model units; 0: the body's
     double max_scale = 1;          ///< >= 1, largest RestVertex::scale of its vertices
+    /// How far on both sides of the joint with the next region the wrinkles of both pass into each other,
+    /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
+    /// table. The vertices of a region that are within that distance of a joint lie before all others at its
+    /// beginning, and behind all others at its end.
+    double blend = 0;
+    double blend_gain =
+        1;  ///< the wave g of the next region over that of this one at the joint; used with a blend
 
     [[nodiscard]] bool operator==(const RegionInput&) const = default;
 };

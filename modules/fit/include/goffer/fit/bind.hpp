@@ -72,6 +72,10 @@ struct BindOptions {
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions = {};
+    /// Folds of Profile::even run on over the joints of regions that both wrinkle, and pass into each other
+    /// within half a fold of them, where they would else fade out. Has no effect with other profiles, and
+    /// with Amplitude::area. See modules/paper/README.md, "Folds over joints".
+    bool folds_over_joints = true;
     /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
     /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,
     /// whose wrinkles would begin with a step otherwise; 0 for a straight one.
@@ -106,6 +110,9 @@ struct RegionBinding {
     int folds_capacity = 0;  ///< most folds that the mesh has vertices for, where it wrinkles
     /// How its radius and its folds change along it; null: not at all.
     std::shared_ptr<const paper::Shape> shape = {};
+    /// Its folds as a part of the wave that they belong to, which may run on over joints.
+    paper::FoldRange wave = {};
+    double blend = 0;  ///< bend::RegionInput::blend
 };
 
 /// Returns the triangles that may wrinkle, 3 vertices each, in the order of the geometry's: those whose
@@ -186,8 +193,9 @@ struct Binding {
 /// Profile::even 0..2 max_folds), roundness is outside 0..0.5, max_scale is not a finite number of 1 or more,
 /// max_angle is not above 0 and below length / (2 radius max_scale), or `rows` is out of range. Thread-safe.
 /// See modules/paper/README.md, "Wrinkle table".
-[[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude, int folds,
-                                                    double length, double radius, double max_angle,
+[[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude,
+                                                    paper::FoldRange folds, double length, double radius,
+                                                    double max_angle,
                                                     int rows = BindOptions::default_table_rows,
                                                     double max_scale = 1);
 
@@ -200,7 +208,7 @@ struct Binding {
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
 /// Profile::even 0..2 max_folds), roundness is outside 0..0.5, or rho_max
 /// is negative or not finite. Thread-safe. See modules/paper/README.md, "Limits".
-[[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, int folds, double length,
-                                   double radius, double rho_max, double factor = 1);
+[[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, paper::FoldRange folds,
+                                   double length, double radius, double rho_max, double factor = 1);
 
 }  // namespace goffer::fit

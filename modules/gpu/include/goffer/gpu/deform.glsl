@@ -14,6 +14,7 @@ struct GofferVertex {
     vec3 normal;
     vec4 shape;    // drift; taper; rest scale; scale: 0, 0, 0, 1 for a body that has none
     vec4 tangent;  // w: the sign
+    vec4 joint;    // share of the neighbor in the wrinkle, negative: of the region before; its slope; gain; scale
 };
 
 struct GofferBent {
@@ -39,12 +40,52 @@ float goffer_series(vec4 terms, float x) {
     return ((terms.w * x + terms.z) * x + terms.y) * x + terms.x;
 }
 
+// The amplitude of a wrinkle, its slope by beta, and minus its derivative by the logarithm of the scale.
+struct GofferWrinkle {
+    float amplitude;
+    float slope;
+    float less_by_scale;
+};
+
+// That of the region whose rows begin at `row`, if the vertex is `ratio` times as far from the axis.
+GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio) {
+    GofferWrinkle wrinkle;
+    vec4 change = goffer_row(row + 16);
+    if (change.z > 0.0f) {  // relative to the rest arc
+        vec4 rest = goffer_row(row + 15);
+        float rest_scale = vertex.shape.z;
+        float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
+        float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
+        float q = ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
+        float per_root = inversesqrt(q + change.z);
+        float root = q * per_root;
+        float x = root * root;
+        wrinkle.amplitude = root * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
+        float rest_slope = rest.z * rest_sine - rest.w * rest_cosine;
+        float turned = ratio * (change.y * rest_cosine - change.x * rest_sine);
+        float per_q = per_root * (1.0f - 0.5f * root * per_root) *
+                      goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
+        wrinkle.slope = wrinkle.amplitude * rest_slope + (q > 0.0f ? per_q * (turned - q * rest_slope) : 0.0f);
+        wrinkle.less_by_scale = per_q * q;
+    } else {
+        vec4 pose = goffer_row(row);
+        float h_prime = vertex.column.y * pose.x - vertex.column.x * pose.y;
+        float h = vertex.column.x * pose.x + vertex.column.y * pose.y;
+        float x = h * h * vertex.shape.w * ratio;
+        wrinkle.amplitude = abs(h) * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
+        // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
+        float per_turn = goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
+        wrinkle.slope = clamp(h * 707.10678f, -1.0f, 1.0f) * h_prime * per_turn;
+        wrinkle.less_by_scale = abs(h) * per_turn;
+    }
+    return wrinkle;
+}
+
 // The names are those of modules/bend/src/kernel/deform_batch.hpp, and so is the order.
 GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     int row = first_row + 17 * int(vertex.wrinkle.w + 0.5f);
     vec4 pose = goffer_row(row);      // cosine and sine of half the direction; 1 - kappa; curvature
     vec4 size = goffer_row(row + 3);  // first curvature; doublings; half the radius; handedness
-    vec4 change = goffer_row(row + 16);
     float scale = vertex.shape.w;
 
     float h_prime = vertex.column.y * pose.x - vertex.column.x * pose.y;
@@ -53,33 +94,18 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     float c = t - 1.0f;
     float s = h * h_prime;
 
-    float amplitude;
-    float slope;
-    float less_by_scale;
-    if (change.z > 0.0f) {  // relative to the rest arc
-        vec4 rest = goffer_row(row + 15);
-        float rest_scale = vertex.shape.z;
-        float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
-        float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
-        float q = max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
-        float per_root = inversesqrt(q + change.z);
-        float root = q * per_root;
-        float x = root * root;
-        amplitude = root * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
-        float rest_slope = rest.z * rest_sine - rest.w * rest_cosine;
-        float turned = change.y * rest_cosine - change.x * rest_sine;
-        float per_q = per_root * (1.0f - 0.5f * root * per_root) *
-                      goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
-        slope = amplitude * rest_slope + (q > 0.0f ? per_q * (turned - q * rest_slope) : 0.0f);
-        less_by_scale = per_q * q;
-    } else {
-        float x = t * scale;
-        amplitude = abs(h) * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
-        // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
-        float per_turn = goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
-        slope = clamp(h * 707.10678f, -1.0f, 1.0f) * h_prime * per_turn;
-        less_by_scale = abs(h) * per_turn;
+    GofferWrinkle wrinkle = goffer_wrinkle(vertex, row, 1.0f);
+    float difference = 0.0f;  // to what the region beyond a joint makes of it
+    if (vertex.joint.x != 0.0f) {
+        GofferWrinkle other = goffer_wrinkle(vertex, vertex.joint.x > 0.0f ? row + 17 : row - 17, vertex.joint.w);
+        float share = abs(vertex.joint.x);
+        float gain = vertex.joint.z;
+        difference = gain * other.amplitude - wrinkle.amplitude;
+        wrinkle.amplitude += share * difference;
+        wrinkle.slope += share * (gain * other.slope - wrinkle.slope);
+        wrinkle.less_by_scale += share * (gain * other.less_by_scale - wrinkle.less_by_scale);
     }
+    float amplitude = wrinkle.amplitude;
     float rho = vertex.column.z + amplitude * vertex.wrinkle.x;
     float rho_c = rho * c;
     float rho_s = rho * s;
@@ -107,8 +133,9 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     stretch = stretch * (1.0f + kappa - kappa * scale);
     float growth = 1.0f + amplitude * vertex.wrinkle.y;
     float j_a = vertex.column.z < size.z * scale ? growth : 1.0f;
-    float j_b = slope * vertex.wrinkle.y;
-    float j_d = amplitude * vertex.wrinkle.z - less_by_scale * vertex.shape.y;
+    float j_b = wrinkle.slope * vertex.wrinkle.y;
+    float j_d = amplitude * vertex.wrinkle.z - wrinkle.less_by_scale * vertex.shape.y +
+                vertex.joint.y * difference * vertex.wrinkle.x;
     float cosine = 1.0f - pose.w * arc_x;
     float sine = pose.w * arc_z;
 

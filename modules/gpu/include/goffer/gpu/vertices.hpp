@@ -27,11 +27,12 @@ struct VertexLayout {
     std::size_t normal = 32;     ///< vec3
     std::size_t shape = none;    ///< vec4, of a body with a shape, a rest arc or an onset
     std::size_t tangent = none;  ///< vec4, of a body with tangents
+    std::size_t joint = none;    ///< vec4, of a body whose folds run on over a joint
 
     [[nodiscard]] bool operator==(const VertexLayout&) const = default;
 };
 
-/// The layout of the records of `body`, which is not empty: 44 to 76 bytes. Thread-safe.
+/// The layout of the records of `body`, which is not empty: 44 to 92 bytes. Thread-safe.
 [[nodiscard]] VertexLayout vertex_layout(const bend::Body& body) noexcept;
 
 /// Writes the records of all vertices, in the body's order, without gaps. `result` is the caller's and holds

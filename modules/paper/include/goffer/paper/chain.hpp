@@ -27,12 +27,25 @@ struct Frame {
 /// radius, folds, angle and direction. Thread-safe.
 [[nodiscard]] Frame end_frame(const Frame& base, const Parameters& body, const Pose& pose);
 
+/// Returns the share that the region beyond a joint has in the depth of a wrinkle at `distance` from that
+/// joint: a half at the joint, 0 from `blend` > 0 on. It begins and ends level.
+[[nodiscard]] double share_of_neighbor(double distance, double blend);
+
 /// The map of a chain of regions, each in a pose of its own. Immutable; thread-safe.
+///
+/// Where a wave runs on over a joint, wrinkles of both regions pass into each other: within a distance
+/// `blend` of the joint the depth at a place is (1 - t) A_own + t A_neighbor, with t of share_of_neighbor().
+/// The neighbor's amplitude is that for the thickness of the place, times the ratio of both waves at the
+/// joint, so that wrinkles meet there. See modules/paper/README.md, "Folds over joints".
 class Chain {
 public:
-    /// `regions` and `poses` go from base to tip, one pose for each region. Both are copied. Throws
-    /// std::invalid_argument if the counts differ or are 0, and as ClosedForm's constructor does.
-    Chain(std::span<const Parameters> regions, std::span<const Pose> poses);
+    /// `regions` and `poses` go from base to tip, one pose for each region. `blends` has the distance for
+    /// each joint, model units: 0 or more, 0 where wrinkles end at the joint; it may be empty: 0 for all of
+    /// them. All are copied. Throws std::invalid_argument if the counts differ or are 0, if blends of a
+    /// region overlap, or if one is above 0 at a joint that no wave runs over, and as ClosedForm's
+    /// constructor does.
+    Chain(std::span<const Parameters> regions, std::span<const Pose> poses,
+          std::span<const double> blends = {});
 
     /// What ClosedForm's functions of these names return, for a vertex of region `region`, in the body frame
     /// of the whole chain. `rest.z` counts from where the region begins. `region` must be in range.
@@ -46,8 +59,24 @@ public:
     [[nodiscard]] const Frame& frame(std::size_t region) const { return frames_[region]; }
 
 private:
+    /// A joint as a region beside it sees it.
+    struct Side {
+        double blend = 0;
+        double gain = 1;   // on the neighbor's amplitude: its wave over the own one at the joint
+        double scale = 1;  // the own radius over the neighbor's
+    };
+    /// The two ends of a region.
+    struct Ends {
+        Side below, above;
+    };
+
+    [[nodiscard]] Depth depth(std::size_t region, const Cylindrical& rest) const;
+    void add_joint(std::size_t region, double blend);
+
+    std::vector<Parameters> regions_;
     std::vector<ClosedForm> maps_;
     std::vector<Frame> frames_;
+    std::vector<Ends> ends_;
 };
 
 }  // namespace goffer::paper

@@ -36,7 +36,7 @@ struct CylindricalVector {
 struct Parameters {
     double length = 1;    ///< L, of the outer line, which a bend never shortens
     double radius = 0.1;  ///< r
-    int folds = 0;        ///< k; 0: no wrinkle
+    FoldRange folds = 0;  ///< k; 0: no wrinkle
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
     double rest_angle = 0;      ///< alpha_0 >= 0 of the arc that the body is bent along at rest
@@ -53,13 +53,22 @@ struct Pose {
     double direction = 0;  ///< theta, toward which the body bends
 };
 
+/// The amplitude A of the wrinkle at one place, model units, and its derivatives.
+struct Depth {
+    double amplitude = 0;
+    double by_beta = 0;
+    double by_scale = 0;  ///< by s, the radius there over that of the region
+    double by_z = 0;      ///< beside what s changes: where wrinkles of two regions pass into each other
+};
+
 /// The map of one body in one pose. The constructor solves what depends on the pose alone. Immutable.
 class ClosedForm {
 public:
     /// Throws std::invalid_argument if length or radius is not a finite number above 0; folds, rest_angle or
     /// onset is negative; |angle| or rest_angle is not below length / (2 radius); a direction is not finite;
-    /// the amplitude is `area` and the body is bent at rest, has an onset or a shape, for which no factor is
-    /// known; or the shape has another radius, or is too thick for an angle, where it is thickest.
+    /// the amplitude is `area` and the body is bent at rest, has an onset or a shape, or its wave runs on,
+    /// for which no factor is known; a wave that runs on is not of Profile::even; or the shape has another
+    /// radius, or is too thick for an angle, where it is thickest.
     ClosedForm(const Parameters& body, const Pose& pose);
 
     /// Returns the deformed position in the body frame (eq 2-6). Nothing is divided by alpha: at alpha = 0
@@ -77,6 +86,20 @@ public:
     /// straightened and blended as normal() says.
     [[nodiscard]] glm::dvec3 tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent) const;
 
+    /// Return the same where the wrinkle is as deep as `depth` says.
+    [[nodiscard]] glm::dvec3 position(const Cylindrical& rest, const Depth& depth) const;
+    [[nodiscard]] glm::dvec3 normal(const Cylindrical& rest, const CylindricalVector& rest_normal,
+                                    const Depth& depth) const;
+    [[nodiscard]] glm::dvec3 tangent(const Cylindrical& rest, const CylindricalVector& rest_tangent,
+                                     const Depth& depth) const;
+
+    /// Returns how deep the column at `beta` wrinkles in a part whose radius is `scale` times the region's.
+    /// With the factor m(alpha).
+    [[nodiscard]] Depth depth(double beta, double scale) const;
+
+    /// Returns the radius at height `z` over that of the region.
+    [[nodiscard]] double scale(double z) const { return body_.shape ? body_.shape->scale(z) : 1; }
+
     /// Returns the amplitude A of the column at `beta`, with the factor m(alpha); model units. For a body
     /// with a shape it is that of a part with the mean radius.
     [[nodiscard]] double column_amplitude(double beta) const;
@@ -86,13 +109,12 @@ public:
     [[nodiscard]] glm::dvec3 center(double z) const;
 
 private:
-    struct Local;       // what position, normal and tangent share at one vertex
+    struct Local;       // what normal and tangent share at one vertex
     struct LocalShape;  // of the body, at a height
-    struct Depth;       // the amplitude and its derivatives
-    [[nodiscard]] Local local(const Cylindrical& rest) const;
+    [[nodiscard]] Local local(const Cylindrical& rest, const Depth& depth) const;
     [[nodiscard]] LocalShape shape_at(const Cylindrical& rest) const;
-    [[nodiscard]] Depth column(double beta, double scale) const;
-    [[nodiscard]] Depth relative_column(double beta, double scale) const;  // with a rest arc, or an onset
+    [[nodiscard]] Depth relative_depth(double beta, double scale) const;  // with a rest arc, or an onset
+    [[nodiscard]] double half_wave() const { return body_.folds.wave_length(body_.length) / 2; }
 
     Parameters body_;
     double alpha_ = 0;
@@ -126,7 +148,7 @@ inline constexpr double crease_width = 1e-3;
 
 /// Returns dg/dz, the slope of the wrinkle's shape at height `z` (0..length), blended at mid-height as
 /// `crease_width` says.
-[[nodiscard]] double shape_slope_z(Profile profile, int folds, double length, double z);
+[[nodiscard]] double shape_slope_z(Profile profile, FoldRange folds, double length, double z);
 
 /// Converts a point of the body frame to cylinder coordinates, and back. beta is within -pi..pi, 0 on the
 /// axis.

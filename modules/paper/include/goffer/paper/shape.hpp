@@ -78,8 +78,8 @@ public:
 
     /// Return the shape g of the wrinkle at z, and dg/dz: folds are as long as fold_length says, and as deep
     /// in proportion.
-    [[nodiscard]] double wave(Profile profile, int folds, double z) const;
-    [[nodiscard]] double wave_slope(Profile profile, int folds, double z) const;
+    [[nodiscard]] double wave(Profile profile, FoldRange folds, double z) const;
+    [[nodiscard]] double wave_slope(Profile profile, FoldRange folds, double z) const;
 
     /// Returns what the wave is multiplied by at z: the length of the fold over the mean of all, times the
     /// weight.
@@ -88,8 +88,8 @@ public:
 private:
     /// The integral of 1 / fold_length from `low` to `high`.
     [[nodiscard]] double folds_between(double low, double high) const;
-    /// Where z is in the count of folds: -1 at z = 0, 1 at the end.
-    [[nodiscard]] double place(double z) const;
+    /// The share of all folds that is before z.
+    [[nodiscard]] double folds_share(double z) const;
     [[nodiscard]] double depth_slope(double z) const;
 
     Knots knots_;
@@ -106,6 +106,6 @@ struct WaveAt {
 
 /// Returns g and dg/dz at height z of a region of `length`: of its own shape, or of one length of folds where
 /// `shape` is null.
-[[nodiscard]] WaveAt wave_at(const Shape* shape, Profile profile, int folds, double length, double z);
+[[nodiscard]] WaveAt wave_at(const Shape* shape, Profile profile, FoldRange folds, double length, double z);
 
 }  // namespace goffer::paper

@@ -30,7 +30,8 @@ enum class Accuracy {
 /// thread-safe.
 class Wave {
 public:
-    /// A node of the quadrature: the integral of F(u) over 0..1 is the sum of weight * F.
+    /// A node of the quadrature: the integral of F(g, g'^2) over u in 0..1 is the sum of weight * F. Of
+    /// Profile::even one half fold stands for all that are alike.
     struct Node {
         double weight;
         double shape;  ///< g(u)
@@ -50,7 +51,7 @@ public:
     /// Returns the wrinkle of the column at `squeeze`. Domain and errors as relative_amplitude().
     [[nodiscard]] Column column(double squeeze) const;
 
-    /// Returns the nodes in order of u, valid as long as the wave.
+    /// Returns the nodes, valid as long as the wave.
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
     /// Return the integrals of g(u)^2 and of g'(u)^2 over u in 0..1.

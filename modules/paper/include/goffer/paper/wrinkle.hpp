@@ -44,6 +44,34 @@ struct Profile {
     [[nodiscard]] constexpr bool operator==(const Profile&) const = default;
 };
 
+/// Which folds of a wave a region has. A wave may run on over the joints of several regions, and then fades
+/// at its own two ends alone: only one of Profile::even does, which has whole folds in each region. A number
+/// of folds is a wave of that region alone. A plain value.
+struct FoldRange {
+    int count = 0;   ///< k of the region; 0: no wrinkle
+    int before = 0;  ///< folds of the same wave in the regions before
+    int total = 0;   ///< of the whole wave
+
+    constexpr FoldRange(int folds = 0) : count(folds), total(folds) {}
+    constexpr FoldRange(int own, int folds_before, int folds_in_all)
+        : count(own), before(folds_before), total(folds_in_all) {}
+
+    [[nodiscard]] constexpr bool whole() const { return count == total; }
+
+    /// Returns where a place is in the wave, from -1 to 1, for one that has `share` of the region's folds
+    /// before it.
+    [[nodiscard]] constexpr double place(double share) const {
+        return whole() ? 2 * share - 1 : 2 * (before + count * share) / total - 1;
+    }
+
+    /// Returns the length of the wave, whose folds are as long as those of a region of `length`.
+    [[nodiscard]] constexpr double wave_length(double length) const {
+        return whole() ? length : length * total / count;
+    }
+
+    [[nodiscard]] constexpr bool operator==(const FoldRange&) const = default;
+};
+
 inline constexpr Profile Profile::damped{Profile::Kind::damped};
 inline constexpr Profile Profile::smooth{Profile::Kind::smooth};
 inline constexpr Profile Profile::even{Profile::Kind::even};

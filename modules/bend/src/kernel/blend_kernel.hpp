@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel/args.hpp"
+#include "kernel/bend_kernel.hpp"
+#include "kernel/deform_batch.hpp"
+
+/// Kernels for vertices near a joint, where the wrinkles of two regions pass into each other. They wrinkle
+/// the rest columns, and leave the bend to the kernel without wrinkles: the map is one after the other. That
+/// takes half as long again as a kernel of both, but a kernel of both would need copies for all streams. See
+/// modules/paper/README.md, "Folds over joints".
+
+namespace goffer::bend {
+
+/// What a vertex near a joint takes of the region that it is not in.
+template <class L>
+struct Share {
+    typename L::Vec value;
+    typename L::Vec slope;  // its derivative by z
+};
+
+template <class L>
+Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
+    using Vec = typename L::Vec;
+    const Vec x = L::max(L::madd(L::splat(joint.per_height), height, L::splat(joint.at)), L::splat(0.0f));
+    return {x * x * (L::splat(1.5f) - x), L::splat(3.0f * joint.per_length) * L::nmadd(x, x, x)};
+}
+
+/// Sets what the columns of `b` have of their wrinkle.
+template <class L, Squeeze squeeze, bool directions>
+void set_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+    if constexpr (squeeze == Squeeze::relative) {
+        set_relative_wrinkle<L, directions>(rest, k, b, i);
+    } else {
+        set_plain_wrinkle<L, squeeze, directions>(rest, k, b, i);
+    }
+}
+
+/// The neighbor's coefficients as those of the region itself: for the radius about its vertices, and the
+/// depth of its wave.
+template <Squeeze squeeze>
+Coefficients scaled(const Coefficients& neighbor, const JointBlend& joint) {
+    Coefficients k = neighbor;
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        k.amplitude[n] *= joint.gain[n];
+        k.amplitude_slope[n] *= joint.gain[n];
+    }
+    if constexpr (squeeze == Squeeze::relative) {
+        k.kappa_change *= joint.squeeze;
+        for (float& change : k.curl_change) change *= joint.squeeze;
+    }
+    return k;
+}
+
+template <class L>
+void store_vector(const Vector<L>& vector, float (&planes)[3][BlendColumns::places], std::size_t j) {
+    for (std::size_t c = 0; c < 3; ++c) L::store(planes[c] + j, vector.component[c]);
+}
+
+template <class L>
+Vector<L> load_vector(const float* const (&planes)[3], std::size_t i) {
+    return {{L::load(planes[0] + i), L::load(planes[1] + i), L::load(planes[2] + i)}};
+}
+
+template <class L, Squeeze squeeze, bool directions>
+GOFFER_FLATTENED void blend_wrinkles(const RestColumns& columns, const Coefficients& own,
+                                     const Coefficients& neighbor, const JointBlend& joint, std::size_t first,
+                                     std::size_t count, bool tangents, BlendColumns& out) {
+    using Vec = typename L::Vec;
+    const RestColumns rest = columns;
+    const Coefficients k = own, other_k = scaled<squeeze>(neighbor, joint);
+    for (std::size_t at = 0; at < count; at += L::width) {
+        const std::size_t j = at + L::width <= count ? at : count - L::width, i = first + j;
+        Bent<L> b, other;
+        set_wrinkle<L, squeeze, directions>(rest, k, b, i);
+        set_wrinkle<L, squeeze, directions>(rest, other_k, other, i);
+        const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
+        const Vec difference = other.amplitude - b.amplitude;
+        b.amplitude = L::madd(share.value, difference, b.amplitude);
+        const Vec offset = L::load(rest.radial_offset + i);
+        L::store(out.rho + j, L::madd(b.amplitude, offset, L::load(rest.rho + i)));
+        if constexpr (directions) {
+            b.slope = L::madd(share.value, other.slope - b.slope, b.slope);
+            if (has_shape<squeeze>(rest))
+                b.less_by_scale =
+                    L::madd(share.value, other.less_by_scale - b.less_by_scale, b.less_by_scale);
+            Jacobian<L> jacobian = bend::jacobian<L, squeeze>(rest, k, b, i);
+            jacobian.d = L::madd(share.slope * difference, offset, jacobian.d);
+            const auto& [growth, a, across, d] = jacobian;
+            const auto [n_rho, n_beta, n_z] = load_vector<L>(rest.normal, i).component;
+            store_vector<L>(
+                {{growth * n_rho, L::nmadd(across, n_rho, a * n_beta), growth * L::nmadd(d, n_rho, a * n_z)}},
+                out.normal, j);
+            if (!tangents) continue;
+            const auto [t_rho, t_beta, t_z] = load_vector<L>(rest.tangent, i).component;
+            store_vector<L>({{L::madd(a, t_rho, L::madd(across, t_beta, d * t_z)), growth * t_beta, t_z}},
+                            out.tangent, j);
+        }
+    }
+}
+
+}  // namespace goffer::bend

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "body_files.hpp"
+#include "support/bound_case.hpp"
+#include "support/chain_checks.hpp"
+
+#include <goffer/bend/body_file.hpp>
+#include <goffer/bend/body_input.hpp>
+#include <goffer/bend/bounds.hpp>
+#include <goffer/bend/capsules.hpp>
+#include <goffer/bend/crowd.hpp>
+#include <goffer/bend/sockets.hpp>
+#include <goffer/fit/sockets.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+/// Folds that run on over joints: P1, P2, P4, P5, P9 and P10 of them, and what is asked of their input.
+
+namespace goffer::test {
+namespace {
+
+/// What makes the wrinkles of a chain.
+enum class Kind { plain, onset, arc, shape };
+constexpr Kind kinds[] = {Kind::plain, Kind::onset, Kind::arc, Kind::shape};
+
+/// A chain of regions that all wrinkle, over all of their joints.
+BoundCase joined_case(Random& random, Kind kind) {
+    const std::size_t regions = std::size_t{2} + random() % 5;
+    TestMesh test_mesh = random_mesh(random, uniform(random, 8, 30), std::pow(10, uniform(random, -3, 3)));
+    fit::BindOptions options;
+    options.profile.roundness = uniform(random, 0, 0.5);
+    double sum = 0;
+    for (std::size_t i = 0; i < regions; ++i) {
+        options.regions.push_back({uniform(random, 0.5, 2), 1 + static_cast<int>(random() % 5)});
+        sum += options.regions.back().share;
+    }
+    for (fit::RegionOptions& region : options.regions) region.share /= sum;
+    options.shape = fit::ShapeMode::cylinder;
+    if (kind == Kind::onset) options.onset = uniform(random, 0.001, 0.1);
+    if (kind == Kind::arc)
+        test_mesh = bent_at_rest(test_mesh, uniform(random, 0.1, 1), uniform(random, -3, 3));
+    if (kind == Kind::shape) {
+        options.shape = fit::ShapeMode::automatic;
+        if (random() % 2 == 0) options.onset = 0.01;
+        add_radii(test_mesh, random);
+    }
+    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+    for (std::size_t r = 0; r + 1 < regions; ++r) REQUIRE(binding.regions[r].blend > 0);
+    return {std::move(test_mesh), options, std::move(binding)};
+}
+
+/// Planes of a crowd's buffer in which a job begins at any place of a line.
+struct Shifted {
+    Columns columns{10, 5000};
+
+    [[nodiscard]] bend::DeformJob job(const BoundCase& one, std::span<const bend::Pose> poses, Isa isa,
+                                      std::size_t shift, int streams) {
+        const auto at = [&](std::size_t c) { return columns[c].subspan(shift); };
+        bend::DeformJob job{.body = &one.binding.body, .poses = poses};
+        job.isa = isa;
+        job.positions = planar(at(0), at(1), at(2));
+        if (streams > 0) job.normals = planar(at(3), at(4), at(5));
+        if (streams > 1) job.tangents = planar(at(6), at(7), at(8), at(9));
+        return job;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("P1, P2, P4: folds over joints agree with the double chain") {
+    Random random(161);
+    for (const Kind kind : kinds) {
+        Worst worst;
+        for (int trial = 0; trial < 12; ++trial) {
+            CAPTURE(trial);
+            const BoundCase one = joined_case(random, kind);
+            check_rest(one);
+            const bool gentle = one.options.onset.value_or(0) != 0;
+            worst.add(worst_of(random, one, 5e-6, gentle ? 0.05 : 0.01));
+        }
+        MESSAGE("kind ", static_cast<int>(kind), ": position ", worst.position, " L, normal ", worst.normal,
+                " deg, tangent ", worst.tangent, " deg");
+    }
+}
+
+TEST_CASE("P5: folds over joints have the same bits wherever lines and ranges begin") {
+    Random random(162);
+    for (const Kind kind : kinds) {
+        const BoundCase one = joined_case(random, kind);
+        const std::size_t count = one.test_mesh.positions.size();
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
+        for (const Isa isa : isas_here()) {
+            CAPTURE(name(isa));
+            Output whole(count);
+            bend::run(make_job(one.binding.body, poses, isa, whole));
+            for (std::size_t shift = 0; shift < 17; ++shift) {
+                const int streams = static_cast<int>(shift % 3);
+                Shifted some;
+                bend::DeformJob job = some.job(one, poses, isa, shift, streams);
+                const auto check = [&] {
+                    for (std::size_t c = 0; c < std::array{3u, 6u, 10u}[shift % 3]; ++c)
+                        REQUIRE(std::ranges::equal(some.columns[c].subspan(shift, count), whole.columns[c]));
+                };
+                for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
+                    bend::Batch batch = bend::batch_of(job);
+                    bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = stores, .isa = isa});
+                    check();
+                }
+                for (std::size_t first = 0; first < count;) {
+                    const std::size_t last = std::min(count, first + 1 + random() % 300);
+                    bend::run_range(job, first, last);
+                    first = last;
+                }
+                check();
+            }
+        }
+    }
+}
+
+TEST_CASE("P9: with folds over joints, a chain of one curvature is one region, wrinkles and all") {
+    Random random(163);
+    const TestMesh test_mesh = random_mesh(random, 12, 1);
+    fit::BindOptions one, parts;
+    one.folds = 12;
+    one.shape = parts.shape = fit::ShapeMode::cylinder;
+    parts.regions = {{0.25, 3}, {0.5, 6}, {0.25, 3}};
+    const fit::Binding whole = fit::bind(test_mesh.geometry(), test_mesh.cylinder, one);
+    const fit::Binding chain = fit::bind(test_mesh.geometry(), test_mesh.cylinder, parts);
+    const std::size_t count = test_mesh.positions.size();
+    Output a(count), b(count);
+    for (const Isa isa : isas_here()) {
+        for (const float angle : {0.01f, 1.0f, 3.0f}) {
+            const bend::Pose pose{angle, 0.7f};
+            const bend::Pose poses[] = {{0.25f * angle, 0.7f}, {0.5f * angle, 0.7f}, {0.25f * angle, 0.7f}};
+            bend::run(test::make_job(whole.body, pose, isa, a));
+            bend::run(make_job(chain.body, poses, isa, b));
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t vertex = chain.order[i];
+                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 2e-6);
+                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 0.005);
+            }
+        }
+    }
+}
+
+TEST_CASE("P10: bounds and capsules hold folds over joints") {
+    Random random(164);
+    for (int trial = 0; trial < 40; ++trial) {
+        const BoundCase one = joined_case(random, kinds[trial % 4]);
+        const std::size_t count = one.test_mesh.positions.size();
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
+        Output out(count);
+        const bend::DeformJob job = make_job(one.binding.body, poses, Isa::automatic, out);
+        bend::run(job);
+        bend::Bounds box = bend::bounds(job), same[1];
+        bend::bounds(bend::batch_of(job), same);
+        CHECK(box.low == same[0].low);
+        CHECK(box.high == same[0].high);
+        std::vector<bend::Capsule> capsules(bend::capsule_count(one.binding.body, 3));
+        bend::capsules(job, 3, capsules);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 p(out.position(i));
+            REQUIRE(glm::all(glm::lessThanEqual(box.low, p)));
+            REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
+            REQUIRE(std::ranges::any_of(capsules, [&](const bend::Capsule& c) {
+                const glm::vec3 along = c.to - c.from;
+                const float square = glm::dot(along, along);
+                const float t =
+                    square > 0 ? std::clamp(glm::dot(p - c.from, along) / square, 0.0f, 1.0f) : 0.0f;
+                return glm::distance(p, c.from + t * along) <= c.radius;
+            }));
+        }
+    }
+}
+
+TEST_CASE("sockets near joints move as vertices there") {
+    Random random(165);
+    for (const Kind kind : {Kind::plain, Kind::onset, Kind::shape}) {
+        const BoundCase one = joined_case(random, kind);
+        const bend::Body& body = one.binding.body;
+        std::vector<bend::Socket> sockets;
+        double z = 0;
+        for (const fit::RegionBinding& region : one.binding.regions) {
+            for (const double share : {0.01, 0.5, 0.99})
+                sockets.push_back(
+                    fit::socket_at(one.binding, z + share * region.length, 0.3, one.binding.cylinder.radius));
+            z += region.length;
+        }
+        std::ranges::reverse(sockets);
+        const bend::Sockets tied = bend::Sockets::make(body, sockets).value();
+        const std::vector<bend::Pose> poses = random_poses(random, body);
+        std::vector<bend::SocketFrame> frames(sockets.size());
+        tied.frames(poses, frames);
+        const ChainReference expected(one.test_mesh, one.options, one.binding, poses);
+        for (std::size_t i = 0; i < sockets.size(); ++i) {
+            const bend::RestVertex& v = sockets[i].vertex;
+            const glm::dvec3 place = expected.place(sockets[i].region, {v.beta, v.z, v.rho});
+            CHECK(glm::length(glm::dvec3(frames[i][3]) - place) < 5e-6 * one.binding.cylinder.length);
+        }
+    }
+}
+
+TEST_CASE("body file: folds over joints come back to the bit") {
+    Random random(166);
+    for (const Kind kind : kinds) {
+        const BoundCase one = joined_case(random, kind);
+        const std::size_t count = one.test_mesh.positions.size();
+        const bend::LevelInput level{&one.binding.body, {}};
+        const auto file = bend::load_copy(bend::save({{&level, 1}, {}, {}, {}}));
+        REQUIRE(file);
+        const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
+        Output a(count), b(count);
+        bend::run(make_job(one.binding.body, poses, Isa::automatic, a));
+        bend::run(make_job(file->levels[0].body, poses, Isa::automatic, b));
+        for (std::size_t c = 0; c < 10; ++c) REQUIRE(std::ranges::equal(a.columns[c], b.columns[c]));
+    }
+}
+
+TEST_CASE("what is wrong with a joint is named") {
+    Random random(167);
+    std::vector<bend::RegionInput> regions{loose_region(20), loose_region(20), loose_region(20)};
+    LooseVertices loose(random, 60, 0.11);
+    for (std::size_t i = 0; i < 60; ++i) loose.vertices[i].z = 0.05 * static_cast<double>(i % 20) + 0.001;
+    regions[0].blend = 0.2;
+    bend::BodyInput input;
+    input.radius = 0.1;
+    input.regions = regions;
+    input.vertices = loose.vertices;
+    input.normals = loose.normals;
+    REQUIRE(bend::Body::check(input).none());
+    using bend::BodyFault, bend::BodyField, bend::Reason;
+    const auto fault_with = [&](const auto& change) {
+        std::vector<bend::RegionInput> changed = regions;
+        change(changed);
+        bend::BodyInput other = input;
+        other.regions = changed;
+        return bend::Body::check(other);
+    };
+    const BodyFault blend{BodyField::blend, Reason::out_of_range, 0};
+    CHECK(fault_with([](auto& r) { r[0].blend = -0.1; }) == blend);
+    CHECK(fault_with([](auto& r) { r[0].blend = 1e-7; }) == blend);
+    CHECK(fault_with([](auto& r) { r[0].blend = 1.1; }) == blend);
+    CHECK(fault_with([](auto& r) { r[0].blend = std::nan(""); }) ==
+          BodyFault{BodyField::blend, Reason::not_finite, 0});
+    CHECK(fault_with([](auto& r) { r[0].blend = r[1].blend = 0.6; }) == blend);
+    CHECK(fault_with([](auto& r) { r[2].blend = 0.1; }) ==
+          BodyFault{BodyField::blend, Reason::out_of_range, 2});
+    CHECK(fault_with([](auto& r) { r[1].table = {}; }) == blend);
+    CHECK(fault_with([](auto& r) { r[1].onset = 0.1; }) == blend);
+    const BodyFault gain{BodyField::blend_gain, Reason::out_of_range, 0};
+    CHECK(fault_with([](auto& r) { r[0].blend_gain = 0; }) == gain);
+    CHECK(fault_with([](auto& r) { r[0].blend_gain = 1e4; }) == gain);
+    CHECK(fault_with([](auto& r) { r[0].blend_gain = std::nan(""); }) ==
+          BodyFault{BodyField::blend_gain, Reason::not_finite, 0});
+    std::swap(loose.vertices[10], loose.vertices[18]);
+    CHECK(bend::Body::check(input) == BodyFault{BodyField::vertices, Reason::out_of_range, 11});
+    std::swap(loose.vertices[10], loose.vertices[18]);
+    std::swap(loose.vertices[22], loose.vertices[30]);
+    CHECK(bend::Body::check(input) == BodyFault{BodyField::vertices, Reason::out_of_range, 23});
+    CHECK(std::string(bend::describe(blend).c_str())
+              .starts_with("regions[0].blend: out of range; wanted: 0, or"));
+}
+
+}  // namespace goffer::test

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "synthetic.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/patches.hpp>
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+/// What folds that run on over joints do to the area of chains.
+
+namespace goffer {
+namespace {
+
+constexpr float degree = std::numbers::pi_v<float> / 180;
+
+/// Equal regions of a tube of radius 1.
+struct TestChain {
+    const char* name;
+    double length;
+    std::vector<float> angles, directions;  // degrees
+    double most;                            // rms of the local change, in percent
+};
+
+/// Changes of area over 24 slices by 4 sides, and of the whole.
+struct Change {
+    double local, whole;
+};
+
+Change change_of(const TestChain& chain, bool over_joints) {
+    std::mt19937 random(11);
+    test::Recipe tube{.columns = 96, .rows = 1200};
+    tube.length = chain.length;
+    const test::Solid solid = test::cylinder(tube, random);
+    fit::Cylinder base = test::upright();
+    base.length = chain.length;
+    fit::BindOptions options;
+    options.fold_length = 0.6;
+    options.folds_over_joints = over_joints;
+    options.regions.assign(chain.angles.size(), {1.0 / static_cast<double>(chain.angles.size()), {}});
+    const fit::Binding binding = fit::bind(solid.geometry(), base, options);
+    std::vector<bend::Pose> poses;
+    for (std::size_t r = 0; r < chain.angles.size(); ++r)
+        poses.push_back({chain.angles[r] * degree, chain.directions[r] * degree});
+    std::vector<glm::vec3> bent(solid.positions.size()), sorted(bent.size());
+    bend::DeformJob job{.body = &binding.body, .poses = poses};
+    job.positions = interleaved<3>(&bent[0].x, bent.size());
+    bend::run(job);
+    for (std::size_t i = 0; i < bent.size(); ++i) sorted[binding.order[i]] = bent[i];
+    const std::vector<std::uint32_t> patches = fit::patches_of(solid.geometry(), base, {24, 4});
+    const std::vector<std::uint32_t> one(patches.size(), 0);
+    return {100 * fit::patch_change(solid.geometry(), sorted, patches).rms,
+            100 * fit::patch_change(solid.geometry(), sorted, one).worst};
+}
+
+}  // namespace
+
+TEST_CASE("folds over joints: chains keep their area, place by place, better than with folds that end at joints") {
+    const TestChain chains[] = {
+        {"spiral", 30, {30, 50, 80, 110, 130, 130}, std::vector<float>(6, 0), 2.4},
+        {"S", 20, {70, 70}, {0, 180}, 1.6},
+        {"worm", 24, std::vector<float>(8, 40), {0, 90, 180, 180, 270, 0, 0, 90}, 1.8},
+    };
+    for (const TestChain& chain : chains) {
+        const Change over = change_of(chain, true), apart = change_of(chain, false);
+        MESSAGE(std::string(chain.name), ": local ", over.local, " % (all ", over.whole, " %), folds that end at joints ",
+                apart.local, " % (", apart.whole, " %)");
+        CHECK(over.local < chain.most);
+        CHECK(over.local < apart.local);
+        CHECK(std::abs(over.whole) < 2);
+    }
+}
+
+}  // namespace goffer
