@@ -2,6 +2,7 @@
 #include "factors.hpp"
 #include "girths.hpp"
 #include "mask.hpp"
+#include "parts.hpp"
 #include "rest.hpp"
 #include "share.hpp"
 #include "text.hpp"
@@ -214,8 +215,8 @@ struct Draft {
 
     /// `places` must stay where they are.
     Draft(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
-          std::span<const RestRegion> places)
-        : mesh(rest_mesh(geometry, cylinder, options.profile, places)) {
+          std::span<const RestRegion> places, const Parts* parts)
+        : mesh(rest_mesh(geometry, cylinder, options.profile, places, parts)) {
         std::size_t first = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
@@ -229,23 +230,67 @@ struct Draft {
     }
 };
 
+/// How deep a region wrinkles in a body that is bent by a right angle.
+class Depth {
+public:
+    /// `radius`: of the base, where the region has no shape.
+    Depth(double body_length, const RestRegion& rest, double radius, Profile profile)
+        : shape_(rest.shape.get()),
+          kappa_(right_angle * (shape_ != nullptr ? shape_->radius() : radius) / body_length),
+          half_wave_(profile.trough() * rest.folds.wave_length(rest.length) / 2) {
+        const double max_scale = shape_ != nullptr ? shape_->max_scale() : 1;
+        if (rest.folds.count > 0)
+            wave_.emplace(profile, rest.folds.total, std::min(2 * kappa_ * max_scale, most_squeeze));
+    }
+
+    /// At height z of the region, model units.
+    [[nodiscard]] double operator()(double z) const {
+        if (!wave_) return 0;
+        const double scale = shape_ != nullptr ? shape_->scale(z) : 1;
+        const double amplitude = wave_->column(std::min(2 * kappa_ * scale, most_squeeze)).amplitude;
+        return half_wave_ * amplitude * (shape_ != nullptr ? shape_->depth(z) : 1);
+    }
+
+private:
+    static constexpr double right_angle = std::numbers::pi / 2, most_squeeze = 0.999;
+
+    const paper::Shape* shape_;
+    double kappa_, half_wave_;
+    std::optional<paper::Wave> wave_;
+};
+
 /// Lowers factors on a region's wrinkle, at equal steps from end to end, so that in a body that is bent by a
 /// right angle it is nowhere deeper than a share of the radius there. Of one that is bent at rest, none is
 /// lowered.
 void keep_shallow(double body_length, const RestRegion& rest, const bend::RegionInput& input, Profile profile,
                   std::vector<double>& factors) {
-    constexpr double most_depth = 0.23, right_angle = std::numbers::pi / 2, most_squeeze = 0.999;
+    constexpr double most_depth = 0.23;
     if (input.rest_angle != 0) return;
-    const double kappa = right_angle * input.radius / body_length;
-    const paper::Wave wave(profile, rest.folds.total, std::min(2 * kappa * input.max_scale, most_squeeze));
-    const double half_wave = rest.folds.wave_length(rest.length) / 2;
+    const Depth depth(body_length, rest, input.radius, profile);
     for (std::size_t i = 0; i < factors.size(); ++i) {
         const double z = rest.length * static_cast<double>(i) / static_cast<double>(factors.size() - 1);
-        const double scale = rest.shape ? rest.shape->scale(z) : 1;
-        const double amplitude = wave.column(std::min(2 * kappa * scale, most_squeeze)).amplitude * half_wave;
-        const double depth = profile.trough() * amplitude * (rest.shape ? rest.shape->depth(z) : 1);
-        if (depth > 0) factors[i] = std::min(factors[i], most_depth * scale * input.radius / depth);
+        const double scale = rest.shape ? rest.shape->scale(z) : 1, deep = depth(z);
+        if (deep > 0) factors[i] = std::min(factors[i], most_depth * scale * input.radius / deep);
     }
+}
+
+/// Whether nobody has said how long folds are to be.
+bool chooses_folds(const BindOptions& options) {
+    const std::vector<RegionOptions> regions = regions_of(options);
+    return !options.fold_length && std::ranges::none_of(regions, [](const RegionOptions& region) {
+        return region.folds.has_value();
+    });
+}
+
+/// Weighs what parts bear of the wrinkles of `regions`.
+void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> regions, Profile profile) {
+    std::vector<Depth> depths;
+    for (const RestRegion& region : regions)
+        depths.emplace_back(cylinder.length, region, cylinder.radius, profile);
+    parts.weigh([&](double z) {
+        const std::size_t r = region_at(regions, z);
+        return depths[r](z - regions[r].start);
+    });
 }
 
 /// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it.
@@ -357,14 +402,21 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     std::vector<RestRegion> places;
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
     const bool even = options.profile.kind == Profile::Kind::even;
-    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places);
+    std::shared_ptr<Parts> parts_found;
+    if (even && options.shape == ShapeMode::automatic && options.amplitude != Amplitude::area &&
+        chooses_folds(options)) {
+        parts_found = std::make_shared<Parts>(geometry, cylinder);
+        weigh(*parts_found, cylinder, places, options.profile);
+    }
+    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places, parts_found.get());
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
     const BindParts parts(options.progress);
     parts.draft.tell(1, 1);
     if (options.amplitude == paper::Amplitude::mesh) {
         if (even) {
             weigh_slices(body, geometry, options, draft->mesh, places, found, parts.weights);
-            draft.emplace(geometry, cylinder, options, onset, places);
+            if (parts_found) weigh(*parts_found, cylinder, places, options.profile);
+            draft.emplace(geometry, cylinder, options, onset, places, parts_found.get());
             body = make(cylinder, draft->regions, draft->mesh);
             parts.weighted_draft.tell(1, 1);
         }
@@ -387,7 +439,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
         body = make(cylinder, draft->regions, draft->mesh);
     }
     return {std::move(body), std::move(found),  std::move(draft->mesh.order), cylinder,
-            options.profile, options.amplitude, milliseconds_since(start)};
+            options.profile, options.amplitude, std::move(parts_found),       milliseconds_since(start)};
 }
 
 Binding bind_level(const Geometry& level, const Binding& rig) {
@@ -396,7 +448,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or does not have its regions; give what bind returned");
     const std::vector<RestRegion> places = rest_regions(rig);
-    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places);
+    RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places, rig.parts.get());
     apply_mask(level, rig.cylinder, mesh);
     const std::span<const bend::RegionInput> own = rig.body.region_inputs();
     std::vector<bend::RegionInput> regions(own.begin(), own.end());
@@ -408,8 +460,8 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
         found[i].folds_capacity = rows.folds(rig.profile, from, from + found[i].length);
     }
     bend::Body body = make(rig.cylinder, regions, mesh);
-    return {std::move(body), std::move(found), std::move(mesh.order),    rig.cylinder,
-            rig.profile,     rig.amplitude,    milliseconds_since(start)};
+    return {std::move(body), std::move(found), std::move(mesh.order),    rig.cylinder, rig.profile,
+            rig.amplitude,   rig.parts,        milliseconds_since(start)};
 }
 
 }  // namespace goffer::fit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
 
+#include "parts.hpp"
 #include "text.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
@@ -267,7 +268,7 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
 }
 
 RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
-                   std::span<const RestRegion> regions) {
+                   std::span<const RestRegion> regions, const Parts* parts) {
     const Straightening straightening(cylinder);
     const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening);
     RestMesh mesh;
@@ -277,6 +278,7 @@ RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Pr
     for (const std::uint32_t i : order) {
         const RestRegion& region = regions[region_at(regions, at[i].z)];
         mesh.vertices.push_back(rest_vertex(at[i], region, cylinder.radius, profile));
+        if (parts != nullptr) apply(parts->at(at[i]), mesh.vertices.back());
         mesh.normals.push_back(straightening.normal(glm::normalize(normals[i]), at[i]));
         if (geometry.tangents.empty()) continue;
         const glm::dvec3 tangent(geometry.tangents[i]);

@@ -134,8 +134,9 @@ struct RestMesh {
     std::vector<std::uint32_t> order;  ///< vertex i is the geometry's order[i]; empty: i
 };
 
-/// Returns the vertices without a mask. Throws Error where a vertex of a triangle lies beyond the ends.
+/// Returns the vertices without a mask. `parts`: what they bear of their wrinkles; null: all. Throws Error
+/// where a vertex of a triangle lies beyond the ends.
 [[nodiscard]] RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
-                                 std::span<const RestRegion> regions);
+                                 std::span<const RestRegion> regions, const Parts* parts);
 
 }  // namespace goffer::fit

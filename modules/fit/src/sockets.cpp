@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mask.hpp"
+#include "parts.hpp"
 #include "rest.hpp"
 #include "text.hpp"
 
@@ -21,6 +22,7 @@ bend::Socket placed(const Binding& binding, const paper::Cylindrical& at) {
     bend::Socket socket;
     socket.region = region_at(regions, at.z);
     socket.vertex = rest_vertex(at, regions[socket.region], binding.cylinder.radius, binding.profile);
+    if (binding.parts) apply(binding.parts->at(at), socket.vertex);
     return socket;
 }
 

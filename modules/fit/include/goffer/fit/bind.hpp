@@ -29,8 +29,9 @@ using Amplitude = paper::Amplitude;
 /// and tight troughs (even).
 using Profile = paper::Profile;
 
-/// What is taken for the base of a body: its own radius at each height where that is not the same throughout
-/// (automatic), or one radius (cylinder).
+/// What is taken for the base of a body: its own radius at each height where that is not the same throughout,
+/// and with default folds less of a wrinkle for thin parts beside the axis (automatic); or one radius, and
+/// all of it (cylinder).
 enum class ShapeMode { automatic, cylinder };
 
 /// A stretch of the body that may wrinkle, as shares of its length from base to tip: 0 <= first < last <= 1.
@@ -63,6 +64,7 @@ struct BindOptions {
     Profile profile = Profile::even;
     /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). Of a body that
     /// is bent at rest and has several regions, and with Amplitude::area, the base is a cylinder in any case.
+    /// See modules/paper/README.md, "Shaped bodies" and "Parts beside the axis".
     ShapeMode shape = ShapeMode::automatic;
     /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
     /// body; at an end that is not the body's own they fade within a fold and half a radius.
@@ -126,6 +128,8 @@ struct RegionBinding {
 /// Returns BindOptions::fold_length where nobody says: 0.75 for Profile::even, else 1.
 [[nodiscard]] double default_fold_length(Profile profile);
 
+class Parts;
+
 /// A body, and what was found on the way to it. bind_level() binds other meshes to the same cylinder, regions
 /// and tables: this is then their rig.
 struct Binding {
@@ -138,6 +142,8 @@ struct Binding {
     Cylinder cylinder;  ///< the base that the mesh was bound to, with its radii
     Profile profile = Profile::damped;
     Amplitude amplitude = Amplitude::paper;
+    /// What thin parts bear of their wrinkles, for bind_level() and sockets; null: all of it everywhere.
+    std::shared_ptr<const Parts> parts = {};
     double milliseconds = 0;  ///< what bind or bind_level took, by the wall clock
 
     /// `region` must be in range.

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "parts.hpp"
+
+#include "synthetic.hpp"
+
+#include <goffer/bend/job.hpp>
+#include <goffer/fit/bind.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+/// Parts of a body that are too thin for its wrinkles.
+
+namespace goffer {
+namespace {
+
+constexpr int columns = 24, rows = 400;
+constexpr double length = 10;
+
+/// A tube of radius 1 and, for 6 of its length, a thin one beside it.
+test::Solid tube_and_rod(double rod_radius, double distance) {
+    std::mt19937 random(5);
+    test::Recipe recipe{.columns = columns, .rows = rows, .length = length};
+    test::Solid solid = test::cylinder(recipe, random);
+    recipe.length = 6;
+    const test::Solid rod = test::cylinder(recipe, random);
+    const auto before = static_cast<std::uint32_t>(solid.positions.size());
+    for (const glm::vec3& p : rod.positions)
+        solid.positions.emplace_back(rod_radius * p.x + distance, rod_radius * p.y, p.z + 2);
+    for (const std::uint32_t vertex : rod.triangles) solid.triangles.push_back(before + vertex);
+    return solid;
+}
+
+fit::Cylinder base_of_tube() {
+    fit::Cylinder base = test::upright();
+    base.length = length;
+    return base;
+}
+
+/// How far wrinkles move the centers of rings of vertices at most, bent by a right angle: of the tube, and of
+/// the rod.
+struct Wobble {
+    double tube = 0, rod = 0;
+};
+
+Wobble wobble_of(const test::Solid& solid, const fit::Binding& binding) {
+    Wobble most;
+    for (const float direction : {0.0f, 1.5f, 3.14f}) {
+        std::vector<glm::vec3> wrinkled(solid.positions.size()), bare(wrinkled.size());
+        bend::DeformJob job{.body = &binding.body, .pose = {std::numbers::pi_v<float> / 2, direction}};
+        job.positions = interleaved<3>(&wrinkled[0].x, wrinkled.size());
+        bend::run(job);
+        job.wrinkle_weight = 0;
+        job.positions = interleaved<3>(&bare[0].x, bare.size());
+        bend::run(job);
+        for (std::size_t row = 0; row < 2 * (rows + 1); ++row) {
+            glm::dvec3 moved(0);
+            for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
+                moved += glm::dvec3(wrinkled[i] - bare[i]) / double{columns};
+            double& own = row < rows + 1 ? most.tube : most.rod;
+            own = std::max(own, glm::length(moved));
+        }
+    }
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("parts: a thin rod beside the body hardly wobbles, and the body wrinkles as it does alone") {
+    constexpr double radius = 0.15;
+    const test::Solid solid = tube_and_rod(radius, 1.5);
+    fit::BindOptions options;
+    const fit::Cylinder base = base_of_tube();
+    const Wobble own = wobble_of(solid, fit::bind(solid.geometry(), base, options));
+    options.shape = fit::ShapeMode::cylinder;
+    const Wobble whole = wobble_of(solid, fit::bind(solid.geometry(), base, options));
+    MESSAGE("rod ", own.rod / radius, " of its radius instead of ", whole.rod / radius, "; body ", own.tube,
+            " and ", whole.tube);
+    CHECK(whole.rod > radius);
+    CHECK(own.rod < 0.2 * radius);
+    CHECK(own.tube < 0.1);
+    CHECK(own.tube > 0.8 * whole.tube);
+}
+
+TEST_CASE("parts: a body that is one tube bears all of its wrinkles") {
+    std::mt19937 random(6);
+    const test::Solid solid = test::cylinder({.columns = 24, .rows = 200}, random);
+    fit::Parts parts(solid.geometry(), test::upright());
+    parts.weigh([](double) { return 0.2; });
+    CHECK(parts.sound());
+    CHECK(parts.at({0.3, 4, 1}).value == 1);
+}
+
+TEST_CASE("parts: deeper wrinkles weigh less, and weights change along the body as their slopes say") {
+    const test::Solid solid = tube_and_rod(0.15, 1.5);
+    fit::Parts parts(solid.geometry(), base_of_tube());
+    double last = 1;
+    for (const double depth : {0.05, 0.1, 0.2, 0.4}) {
+        parts.weigh([depth](double) { return depth; });
+        CHECK_FALSE(parts.sound());
+        const double far = parts.at({0, 5, 1.65}).value, near = parts.at({0, 5, 1.35}).value;
+        CHECK(far > 0);
+        CHECK(far <= last);
+        CHECK(near < 0);  // away from the rod's own center is toward the axis
+        last = far;
+        for (double z = 0.3; z < 9.8; z += 0.37) {
+            constexpr double step = 1e-5;
+            const auto value = [&](double up) { return parts.at({0.1, z + up, 1.62}).value; };
+            const double slope = (value(step) - value(-step)) / (2 * step);
+            CHECK(parts.at({0.1, z, 1.62}).slope == doctest::Approx(slope).epsilon(1e-4).scale(1));
+        }
+        CHECK(parts.at({std::numbers::pi, 5, 1}).value > 0.97);  // the tube's other side
+    }
+}
+
+TEST_CASE("parts: levels of one rig agree") {
+    const test::Solid solid = tube_and_rod(0.15, 1.5);
+    const fit::Binding rig = fit::bind(solid.geometry(), base_of_tube());
+    test::Solid level = solid;  // every other triangle
+    level.triangles.clear();
+    for (std::size_t t = 0; t + 2 < solid.triangles.size(); t += 6)
+        level.triangles.insert(level.triangles.end(),
+                               solid.triangles.begin() + static_cast<std::ptrdiff_t>(t),
+                               solid.triangles.begin() + static_cast<std::ptrdiff_t>(t + 3));
+    const fit::Binding coarse = fit::bind_level(level.geometry(), rig);
+    std::vector<glm::vec3> a(solid.positions.size()), b(a.size());
+    bend::DeformJob job{.body = &rig.body, .pose = {1.2f, 0.4f}};
+    job.positions = interleaved<3>(&a[0].x, a.size());
+    bend::run(job);
+    job.body = &coarse.body;
+    job.positions = interleaved<3>(&b[0].x, b.size());
+    bend::run(job);
+    CHECK(a == b);
+}
+
+TEST_CASE("parts: folds that were asked for are made as deep as they are, whatever the parts") {
+    const test::Solid solid = tube_and_rod(0.15, 1.5);
+    fit::BindOptions options;
+    options.folds = 13;
+    CHECK(fit::bind(solid.geometry(), base_of_tube(), options).parts == nullptr);
+    options = fit::BindOptions::as_in_paper();
+    CHECK(fit::bind(solid.geometry(), base_of_tube(), options).parts == nullptr);
+}
+
+}  // namespace goffer
