@@ -133,6 +133,32 @@ TEST_CASE("refine: at angle 0 the refined mesh comes back, its first vertices th
     CHECK(begins_with(out, mesh::load(folder / "coarse.ply"), 1e-5f));
 }
 
+TEST_CASE("refine: a hose of few sides gets columns where it gets rows, and no others") {
+    const Folder folder;
+    const auto triangles = [&](const std::string& sides, const Words& words) {
+        base(folder, "hose.ply", {"--columns", sides, "--rows", "2", "--caps"});
+        const json all = report(folder, Words{"bend", "hose.ply", "-o", "out.ply"} + words);
+        CHECK(all["warnings"] == json::array());
+        CHECK(open_edges(mesh::load(folder / "out.ply")) == 0);
+        return all["triangles"].get<int>();
+    };
+    // 13 folds of 8 rows
+    CHECK(triangles("6", {}) > 1.5 * 12 * 208);
+    CHECK(triangles("6", {}) < 2 * 12 * 208);
+    CHECK(triangles("12", {}) == 2 * 12 + 2 * 12 * (2 * 104 - 1));
+    CHECK(triangles("6", {"--folds", "0"}) == 24);
+
+    base(folder, "hose.ply", {"--columns", "6", "--rows", "2", "--caps"});
+    well(folder, {"refine", "hose.ply", "-o", "fine.ply"});
+    well(folder, {"bend", "hose.ply", "-o", "rest.ply", "--angle", "0"});
+    const mesh::Mesh fine = mesh::load(folder / "fine.ply");
+    CHECK(begins_with(mesh::load(folder / "rest.ply"), fine, 1e-5f));
+    CHECK(begins_with(fine, mesh::load(folder / "hose.ply"), 0));
+    const json again = report(folder, {"refine", "fine.ply", "-o", "same.ply", "--folds", "13"});
+    CHECK(again["refined"]["triangles_after"] == again["refined"]["triangles_before"]);
+    CHECK(bytes_of(folder / "same.ply") == bytes_of(folder / "fine.ply"));
+}
+
 TEST_CASE("refine: a coarse mesh keeps its area as the base does") {
     const Folder folder;
     coarse(folder, "128");

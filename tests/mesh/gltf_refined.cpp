@@ -307,3 +307,22 @@ TEST_CASE("gltf: wine_bottle.glb, refined, has no errors in Khronos' validator")
 TEST_CASE("gltf: WaterBottle.gltf, refined, has no errors in Khronos' validator") {
     check_model("WaterBottle.gltf", 1);
 }
+
+TEST_CASE("gltf: refined, vertices between new vertices are those of two refinements, joints and all") {
+    const Document document = skinned(weights);
+    const Mesh mesh = load_document(document), half = refined(mesh, halves(mesh).pieces());
+    const Document twice = opened(saved(refined(half, halves(half).pieces()), "twice.glb"));
+    const Document once = opened(saved(refined(mesh, quarters(mesh).pieces()), "once.glb"));
+    for (const std::string name : {"POSITION", "JOINTS_0", "WEIGHTS_0"}) {
+        CAPTURE(name);
+        const auto of = [&](Document made) { return values(made, primitive_of(made)["attributes"][name]); };
+        const std::vector<double> a = of(once), b = of(twice);
+        REQUIRE(a.size() == 34 * (name == "POSITION" ? 3u : 4u));
+        REQUIRE(a.size() == b.size());
+        double off = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+        CHECK(off <= (name == "WEIGHTS_0" ? 1e-7 : 0));  // rounded to floats between the two
+    }
+    const auto corners = [](Document made) { return values(made, primitive_of(made)["indices"]); };
+    CHECK(corners(once) == corners(twice));
+}

@@ -297,6 +297,39 @@ TEST_CASE("refined: WaterBottle.gltf, and its file holds what is there") {
     check_model("WaterBottle.gltf", 1);
 }
 
+TEST_CASE("refined: vertices between new vertices are those of two refinements, one after the other") {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float heat\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0 0 0 1\n1 0 0 0 0 80 2\n0 1 0 80 0 0 4\n0 0 8 160 0 240 8\n"
+        "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    const std::string loose = saved(without_its_file(load_text("box.obj", box)), "box.stl");
+    for (const auto& file : {std::pair{"box.obj", box}, {"t.ply", ply}, {"box.stl", loose}}) {
+        const std::string name = file.first, &text = file.second;
+        CAPTURE(name);
+        const Mesh mesh = load_text(name, text), half = refined(mesh, halves(mesh).pieces());
+        const Mesh twice = refined(half, halves(half).pieces());
+        const Mesh once = refined(mesh, quarters(mesh).pieces());
+        CHECK(once.source != nullptr);
+        CHECK(open_edges(once) == 0);
+        CHECK(once.faces == twice.faces);
+        CHECK(once.parts == twice.parts);
+        REQUIRE(once.corners.size() == twice.corners.size());
+        std::size_t other = 0;
+        for (std::size_t c = 0; c < once.corners.size(); ++c) {
+            const std::uint32_t a = once.corners[c], b = twice.corners[c];
+            other += once.positions[a] != twice.positions[b];
+            other += corner_value(once, once.normals, c) != corner_value(twice, twice.normals, c);
+            if (!once.colors.empty()) other += once.colors[a] != twice.colors[b];
+            for (std::size_t s = 0; s < once.uvs.size(); ++s)
+                other += corner_value(once, once.uvs[s], c) != corner_value(twice, twice.uvs[s], c);
+        }
+        CHECK(other == 0);
+        if (text == ply) CHECK(saved(once, "out.ply") == saved(twice, "out.ply"));
+    }
+}
+
 TEST_CASE("refined: pieces of another mesh are refused") {
     const Mesh mesh = without_source(load_text("box.obj", box));
     const MeshRecipe good = recipe(mesh, 2);
@@ -311,7 +344,9 @@ TEST_CASE("refined: pieces of another mesh are refused") {
     using R = MeshRecipe;
     CHECK(told([](R& r) { r.vertices[3].t = 1; }).find("new vertex 3 does not lie") != std::string::npos);
     CHECK(told([](R& r) { r.vertices[3].t = std::nan(""); }).find("new vertex 3") != std::string::npos);
-    CHECK(told([](R& r) { r.vertices[4].a = 8; }).find("new vertex 4") != std::string::npos);
+    CHECK(told([](R& r) { r.vertices[4].a = 12; }).find("new vertex 4") != std::string::npos);
+    // between new vertices of edges that no triangle has all of
+    CHECK(told([](R& r) { r.vertices[60] = {8, 8 + 45, 0.5}; }).find("new vertex 60") != std::string::npos);
     CHECK(told([](R& r) { r.made.triangles[5] = 7; }).find("piece 1: vertex 7") != std::string::npos);
     CHECK(told([](R& r) { r.made.triangles[5] = 128; }).find("piece 1: vertex 128") != std::string::npos);
     CHECK(told([](R& r) { r.made.triangles.pop_back(); }).find("corners for") != std::string::npos);

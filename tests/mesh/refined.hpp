@@ -44,6 +44,12 @@ inline mesh::Mesh refined_along(const mesh::Mesh& mesh, int axis, int folds = 1)
     return mesh::refined(mesh, recipe(mesh, axis, folds).pieces());
 }
 
+/// The mesh without the file that it came from, so that new vertices are behind all others.
+inline mesh::Mesh without_its_file(mesh::Mesh mesh) {
+    mesh.source = nullptr;
+    return mesh;
+}
+
 /// Cuts every edge in half, whatever the mesh; a triangle without three corners stays.
 inline MeshRecipe halves(const mesh::Mesh& mesh) {
     MeshRecipe recipe;
@@ -66,6 +72,19 @@ inline MeshRecipe halves(const mesh::Mesh& mesh) {
         recipe.made.parents.insert(recipe.made.parents.end(), pieces.size() / 3, t);
     }
     return recipe;
+}
+
+/// The same of the result: new vertices between new vertices. As one recipe for `mesh`.
+inline MeshRecipe quarters(const mesh::Mesh& mesh) {
+    MeshRecipe first = halves(mesh);
+    const MeshRecipe second = halves(mesh::refined(without_its_file(mesh), first.pieces()));
+    MeshRecipe all;
+    all.vertices = first.vertices;
+    all.vertices.insert(all.vertices.end(), second.vertices.begin(), second.vertices.end());
+    all.made.triangles = second.made.triangles;
+    for (const std::uint32_t parent : second.made.parents)
+        all.made.parents.push_back(first.made.parents[parent]);
+    return all;
 }
 
 /// How many edges run more often one way than the other, with vertices of the same position, bit for bit,

@@ -199,8 +199,9 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
     words.refine = usual;
     command
         .add_option("--refine", words.refine,
-                    "Add vertices along the body until its mesh carries the folds: off, on (also without a "
-                    "word), auto (where that takes no more than a million triangles) (default: " +
+                    "Add vertices along the body until its mesh carries the folds, and about it where it has "
+                    "few sides: off, on (also without a word), auto (where that takes no more than a million "
+                    "triangles) (default: " +
                         usual + ")")
         ->expected(0, 1)
         ->check(refine_word());

@@ -128,7 +128,8 @@ void report_growth(Report& report, const Growth& growth) {
 void add_refine(CLI::App& app, Action& action) {
     const auto options = std::make_shared<RefineOptions>();
     CLI::App* command = app.add_subcommand(
-        "refine", "Give a model the rows of vertices that its folds need, its shape unchanged");
+        "refine",
+        "Give a model the vertices that its folds need, along it and about it, its shape unchanged");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply or .stl")->required();
     command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
         ->required();

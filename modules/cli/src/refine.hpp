@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <functional>
 
-/// A model with as many rows as its folds need: `goffer refine`, and `--refine` of other commands.
+/// A model with the vertices that its folds need: `goffer refine`, and `--refine` of other commands.
 
 namespace goffer::cli {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "columns.hpp"
 #include "rest.hpp"
+#include "row_scale.hpp"
 #include "text.hpp"
 
 #include <goffer/fit/refine.hpp>
@@ -18,47 +20,8 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int max_folds = 1 << 20;                     // as folds_capacity
-constexpr double rows_per_stretch = 2 * rows_of_fold;  // folds per half length
+constexpr int max_folds = 1 << 20;    // as folds_capacity
 constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
-
-/// Heights counted in rows: a piecewise linear function, with its inverse.
-class RowScale {
-public:
-    explicit RowScale(std::span<const Stretch> stretches) {
-        double z = 0, row = 0;
-        for (const Stretch& stretch : stretches) {
-            const double rows = rows_per_stretch * stretch.folds;
-            pieces_.push_back({z, row, rows / stretch.length});
-            z += stretch.length;
-            row += rows;
-        }
-    }
-
-    [[nodiscard]] double row(double z) const {
-        const Piece& piece = last_before([z](const Piece& p) { return p.z <= z; });
-        return piece.row + (z - piece.z) * piece.rate;
-    }
-
-    /// The height of a row. All of a stretch without folds is one row, whose height is the upper end.
-    [[nodiscard]] double height(double row) const {
-        const Piece& piece = last_before([row](const Piece& p) { return p.row <= row && p.rate > 0; });
-        return piece.rate > 0 ? piece.z + (row - piece.row) / piece.rate : piece.z;
-    }
-
-private:
-    struct Piece {
-        double z, row, rate;
-    };
-
-    template <class Begun>
-    [[nodiscard]] const Piece& last_before(Begun begun) const {
-        const auto found = std::find_if(pieces_.rbegin(), pieces_.rend(), begun);
-        return found != pieces_.rend() ? *found : pieces_.front();
-    }
-
-    std::vector<Piece> pieces_;
-};
 
 struct Edge {
     std::uint32_t a, b;
@@ -299,13 +262,23 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
 }
 
 /// `arc` is that of Refiner's constructor.
-Refinement refined(const Geometry& geometry, std::span<const double> heights,
-                   std::span<const Stretch> stretches, const Straightening* arc,
-                   const RefineOptions& options) {
-    check_stretches(stretches);
+Refinement with_rows(const Geometry& geometry, std::span<const double> heights, const RowScale& scale,
+                     const Straightening* arc, const RefineOptions& options) {
     check_heights(heights, geometry.positions.size());
-    const RowScale scale(stretches);
     return Refiner(geometry, heights, scale, arc).run(options);
+}
+
+/// The same options for the first (0) or the second (1) half of the work.
+RefineOptions stage(const RefineOptions& options, int half) {
+    RefineOptions own = options;
+    if (options.progress)
+        own.progress = [&options, half](double share) { options.progress((half + share) / 2); };
+    return own;
+}
+
+RowScale scale_of(std::span<const Stretch> stretches) {
+    check_stretches(stretches);
+    return RowScale(stretches);
 }
 
 }  // namespace
@@ -349,16 +322,18 @@ std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& opt
 Refinement refine(const Geometry& geometry, std::span<const double> heights,
                   std::span<const Stretch> stretches, const RefineOptions& options) {
     check(geometry);
-    return refined(geometry, heights, stretches, nullptr, options);
+    return with_rows(geometry, heights, scale_of(stretches), nullptr, options);
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<const Stretch> stretches,
                   const RefineOptions& options) {
     check(geometry);
     check(cylinder);
+    const RowScale scale = scale_of(stretches);
     const Straightening arc(cylinder);
-    return refined(geometry, heights(geometry.positions, cylinder), stretches,
-                   cylinder.rest_angle != 0 ? &arc : nullptr, options);
+    Refinement rows = with_rows(geometry, heights(geometry.positions, cylinder), scale,
+                                cylinder.rest_angle != 0 ? &arc : nullptr, stage(options, 0));
+    return with_columns(geometry, cylinder, scale, std::move(rows), stage(options, 1));
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
@@ -371,7 +346,7 @@ std::vector<glm::vec3> refined_positions(std::span<const glm::vec3> positions, c
     std::vector<glm::vec3> all(positions.begin(), positions.end());
     all.reserve(positions.size() + refinement.vertices.size());
     for (const auto& [a, b, t] : refinement.vertices) {
-        const glm::dvec3 from = positions[a], to = positions[b];
+        const glm::dvec3 from = all[a], to = all[b];
         all.emplace_back(from + t * (to - from));
     }
     return all;

@@ -69,8 +69,8 @@ private:
     std::uint32_t next_face_ = 0;
 };
 
-/// Refines an attribute with an index per corner. Where both ends have a value there is a new one, which
-/// corners with the same two values share.
+/// Refines an attribute with an index per corner. Where both ends of an edge have a value there is a new one,
+/// which corners with the same two values share.
 template <class T, class Interpolate>
 class CornerMaker {
 public:
@@ -86,18 +86,43 @@ public:
     }
 
     void piece(std::size_t, std::size_t piece) {
-        for (const PieceCorner& corner : cut_.corners(piece)) out_.corners.push_back(value(corner));
+        const std::uint32_t parent = cut_.pieces().parents[piece];
+        if (parent != parent_) known_.clear();
+        parent_ = parent;
+        for (const std::uint32_t vertex : cut_.pieces().triangles.subspan(3 * piece, 3))
+            out_.corners.push_back(value(piece, vertex));
     }
 
 private:
-    std::uint32_t value(const PieceCorner& corner) {
-        const std::uint32_t a = was_.corners[corner.a], b = was_.corners[corner.b];
-        if (a == b) return a;
-        if (a == was_.none || b == was_.none) return was_.none;
+    /// The value that a vertex has in the triangle of a piece. New ones may lie between others, to any depth.
+    std::uint32_t value(std::size_t piece, std::uint32_t wanted) {
+        const auto old = static_cast<std::uint32_t>(cut_.mesh().positions.size());
+        open_.assign(1, wanted);
+        while (!open_.empty()) {
+            const std::uint32_t vertex = open_.back();
+            if (vertex < old) {
+                known_.try_emplace(vertex, was_.corners[cut_.corner(piece, vertex)]);
+            } else if (!known_.contains(vertex)) {
+                const EdgeVertex& edge = cut_.pieces().vertices[vertex - old];
+                const auto a = known_.find(edge.a), b = known_.find(edge.b);
+                if (a == known_.end()) open_.push_back(edge.a);
+                if (b == known_.end()) open_.push_back(edge.b);
+                if (a == known_.end() || b == known_.end()) continue;
+                known_.emplace(vertex, mixed({a->second, b->second, std::bit_cast<std::uint64_t>(edge.t)}));
+            }
+            open_.pop_back();
+        }
+        return known_.at(wanted);
+    }
+
+    std::uint32_t mixed(const Mix& mix) {
+        if (mix.a == mix.b) return mix.a;
+        if (mix.a == was_.none || mix.b == was_.none) return was_.none;
         const auto next = static_cast<std::uint32_t>(out_.values.size());
-        const auto [entry, is_new] =
-            made_.try_emplace(Mix{a, b, std::bit_cast<std::uint64_t>(corner.t)}, next);
-        if (is_new) out_.values.push_back(between_(was_.values[a], was_.values[b], corner.t));
+        const auto [entry, is_new] = made_.try_emplace(mix, next);
+        if (is_new)
+            out_.values.push_back(
+                between_(out_.values[mix.a], out_.values[mix.b], std::bit_cast<double>(mix.t)));
         return entry->second;
     }
 
@@ -106,6 +131,9 @@ private:
     Attribute<T> out_;
     Interpolate between_;
     std::unordered_map<Mix, std::uint32_t, MixHash> made_;
+    std::uint32_t parent_ = 0;
+    std::unordered_map<std::uint32_t, std::uint32_t> known_;  ///< values of vertices in the triangle parent_
+    std::vector<std::uint32_t> open_;                         ///< vertices whose value is to be found
 };
 
 template <class T, class F>
@@ -152,7 +180,7 @@ Cut::Cut(const Mesh& mesh, const Subdivision& pieces, Share share) : mesh_(mesh)
         triangles_.insert(triangles_.end(), own.begin(), own.end());
         first += size;
     }
-    check_vertices();
+    find_roots();
     share = share.part(0.2, 1, pieces.parents.size());
     const std::size_t triangles = triangles_.size() / 3;
     if (pieces.triangles.size() != 3 * pieces.parents.size())
@@ -173,40 +201,45 @@ Cut::Cut(const Mesh& mesh, const Subdivision& pieces, Share share) : mesh_(mesh)
     first_piece_.push_back(pieces.parents.size());
 }
 
-void Cut::check_vertices() const {
+Cut::Roots Cut::roots(std::uint32_t vertex) const {
     const std::size_t count = mesh_.positions.size();
-    if (count + pieces_.vertices.size() > Attribute<glm::vec3>::none)
-        refuse("there are more vertices than 32 bits can number");
-    for (std::size_t i = 0; i < pieces_.vertices.size(); ++i) {
-        const auto& [a, b, t] = pieces_.vertices[i];
-        if (a >= count || b >= count || a == b || !(t > 0 && t < 1))
-            refuse("new vertex " + std::to_string(i) + " does not lie between two of the mesh");
+    return vertex < count ? Roots{vertex, none, none} : roots_[vertex - count];
+}
+
+void Cut::find_roots() {
+    const std::size_t count = mesh_.positions.size();
+    if (count + pieces_.vertices.size() > none) refuse("there are more vertices than 32 bits can number");
+    roots_.reserve(pieces_.vertices.size());
+    for (const auto& [a, b, t] : pieces_.vertices) {
+        const auto refuse_it = [&](const char* why) {
+            refuse("new vertex " + std::to_string(roots_.size()) + " does not lie " + why);
+        };
+        const std::size_t made = count + roots_.size();
+        if (a >= made || b >= made || a == b || !(t > 0 && t < 1))
+            refuse_it("between two of the mesh or before it");
+        Roots own = roots(a);
+        for (const std::uint32_t root : roots(b)) {
+            if (root == none || std::ranges::find(own, root) != own.end()) continue;
+            const auto place = std::ranges::find(own, none);
+            if (place == own.end()) refuse_it("in a triangle");
+            *place = root;
+        }
+        roots_.push_back(own);
     }
 }
 
 void Cut::check_piece(std::size_t piece) const {
     const std::size_t* parent = &triangles_[3 * std::size_t{pieces_.parents[piece]}];
-    const auto in_parent = [&](std::uint32_t vertex) {
-        return std::any_of(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
+    const auto in_parent = [&](std::uint32_t root) {
+        return root == none ||
+               std::any_of(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == root; });
     };
     for (const std::uint32_t vertex : pieces_.triangles.subspan(3 * piece, 3)) {
-        const std::size_t next = vertex - mesh_.positions.size();
-        const bool old = vertex < mesh_.positions.size();
-        const bool fits = old ? in_parent(vertex)
-                              : next < pieces_.vertices.size() && in_parent(pieces_.vertices[next].a) &&
-                                    in_parent(pieces_.vertices[next].b);
-        if (!fits)
+        if (vertex >= mesh_.positions.size() + roots_.size() ||
+            !std::ranges::all_of(roots(vertex), in_parent))
             refuse("piece " + std::to_string(piece) + ": vertex " + std::to_string(vertex) +
                    " does not lie in triangle " + std::to_string(pieces_.parents[piece]));
     }
-}
-
-std::vector<glm::vec3> Cut::positions() const {
-    std::vector<glm::vec3> made;
-    made.reserve(pieces_.vertices.size());
-    for (const auto& [a, b, t] : pieces_.vertices)
-        made.push_back(linear(mesh_.positions[a], mesh_.positions[b], t));
-    return made;
 }
 
 bool Cut::is_cut(std::size_t triangle) const {
@@ -216,22 +249,9 @@ bool Cut::is_cut(std::size_t triangle) const {
            std::ranges::any_of(corners, [&](auto v) { return v >= mesh_.positions.size(); });
 }
 
-std::array<PieceCorner, 3> Cut::corners(std::size_t piece) const {
+std::size_t Cut::corner(std::size_t piece, std::uint32_t vertex) const {
     const std::size_t* parent = &triangles_[3 * std::size_t{pieces_.parents[piece]}];
-    const auto corner_of = [&](std::uint32_t vertex) {
-        return *std::find_if(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
-    };
-    std::array<PieceCorner, 3> out;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t vertex = pieces_.triangles[3 * piece + k];
-        if (vertex < mesh_.positions.size()) {
-            out[k] = {vertex, corner_of(vertex), corner_of(vertex), 0};
-        } else {
-            const auto& [a, b, t] = pieces_.vertices[vertex - mesh_.positions.size()];
-            out[k] = {vertex, corner_of(a), corner_of(b), t};
-        }
-    }
-    return out;
+    return *std::find_if(parent, parent + 3, [&](std::size_t c) { return mesh_.corners[c] == vertex; });
 }
 
 Mesh refined_alone(const Cut& cut, Share share) {

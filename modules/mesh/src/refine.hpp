@@ -18,14 +18,6 @@
 
 namespace goffer::mesh {
 
-/// A corner of a piece: a corner of the mesh, or a place between two corners of the same triangle.
-struct PieceCorner {
-    std::uint32_t vertex;  ///< of the refined mesh
-    std::size_t a, b;      ///< corners of the mesh; equal for a corner of the mesh
-    double t;              ///< 0 for a corner of the mesh
-    [[nodiscard]] bool is_old() const { return a == b; }
-};
-
 /// A mesh and its pieces, known to fit together. Refers to both, which must outlive it.
 class Cut {
 public:
@@ -35,16 +27,13 @@ public:
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Subdivision& pieces() const { return pieces_; }
 
-    /// The positions of the new vertices.
-    [[nodiscard]] std::vector<glm::vec3> positions() const;
-
     /// The first piece of a triangle; the last one is before that of the next triangle.
     [[nodiscard]] std::size_t first_piece(std::size_t triangle) const { return first_piece_[triangle]; }
 
     [[nodiscard]] bool is_cut(std::size_t triangle) const;
 
-    /// The corners of a piece, in the mesh's terms.
-    [[nodiscard]] std::array<PieceCorner, 3> corners(std::size_t piece) const;
+    /// The corner of the mesh that `vertex`, one of the mesh, has in the triangle that `piece` is of.
+    [[nodiscard]] std::size_t corner(std::size_t piece, std::uint32_t vertex) const;
 
     /// Calls visit.face(face, corner, size) for each face that stays, where `corner` is its first one in the
     /// mesh, and visit.piece(face, piece) for each piece of the others, in the order of the refined mesh.
@@ -64,11 +53,17 @@ public:
     }
 
 private:
-    void check_vertices() const;
+    /// The vertices of the mesh that a new one lies between, three at most; `none` stands for no more.
+    using Roots = std::array<std::uint32_t, 3>;
+    static constexpr std::uint32_t none = Attribute<glm::vec3>::none;
+
+    void find_roots();
+    [[nodiscard]] Roots roots(std::uint32_t vertex) const;
     void check_piece(std::size_t piece) const;
 
     const Mesh& mesh_;
     Subdivision pieces_;
+    std::vector<Roots> roots_;              ///< of each new vertex
     std::vector<std::size_t> triangles_;    ///< the mesh's corners of each triangle, 3 each
     std::vector<std::size_t> first_piece_;  ///< of each triangle, and the number of pieces
 };

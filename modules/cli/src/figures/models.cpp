@@ -53,7 +53,7 @@ std::string words(const Table& t) {
            " vertices; right by goffer&rsquo;s defaults (the body&rsquo;s own radii, even folds, " +
            "an amplitude that keeps the area of the mesh), on one of " +
            of(goffer, "vertices", Shown::whole) +
-           ". Both meshes were refined where folds needed rows. Bent by " +
+           ". Both meshes were refined where folds needed vertices. Bent by " +
            of(goffer, "angle_degrees", Shown::plain) + " degrees, the area changes by " +
            of(paper, "area_change", Shown::change) + " on the left and by " +
            of(goffer, "area_change", Shown::change) + " on the right; without wrinkles it would by " +

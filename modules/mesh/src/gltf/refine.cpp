@@ -120,14 +120,21 @@ void SceneRefiner::share_out() {
         blocks_.emplace_back().count = block.count;
     }
     const auto before = static_cast<std::uint32_t>(cut_.mesh().positions.size());
+    std::vector<std::size_t> block_of;  // of each new vertex
     for (std::uint32_t i = 0; i < cut_.pieces().vertices.size(); ++i) {
         const EdgeVertex& v = cut_.pieces().vertices[i];
-        const auto b = static_cast<std::size_t>(std::ranges::upper_bound(ends, v.a) - ends.begin());
-        const Block& block = scene_.blocks[b];
-        const auto first = static_cast<std::uint32_t>(block.first[position]);
-        in_block_.push_back(static_cast<std::uint32_t>(block.count + blocks_[b].vertices.size()));
-        blocks_[b].vertices.push_back({v.a - first, v.b - first, v.t});
+        const auto b = v.a < before
+                           ? static_cast<std::size_t>(std::ranges::upper_bound(ends, v.a) - ends.begin())
+                           : block_of[v.a - before];
+        const auto first = static_cast<std::uint32_t>(scene_.blocks[b].first[position]);
+        const auto number = [&](std::uint32_t end) {
+            return end < before ? end - first : in_block_[end - before];
+        };
+        const EdgeVertex own{number(v.a), number(v.b), v.t};
+        in_block_.push_back(static_cast<std::uint32_t>(blocks_[b].count + blocks_[b].vertices.size()));
+        blocks_[b].vertices.push_back(own);
         blocks_[b].number.push_back(before + i);
+        block_of.push_back(b);
     }
 }
 

@@ -123,22 +123,23 @@ private:
         if (property.role <= Role::z) return static_cast<double>(now_.positions[vertex][axis]);
         if (property.role <= Role::nz && !now_.normals.empty())
             return static_cast<double>(now_.normals.values[vertex][axis]);
-        const auto& [a, b, t] = cut_.pieces().vertices[vertex - numbers_.size()];
-        const double from = numbers_[a][p], to = numbers_[b][p];
+        const auto& [a, b, t] = cut_.pieces().vertices[vertex - vertex_->count];
+        const std::size_t width = vertex_->properties.size();
+        const double from = numbers_[a * width + p], to = numbers_[b * width + p];
         const bool smooth =
             !is_integer(property.type) || (property.role >= Role::red && property.role <= Role::alpha);
         return smooth ? from + t * (to - from) : t < 0.5 ? from : to;
     }
 
     void end_vertex() {
-        auto& numbers = numbers_.emplace_back();
-        for (const auto& [property, number] : row_) numbers.push_back(number);
-        if (numbers_.size() < vertex_->count) return;
+        for (const auto& [property, number] : row_) numbers_.push_back(number);
+        if (++vertices_ < vertex_->count) return;
         end_line();
-        for (std::size_t v = numbers_.size(); v < now_.positions.size(); ++v) {
+        for (std::size_t v = vertices_; v < now_.positions.size(); ++v) {
             for (std::size_t p = 0; p < vertex_->properties.size(); ++p) {
                 const Property& property = vertex_->properties[p];
-                append_number(body_, header_, property.type, new_number(property, p, v));
+                numbers_.push_back(new_number(property, p, v));
+                append_number(body_, header_, property.type, numbers_.back());
             }
             end_line();
             share_.at(v);
@@ -219,7 +220,8 @@ private:
     std::size_t refined_corner_ = 0, face_number_ = 0;
     std::uint64_t more_faces_ = 0;
     std::vector<std::pair<const Property*, double>> row_;  ///< values of the current row
-    std::vector<std::vector<double>> numbers_;             ///< the properties of each vertex
+    std::vector<double> numbers_;  ///< the properties of each vertex, one after another
+    std::size_t vertices_ = 0;     ///< how many of these are the mesh's
     const char* row_begin_;
     std::string body_;
 };

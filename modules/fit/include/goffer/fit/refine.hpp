@@ -13,26 +13,33 @@
 #include <span>
 #include <vector>
 
-/// Cuts edges that are long along the body's axis, so that a mesh can carry more folds. Offline: functions
-/// may allocate and throw.
+/// Cuts edges that are long along the body's axis, so that a mesh can carry more folds, and edges that are
+/// wide about it, so that a fold can follow a body of few sides around. Offline: functions may allocate and
+/// throw.
 ///
 /// A fold needs 8 rows of vertices. An edge that reaches over more than one row is cut into pieces of equal
 /// height, at most a row each, and every triangle with such an edge into pieces that reach over at most a
-/// row. Only the places of its two ends decide where an edge is cut, so that both triangles at it agree, even
+/// row. Of what comes of that, an edge is cut in half where a wrinkle that is linear along it would be off in
+/// its middle by more than 4.4 % of its depth: on the skin, where the edge spans more than 34 degrees. So a
+/// body of 11 equal sides or more gets no columns. Neither do edges near the axis, where wrinkles fade, those
+/// within a row of either end, as of a flat cap, and those in a stretch without folds.
+///
+/// Only the places of its two ends decide where an edge is cut, so that both triangles at it agree, even
 /// where vertices are duplicated along a seam: what was closed stays closed, and the surface at rest stays as
-/// it was. Nothing is cut around the circumference, no edge is flipped, and a mesh that has its rows comes
-/// back as it is.
+/// it was: sides are not rounded. No edge is flipped, and a mesh that has its rows and columns comes back as
+/// it is.
 ///
 /// This is not left to a library because meshes here may be soups, have seams and have edges with three
 /// triangles: CGAL and OpenMesh take manifolds, and meshoptimizer only simplifies.
 
 namespace goffer::fit {
 
-/// A new vertex on an edge of the mesh, at (1 - t) a + t b, 0 < t < 1. Every attribute is interpolated alike.
+/// A new vertex on an edge of the mesh or of its pieces, at (1 - t) a + t b, 0 < t < 1. Every attribute is
+/// interpolated alike.
 /// On a seam, where vertices of both sides stand at one place, both sides name the edge in the same direction
 /// and with the same t, to the last bit.
 struct EdgeVertex {
-    std::uint32_t a = 0, b = 0;  ///< vertices of the mesh; b lies higher
+    std::uint32_t a = 0, b = 0;  ///< vertices of the mesh, or new ones before this one
     double t = 0;
 };
 
@@ -75,16 +82,18 @@ public:
 
 /// Limits of a refinement, and who hears how far it is.
 struct RefineOptions {
-    std::size_t max_triangles = 50'000'000;  ///< of the refined mesh; more are a SizeError
+    /// Of the refined mesh: where rows take more, that is a SizeError; where columns do, there are none.
+    std::size_t max_triangles = 50'000'000;
     /// Called with the share that is done, 0 to 1, ascending, a few hundred times at most, from the calling
     /// thread; it must not throw. Empty: nobody is told.
     std::function<void(double)> progress = {};
 };
 
 /// Returns the refinement of `geometry` that gives it a folds_capacity() of at least `folds`, or one less
-/// where float rounds its positions by a thousandth of a row. Heights are those along `cylinder`'s axis or
-/// rest arc. Throws Error as check(geometry) and check(cylinder) do, and if `folds` is out of Stretch's range
-/// or the triangles are more than allowed. Thread-safe.
+/// where float rounds its positions by a thousandth of a row, and the columns that these need. Heights and
+/// directions are those about `cylinder`'s axis or rest arc. Throws Error as check(geometry) and
+/// check(cylinder) do, and if `folds` is out of Stretch's range or the triangles are more than allowed.
+/// Thread-safe.
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,
                                 const RefineOptions& options = {});
 
@@ -93,10 +102,10 @@ struct RefineOptions {
 [[nodiscard]] Refinement refine(const Geometry& geometry, const Cylinder& cylinder,
                                 std::span<const Stretch> stretches, const RefineOptions& options = {});
 
-/// The same with z given: heights[i] is z of vertex i, equal for vertices at one place. Along an edge it is
-/// taken to change evenly, as on a straight body. Throws Error as check(geometry) does, and if the heights
-/// are not one per vertex or not finite, there is no stretch, one is out of range, or the triangles are more
-/// than allowed. Thread-safe.
+/// The same with z given, and without columns: heights[i] is z of vertex i, equal for vertices at one place.
+/// Along an edge it is taken to change evenly, as on a straight body. Throws Error as check(geometry) does,
+/// and if the heights are not one per vertex or not finite, there is no stretch, one is out of range, or the
+/// triangles are more than allowed. Thread-safe.
 [[nodiscard]] Refinement refine(const Geometry& geometry, std::span<const double> heights,
                                 std::span<const Stretch> stretches, const RefineOptions& options = {});
 

@@ -16,11 +16,11 @@
 
 namespace goffer::mesh {
 
-/// A new vertex on an edge of the mesh, at (1 - t) a + t b, 0 < t < 1. On a seam, where both sides have
-/// vertices of their own, edges that are named in the same direction and with the same t get positions of the
-/// same bits.
+/// A new vertex on an edge of the mesh or of its pieces, at (1 - t) a + t b, 0 < t < 1. On a seam, where both
+/// sides have vertices of their own, edges that are named in the same direction and with the same t get
+/// positions of the same bits.
 struct EdgeVertex {
-    std::uint32_t a = 0, b = 0;  ///< vertices of the mesh
+    std::uint32_t a = 0, b = 0;  ///< vertices of the mesh, or new ones before this one, of one triangle
     double t = 0;
 };
 
