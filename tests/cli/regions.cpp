@@ -116,3 +116,28 @@ TEST_CASE("bend: amplitude mesh keeps the mesh's own area, and an onset costs so
     CHECK(gentle > plain);
     CHECK(gentle < 0.05);
 }
+
+TEST_CASE("bend: folds run on over joints, so that equal bends are one, or end at them") {
+    const Folder folder;
+    base(folder);
+    const Words parts{"--regions", "0.5,0.5", "--angles", "40,40", "--folds", "6,6", "--amplitude", "paper"};
+    const mesh::Mesh one = bent(folder, {"--angle", "80", "--folds", "12", "--amplitude", "paper"});
+    const mesh::Mesh over = bent(folder, parts);
+    const mesh::Mesh apart = bent(folder, parts + Words{"--joints", "apart"});
+    CHECK(farthest(one, over) < 2e-5);
+    CHECK(farthest(one, apart) > 0.05);
+    refused(folder, 2, {"bend", "base.ply", "-o", "x.ply", "--joints", "half"}, {"--joints"});
+}
+
+TEST_CASE("bend: more than a full turn is said to go through itself") {
+    const Folder folder;
+    base(folder, "base.ply", {"--length", "30"});
+    const auto beyond = [&](const Words& words) {
+        return report(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words)["beyond_full_turn"]
+            .get<bool>();
+    };
+    CHECK(beyond({"--angle", "365"}));
+    CHECK_FALSE(beyond({"--angle", "355"}));
+    CHECK(beyond({"--regions", "0.5,0.5", "--angles", "200,190"}));
+    CHECK_FALSE(beyond({"--regions", "0.5,0.5", "--angles", "200,-190"}));
+}

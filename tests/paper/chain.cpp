@@ -65,9 +65,7 @@ TEST_CASE("P9: a chain of one curvature whose folds run on is one region, wrinkl
     }
 }
 
-TEST_CASE(
-    "folds over joints: both sides of a joint meet, and so do normals where a cylinder has folds of one "
-    "length") {
+TEST_CASE("folds over joints: both sides of a joint meet, on a cylinder with their normals") {
     std::vector<Parameters> regions = joined({4, 3, 5, 3}, 0.7, 1);
     const std::vector<double> blends{0.2, 0.3, 0.1};
     for (const bool shaped : {false, true}) {

@@ -241,6 +241,7 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
     const bend::Body& body = binding.body;
     nlohmann::ordered_json poses, regions;
     bool clamped = false;
+    Curvature all{0, 0};
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const double limit = largest(body, i), asked = targets[i].angle;
         const bool all_the_way = std::isinf(asked);
@@ -248,6 +249,8 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
         const double used = beyond ? std::copysign(limit, asked) : asked;
         const RestPose rest = rest_pose(body, i);
         clamped = clamped || (beyond && !all_the_way);
+        const Curvature own = curvature(used, targets[i].direction);
+        all = {all.x + own.x, all.y + own.y};
         poses.push_back({{"angle", used},
                          {"direction", targets[i].direction},
                          {"rest_angle", rest.angle},
@@ -274,6 +277,9 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
     report.json["folds"] = binding.folds();
     report.json["regions"] = regions;
     report.json["clamped"] = clamped;
+    report.json["beyond_full_turn"] = std::hypot(all.x, all.y) > 360;
+    if (std::hypot(all.x, all.y) > 360)
+        report.line("note", "this is more than a full turn: parts of the body may go through each other");
     report_rest_pose(report, request, targets, body);
 }
 

@@ -37,8 +37,9 @@ constexpr void add_kernels(KernelSet& set) {
     add_kernels<L, records, squeeze, StreamSet::packed>(set);
     if constexpr (squeeze != Squeeze::none) {
         BlendKernel(&blending)[2] = set.blending[static_cast<unsigned char>(squeeze)];
-        blending[0] = &blend_wrinkles<L, squeeze, false>;
-        blending[1] = &blend_wrinkles<L, squeeze, true>;
+        using Single = typename L::Single;
+        blending[0] = &blend_wrinkles<Single, squeeze, false>;
+        blending[1] = &blend_wrinkles<Single, squeeze, true>;
     }
 }
 
