@@ -179,26 +179,37 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
 }
 
 /// Calls deform(input, begin, end) with what kernels are called with for the vertices [begin, end), one after
-/// the other, until all of [first, last) are deformed, which are of region `region`. Where wrinkles pass into
-/// those beyond a joint it is some vertices at a time. What begins or ends between `first` and `last` does so
-/// where lines do: wrinkles that no longer pass into others have the same bits either way.
+/// the other, until all of [first, last) are deformed, which are of region `region`.
 template <class Deform>
 void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                              std::size_t last, const Deform& deform) noexcept {
     const Joint &below = body_.details[region].below, &above = body_.details[region].above;
+    const std::size_t set = set_of(pass.pass);
+    const Squeeze squeeze = squeezes(member, set)[region];
+    if ((below.last > first || above.first < last) && squeeze != Squeeze::none) [[unlikely]]
+        return each_blended(member, pass, region, first, last, deform);
+    deform(KernelInput{&body_.columns, &coefficients(member, set)[region], squeeze, first}, first, last);
+}
+
+/// The same where some of the vertices are near joints: a few at a time. That begins and ends where lines do,
+/// if there is room between two joints, since vertices that are not near have the same bits either way.
+template <class Deform>
+void BatchRunner::each_blended(std::size_t member, const PassPlan& pass, std::size_t region,
+                               std::size_t first, std::size_t last, const Deform& deform) noexcept {
+    const Joint &below = body_.details[region].below, &above = body_.details[region].above;
     const Coefficients* const k = coefficients(member, set_of(pass.pass));
     const Squeeze* const squeeze = squeezes(member, set_of(pass.pass));
-    std::size_t below_end = first, above_begin = last;
-    if (squeeze[region] != Squeeze::none) {
-        if (below.last > first) below_end = std::min({line_behind(member, below.last), above.first, last});
-        if (above.first < last) above_begin = std::max(line_before(member, above.first), below_end);
-    }
+    const std::size_t below_end =
+        below.last > first ? std::min({line_behind(member, below.last), above.first, last}) : first;
+    const std::size_t above_begin =
+        above.first < last ? std::max(line_before(member, above.first), below_end) : last;
+    RestColumns columns;
     const auto blend = [&](const Joint& joint, std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t next = block_end(member, begin, end, BlendColumns::vertices);
             const bool in_lines = begin >= members_[member].peeled && line_before(member, begin) == begin;
             deform(blending_.blend(body_, kernels_, region, joint, {k, squeeze}, pass.streams, begin,
-                                   next - begin, in_lines),
+                                   next - begin, in_lines, columns),
                    begin, next);
             begin = next;
         }

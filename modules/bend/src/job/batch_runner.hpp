@@ -73,6 +73,9 @@ private:
     void each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                     std::size_t last, const Deform& deform) noexcept;
     template <class Deform>
+    void each_blended(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
+                      std::size_t last, const Deform& deform) noexcept;
+    template <class Deform>
     void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
                                          std::size_t last) const noexcept;

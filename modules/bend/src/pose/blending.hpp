@@ -22,20 +22,22 @@ struct PosedRegions {
     const Squeeze* squeezes;
 };
 
-/// Vertices near a joint, with their wrinkles, for kernels that add none. Lives on the stack; 9 KB.
+/// Vertices near a joint, with their wrinkles, for kernels that add none. Lives on the stack; 8 KB.
 class Blending {
 public:
     /// Wrinkles `count` vertices of region `r` from `first` on, at most BlendColumns::vertices. Those that
     /// are not near `joint` become what kernels make of them without it, bit for bit. `in_lines`: the kernel
-    /// will begin with a whole unit, or does not care for lines. The result is valid until the next call.
+    /// will begin with a whole unit, or does not care for lines. Sets `columns`, which the result refers to;
+    /// it is valid until the next call.
     [[nodiscard]] KernelInput blend(const BodyData& body, const KernelSet& kernels, std::size_t r,
                                     const Joint& joint, const PosedRegions& posed, StreamSet streams,
-                                    std::size_t first, std::size_t count, bool in_lines) noexcept;
+                                    std::size_t first, std::size_t count, bool in_lines,
+                                    RestColumns& columns) noexcept;
 
 private:
-    void set_columns(const RestColumns& rest, StreamSet streams, std::size_t first) noexcept;
+    void set_columns(const RestColumns& rest, StreamSet streams, std::size_t first,
+                     RestColumns& columns) const noexcept;
 
-    RestColumns columns_;
     Coefficients bare_;
     BlendColumns blended_;
 };
