@@ -46,7 +46,7 @@ void quantize(Coefficients& k, const Bounds& bounds) noexcept {
 
 }  // namespace
 
-static_assert(sizeof(BatchRunner) <= std::size_t{56} << 10, "crowd.hpp states how much stack a run takes");
+static_assert(sizeof(BatchRunner) <= std::size_t{52} << 10, "crowd.hpp states how much stack a run takes");
 
 BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
     : batch_(batch),

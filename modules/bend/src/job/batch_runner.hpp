@@ -18,7 +18,7 @@ namespace goffer::bend {
 /// Deforms instances of a batch. What all of them share (kernels, columns, outputs) is looked up once, when
 /// the runner is made. Instances are taken in groups, whose coefficients fit into the first-level cache. Each
 /// group is set up, and its vertices are deformed block by block: the rest columns of a block stay in that
-/// cache, too, while they serve the whole group. Lives on the stack and takes at most 56 KB.
+/// cache, too, while they serve the whole group. Lives on the stack and takes at most 52 KB.
 class BatchRunner {
 public:
     /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
