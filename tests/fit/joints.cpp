@@ -60,7 +60,8 @@ Change change_of(const TestChain& chain, bool over_joints) {
 
 }  // namespace
 
-TEST_CASE("folds over joints: chains keep their area, place by place, better than with folds that end at joints") {
+TEST_CASE(
+    "folds over joints: chains keep their area, place by place, better than with folds that end at joints") {
     const TestChain chains[] = {
         {"spiral", 30, {30, 50, 80, 110, 130, 130}, std::vector<float>(6, 0), 2.4},
         {"S", 20, {70, 70}, {0, 180}, 1.6},
@@ -68,8 +69,8 @@ TEST_CASE("folds over joints: chains keep their area, place by place, better tha
     };
     for (const TestChain& chain : chains) {
         const Change over = change_of(chain, true), apart = change_of(chain, false);
-        MESSAGE(std::string(chain.name), ": local ", over.local, " % (all ", over.whole, " %), folds that end at joints ",
-                apart.local, " % (", apart.whole, " %)");
+        MESSAGE(std::string(chain.name), ": local ", over.local, " % (all ", over.whole,
+                " %), folds that end at joints ", apart.local, " % (", apart.whole, " %)");
         CHECK(over.local < chain.most);
         CHECK(over.local < apart.local);
         CHECK(std::abs(over.whole) < 2);

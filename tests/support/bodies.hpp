@@ -183,10 +183,12 @@ inline bend::Body loose_body(Random& random, std::size_t count, double widest = 
 /// Lets wrinkles pass over some joints of `regions`, of length 1, and sorts the vertices as these ask for.
 inline void blend_some(Random& random, std::span<bend::RegionInput> regions,
                        std::span<bend::RestVertex> vertices) {
-    const auto relative = [](const bend::RegionInput& r) { return r.rest_angle != 0 || r.onset != 0; };
     for (std::size_t r = 0; r + 1 < regions.size(); ++r) {
-        if (random() % 3 == 0 || relative(regions[r]) != relative(regions[r + 1])) continue;
-        regions[r].blend = uniform(random, 0.01, 0.5);
+        const bend::RegionInput &own = regions[r], &next = regions[r + 1];
+        const bool same_arc = own.rest_angle == next.rest_angle && own.rest_direction == next.rest_direction;
+        const bool alike = (own.onset != 0) == (next.onset != 0) || own.rest_angle != 0;
+        if (random() % 3 == 0 || !same_arc || !alike) continue;
+        regions[r].blend = uniform(random, 0.1, 0.5);
         regions[r].blend_gain = uniform(random, 0.5, 2);
     }
     for (const bend::RegionInput& region : regions) {

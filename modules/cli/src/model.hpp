@@ -54,7 +54,8 @@ void add_load_words(CLI::App& command, mesh::LoadOptions& options);
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
 
 /// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --joints, --paper,
-/// --wrinkle-range, --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must outlive `command`.
+/// --wrinkle-range, --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must
+/// outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
 /// Adds --refine, which is `usual` where nobody says. `words` must outlive `command`.

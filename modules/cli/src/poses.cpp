@@ -277,8 +277,10 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
     report.json["folds"] = binding.folds();
     report.json["regions"] = regions;
     report.json["clamped"] = clamped;
-    report.json["beyond_full_turn"] = std::hypot(all.x, all.y) > 360;
-    if (std::hypot(all.x, all.y) > 360)
+    constexpr double full_turn = 360.001;  // with some room for rounding
+    const bool beyond = std::hypot(all.x, all.y) > full_turn;
+    report.json["beyond_full_turn"] = beyond;
+    if (beyond)
         report.line("note", "this is more than a full turn: parts of the body may go through each other");
     report_rest_pose(report, request, targets, body);
 }

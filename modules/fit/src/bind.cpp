@@ -293,10 +293,16 @@ void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> r
     });
 }
 
-/// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it.
-void meet(double& factor, double& next) {
+/// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it. None: 1.
+void meet(std::vector<double>& factors, std::vector<double>& next) {
     constexpr double least = 0.1;  // so that neither side's wrinkle is lost in the other's
-    factor = next = std::max((factor + next) / 2, least);
+    double* const sides[] = {factors.empty() ? nullptr : &factors.back(),
+                             next.empty() ? nullptr : &next.front()};
+    double sum = 0;
+    for (const double* side : sides) sum += side != nullptr ? *side : 1;
+    const bool both = sides[0] != nullptr && sides[1] != nullptr;
+    for (double* side : sides)
+        if (side != nullptr) *side = both ? std::max(sum / 2, least) : 1;
 }
 
 /// Gives each region the weights m(z) with which the slices of the mesh keep their area, as far as shallow
@@ -306,17 +312,21 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
                   const Share& share) {
     std::vector<double> heights;
     for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
-    std::vector<std::vector<double>> factors;
+    constexpr int least_folds =
+        4;  // of a region whose wave runs on: fewer have no room to change their depth
+    std::vector<std::vector<double>> factors(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-        factors.push_back(solve_weights(body, geometry, mesh.order, heights, i, places[i].folds.count,
-                                        share.step(i, places.size())));
+        const paper::FoldRange& folds = places[i].folds;
+        if (!folds.whole() && folds.count < least_folds) continue;
+        factors[i] =
+            solve_weights(body, geometry, mesh.order, heights, i, folds.count, share.step(i, places.size()));
         if (factors[i].empty() || options.fold_length || regions_of(options)[i].folds) continue;
         keep_shallow(body.length(), places[i], body.region_inputs()[i], options.profile, factors[i]);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (factors[i].empty()) continue;
-        if (places[i].blend != 0 && !factors[i + 1].empty()) meet(factors[i].back(), factors[i + 1].front());
-        places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors[i]);
+        if (places[i].blend != 0) meet(factors[i], factors[i + 1]);
+        if (!factors[i].empty())
+            places[i].shape = found[i].shape = weighted(places[i], body.radius(), factors[i]);
     }
 }
 
@@ -403,7 +413,9 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
     const bool even = options.profile.kind == Profile::Kind::even;
     std::shared_ptr<Parts> parts_found;
-    if (even && options.shape == ShapeMode::automatic && options.amplitude != Amplitude::area &&
+    const bool wrinkles =
+        std::ranges::any_of(places, [](const RestRegion& region) { return region.folds.count > 0; });
+    if (even && wrinkles && options.shape == ShapeMode::automatic && options.amplitude != Amplitude::area &&
         chooses_folds(options)) {
         parts_found = std::make_shared<Parts>(geometry, cylinder);
         weigh(*parts_found, cylinder, places, options.profile);

@@ -9,10 +9,10 @@
 
 namespace goffer::fit {
 
-/// Cuts edges that span too much of the circumference, where `scale` has folds. `refinement`: one of
-/// `geometry`, which is cut further. Throws SizeError.
+/// Cuts edges that span too much of the circumference, where `scale` has folds. `rows`: a refinement of
+/// `geometry`, which is cut further; it comes back as it is where columns would be more than
+/// options.max_triangles.
 [[nodiscard]] Refinement with_columns(const Geometry& geometry, const Cylinder& cylinder,
-                                      const RowScale& scale, Refinement refinement,
-                                      const RefineOptions& options);
+                                      const RowScale& scale, Refinement rows, const RefineOptions& options);
 
 }  // namespace goffer::fit

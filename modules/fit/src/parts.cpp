@@ -159,8 +159,11 @@ Parts::Parts(const Geometry& geometry, const Cylinder& cylinder)
             part.x /= length;
             part.y /= length;
             for (const Segment& s : outline)
-                part.radius += s.length / length * std::hypot(s.x - part.x, s.y - part.y);
-            part.moved = response(outline, length, cylinder.radius, part.x, part.y, part.radius);
+                part.radius +=
+                    s.length / length * std::hypot(s.x - part.x, s.y - part.y, s.length / std::sqrt(12.0));
+            part.radius = std::max(part.radius, 1e-9 * step_);
+            part.moved =
+                std::max(response(outline, length, cylinder.radius, part.x, part.y, part.radius), 1e-9);
             slices_[slice].push_back(part);
         });
     }
@@ -186,8 +189,7 @@ Parts::Near Parts::near(const std::vector<Part>& slice, double x, double y) cons
     constexpr double least = 0.01;  // as near as an outline itself
     Near sum;
     for (const Part& part : slice) {
-        const double radius = std::max(part.radius, 1e-9 * step_);
-        const double beyond = std::max(std::hypot(x - part.x, y - part.y) / radius - 1, 0.0);
+        const double beyond = std::max(std::hypot(x - part.x, y - part.y) / part.radius - 1, 0.0);
         const double root = least + beyond * beyond, share = 1 / (root * root);
         sum.weight += share * part.weight * outward(x, y, part.x, part.y, part.radius);
         sum.all += share;

@@ -13,7 +13,7 @@
 namespace goffer::fit {
 
 /// How much of its wrinkle each part of a body can bear. A base cylinder knows one radius at each height; a
-/// mesh may have a thin stem there, a leg beside the axis, a fin or hairs. A wrinkle moves what lies beside
+/// mesh may have a thin stem there, a leg beside the axis, or hairs. A wrinkle moves what lies beside
 /// the axis as a whole, so that a thin part would go to and fro by more than it is thick. Parts are what the
 /// cross-sections of the mesh fall into. A function of the place alone, so that all meshes of a rig agree. A
 /// plain value.
@@ -26,7 +26,7 @@ public:
     /// height, in the pose that parts are to bear; model units.
     void weigh(const std::function<double(double)>& depth);
 
-    /// Returns the weight of the wrinkle at a place, straightened: 0..1, and how it changes along z.
+    /// Returns the weight of the wrinkle at a place, straightened: -1..1, and how it changes along z.
     [[nodiscard]] MaskValue at(const paper::Cylindrical& place) const;
 
     /// Whether every part bears all of its wrinkle.

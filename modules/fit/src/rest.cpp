@@ -201,7 +201,10 @@ double blend_at_joint(const RestRegion& region, const RestRegion& next) {
     const auto quarter_fold = [](const RestRegion& r, double d) {
         return r.length / (4 * r.folds.count) * std::min(d, 1.0);
     };
-    const double blend = std::min(quarter_fold(region, depth), quarter_fold(next, next_depth));
+    const double own = quarter_fold(region, depth), other = quarter_fold(next, next_depth);
+    constexpr double most_ratio = 3;
+    if (std::max(own, other) > most_ratio * std::min(own, other)) return 0;
+    const double blend = std::min(own, other);
     return blend > least_share * std::max(region.length, next.length) ? blend : 0;
 }
 

@@ -39,7 +39,7 @@ bool runs_on(const FoldRange& folds, const FoldRange& next) {
 }  // namespace
 
 double share_of_neighbor(double distance, double blend) {
-    const double x = std::max(1 - distance / blend, 0.0);
+    const double x = std::clamp(1 - distance / blend, 0.0, 1.0);
     return x * x * (1.5 - x);
 }
 

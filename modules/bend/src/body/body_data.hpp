@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "body/joint.hpp"
 #include "body/layout.hpp"
 #include "kernel/args.hpp"
 
@@ -72,25 +73,13 @@ struct Bands {
     return region.radius == 0 ? body_radius : region.radius;
 }
 
-/// A joint of a region over which its wrinkles pass into those of a neighbor.
-struct Joint {
-    JointBlend blend = {};
-    std::size_t first = 0;  ///< the region's vertices [first, last) are near it; none: nothing passes
-    std::size_t last = 0;
-    std::size_t neighbor = 0;  ///< the region beyond it
-
-    [[nodiscard]] bool blends() const noexcept { return blend.per_height != 0; }
-    /// Whether a vertex of the region at height v = z / L - 1/2 is near it.
-    [[nodiscard]] bool nears(float v) const noexcept { return blend.at + blend.per_height * v > 0; }
-};
-
 /// What the frame path reads of a region, in addition to Region.
 struct RegionData {
     SetupRegion setup = {};                ///< its rows are those of the input's table
     Squeeze squeeze = Squeeze::none;       ///< what makes its wrinkles
     const FactorTable* factors = nullptr;  ///< the input's
     Bands bands;
-    Joint below, above;  ///< where the region begins, and where it ends
+    Joints joints;
 };
 
 struct BodyData {

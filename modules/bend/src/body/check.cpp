@@ -115,7 +115,7 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius, double max_scale) n
 Wrinkle wrinkle_beyond(const RegionInput& own, const RegionInput& neighbor, double gain,
                        double radius) noexcept {
     const double beyond = radius_of(neighbor, radius), scale = radius_of(own, radius) / beyond;
-    Wrinkle wrinkle = wrinkle_of(neighbor, beyond, std::max(neighbor.max_scale, own.max_scale * scale));
+    Wrinkle wrinkle = wrinkle_of(neighbor, beyond, neighbor.max_scale);
     wrinkle.depth *= gain;
     wrinkle.amplitude *= gain * std::pow(std::max(scale, 1.0), wrinkle_degree + 0.5);
     return wrinkle;
@@ -160,6 +160,15 @@ BodyFault check_counts(const BodyInput& input) noexcept {
     return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
 }
 
+/// Whether two regions are bent along the same arc at rest, as neighbors whose squeezes are compared must be.
+bool share_rest_arc(const RegionInput& a, const RegionInput& b) noexcept {
+    if (a.rest_angle == 0 && b.rest_angle == 0) return true;
+    constexpr double tolerance = 1e-6;
+    const double curvature = a.rest_angle / a.length, other = b.rest_angle / b.length;
+    return std::fabs(curvature - other) <= tolerance * curvature &&
+           std::fabs(a.rest_direction - b.rest_direction) <= tolerance && a.radius == b.radius;
+}
+
 /// Checks what region `r` says of its joint with the next one.
 BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     const RegionInput& own = input.regions[r];
@@ -173,7 +182,10 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
                  longest = std::max(own.length, next.length);
     const bool fits = own.blend >= least * longest && before + own.blend <= own.length * (1 + 1e-9) &&
                       own.blend + next.blend <= next.length * (1 + 1e-9);
-    const bool alike = compares_with_rest(own) == compares_with_rest(next);
+    const double radius = radius_of(own, input.radius), next_radius = radius_of(next, input.radius);
+    const bool similar = radius <= next_radius * Range::max_scale && next_radius <= radius * Range::max_scale;
+    const bool alike =
+        similar && compares_with_rest(own) == compares_with_rest(next) && share_rest_arc(own, next);
     if (!fits || !alike || own.table.empty() || next.table.empty()) return blend;
     const double most = Range::max_blend_gain;
     const Limited gain{BodyField::blend_gain, own.blend_gain, 1 / most, most};
@@ -183,36 +195,33 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     return below && above ? BodyFault{} : BodyFault{BodyField::blend_gain, Reason::out_of_range, r};
 }
 
-/// Whether a vertex is near the joint where its region begins, or ends.
-struct Near {
-    bool below, above;
-};
-
-/// Checks that vertices near joints are where kernels look for them.
-BodyFault check_order(std::span<const RestVertex> vertices, std::size_t first, const RegionInput& region,
-                      double blend_before) noexcept {
-    Near last{true, false};
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const double z = vertices[i].z;
-        const bool below = blend_before != 0 && z < blend_before;
-        const Near here{below, !below && region.blend != 0 && z > region.length - region.blend};
-        if ((here.below && !last.below) || (last.above && !here.above))
-            return {BodyField::vertices, Reason::out_of_range, first + i};
-        last = here;
+/// Checks that vertices near one joint of region `r` do not lie among those near the other, and are not too
+/// thick for the region beyond. `first`: of the region's vertices.
+BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first) noexcept {
+    const RegionInput& region = input.regions[r];
+    const auto [below, above] = joints_of(input.regions, r, input.radius);
+    if (!below.blends() && !above.blends()) return {};
+    bool beyond = false;
+    for (std::size_t i = first; i < first + region.vertex_count; ++i) {
+        const auto height = static_cast<float>(input.vertices[i].z / region.length - 0.5);
+        const bool low = below.blends() && below.nears(height), high = above.blends() && above.nears(height);
+        beyond = beyond || high;
+        if (beyond && low) return {BodyField::vertices, Reason::out_of_range, i};
+        const Joint& joint = low ? below : above;
+        const double max_scale = input.regions[joint.neighbor].max_scale;
+        if ((low || high) && !bears_scale(joint.blend, input.vertices[i].scale, max_scale))
+            return {BodyField::scale, Reason::out_of_range, i};
     }
     return {};
 }
 
 BodyFault check_vertices(const BodyInput& input) noexcept {
     std::size_t i = 0;
-    double blend_before = 0;
     for (const RegionInput& region : input.regions) {
         const auto r = static_cast<std::size_t>(&region - input.regions.data());
         const double radius = radius_of(region, input.radius);
         const double depth = deepest_wrinkle(input.regions, r, input.radius);
-        const std::span<const RestVertex> own = input.vertices.subspan(i, region.vertex_count);
-        if (const BodyFault fault = check_order(own, i, region, blend_before); !fault.none()) return fault;
-        blend_before = region.blend;
+        if (const BodyFault fault = check_order(input, r, i); !fault.none()) return fault;
         for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
             const BodyFault fault = check_vertex(input.vertices[i], i, region, radius, depth);
             if (!fault.none()) return fault;

@@ -49,10 +49,10 @@ Words words_of(BodyField field) noexcept {
             return {"regions", ".factors",
                     "no rows or two and more, of finite numbers, up to 1e-12 radians or more"};
         case BodyField::blend:
-            return {
-                "regions", ".blend",
-                "0, or a length with which both regions have room for their blends (1e-5 of each at "
-                "least), and two regions that wrinkle, either both with a rest angle or an onset or neither"};
+            return {"regions", ".blend",
+                    "0, or 1e-5 of both lengths and more, with room for it in both regions, which wrinkle "
+                    "and share "
+                    "onsets and rest arcs"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};
@@ -60,7 +60,7 @@ Words words_of(BodyField field) noexcept {
             return {"", "regions.vertex_count", "adding up to the number of vertices"};
         case BodyField::vertices:
             return {"vertices", "",
-                    "at least one, and those within a blend of a joint before or behind all others"};
+                    "at least one; those near one joint of a region before those near the other"};
         case BodyField::beta:
             return {"vertices", ".beta", "a number"};
         case BodyField::z:
@@ -75,7 +75,8 @@ Words words_of(BodyField field) noexcept {
             return {"vertices", ".slope",
                     "within 1e18, and such that the deepest wrinkle is no steeper than 1e6"};
         case BodyField::scale:
-            return {"vertices", ".scale", "0.001 to its region's max_scale"};
+            return {"vertices", ".scale",
+                    "0.001 to its region's max_scale, and near a joint to that of the region beyond"};
         case BodyField::scale_slope:
             return {"vertices", ".scale_slope", "within 1000 scale / length"};
         case BodyField::drift:

@@ -215,25 +215,21 @@ private:
     double depth_;
 };
 
-/// Checks that the vertices that are near joints, and no others, are where kernels look for them.
-BodyFault check_order(const BodyData& data, std::size_t r) noexcept {
-    const Joint &below = data.details[r].below, &above = data.details[r].above;
-    for (std::size_t i = data.regions[r].first; i < data.regions[r].last; ++i) {
-        const float v = data.columns.height[i];
-        const bool low = below.blends() && below.nears(v), high = !low && above.blends() && above.nears(v);
-        if (low != (i < below.last) || high != (i >= above.first))
-            return {BodyField::vertices, Reason::out_of_range, i};
-    }
-    return {};
-}
-
 }  // namespace
 
 BodyFault check_columns(const BodyData& data) noexcept {
     for (std::size_t r = 0; r < data.regions.size(); ++r) {
         const auto [first, last] = std::pair(data.regions[r].first, data.regions[r].last);
         if (first == last) continue;
-        if (const BodyFault order = check_order(data, r); !order.none()) return order;
+        Joints joints = data.details[r].joints;
+        if (!find_vertices(joints, data.columns, first, last))
+            return {BodyField::vertices, Reason::out_of_range, first};
+        for (const Joint& joint : {joints.below, joints.above}) {
+            const double max_scale = data.inputs[joint.neighbor].max_scale;
+            if (joint.first != joint.last &&
+                !bears_scale(joint.blend, static_cast<double>(joint.max_scale), max_scale))
+                return {BodyField::scale, Reason::out_of_range, joint.first};
+        }
         const double depth = deepest_wrinkle(data.inputs, r, data.radius);
         const BodyFault fault = Stretch(data, r, depth).check(first, last);
         if (!fault.none()) return fault;

@@ -183,7 +183,7 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
 template <class Deform>
 void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                              std::size_t last, const Deform& deform) noexcept {
-    const Joint &below = body_.details[region].below, &above = body_.details[region].above;
+    const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
     const std::size_t set = set_of(pass.pass);
     const Squeeze squeeze = squeezes(member, set)[region];
     if ((below.last > first || above.first < last) && squeeze != Squeeze::none) [[unlikely]]
@@ -196,7 +196,7 @@ void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size
 template <class Deform>
 void BatchRunner::each_blended(std::size_t member, const PassPlan& pass, std::size_t region,
                                std::size_t first, std::size_t last, const Deform& deform) noexcept {
-    const Joint &below = body_.details[region].below, &above = body_.details[region].above;
+    const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
     const Coefficients* const k = coefficients(member, set_of(pass.pass));
     const Squeeze* const squeeze = squeezes(member, set_of(pass.pass));
     const std::size_t below_end =

@@ -22,7 +22,9 @@ struct Share {
 template <class L>
 Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
     using Vec = typename L::Vec;
-    const Vec x = L::max(L::madd(L::splat(joint.per_height), height, L::splat(joint.at)), L::splat(0.0f));
+    // Without a fused operation, so that 0 is what Joint::nears() takes for it.
+    const Vec x =
+        L::clamp(L::splat(joint.per_height) * height + L::splat(joint.at), L::splat(0.0f), L::splat(1.0f));
     return {x * x * (L::splat(1.5f) - x), L::splat(3.0f * joint.per_length) * L::nmadd(x, x, x)};
 }
 
@@ -34,22 +36,6 @@ void set_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std
     } else {
         set_plain_wrinkle<L, squeeze, directions>(rest, k, b, i);
     }
-}
-
-/// The neighbor's coefficients as those of the region itself: for the radius about its vertices, and the
-/// depth of its wave.
-template <Squeeze squeeze>
-Coefficients scaled(const Coefficients& neighbor, const JointBlend& joint) {
-    Coefficients k = neighbor;
-    for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        k.amplitude[n] *= joint.gain[n];
-        k.amplitude_slope[n] *= joint.gain[n];
-    }
-    if constexpr (squeeze == Squeeze::relative) {
-        k.kappa_change *= joint.squeeze;
-        for (float& change : k.curl_change) change *= joint.squeeze;
-    }
-    return k;
 }
 
 template <class L>
@@ -68,7 +54,7 @@ GOFFER_FLATTENED void blend_wrinkles(const RestColumns& columns, const Coefficie
                                      std::size_t count, bool tangents, BlendColumns& out) {
     using Vec = typename L::Vec;
     const RestColumns rest = columns;
-    const Coefficients k = own, other_k = scaled<squeeze>(neighbor, joint);
+    const Coefficients k = own, other_k = neighbor;
     for (std::size_t at = 0; at < count; at += L::width) {
         const std::size_t j = at + L::width <= count ? at : count - L::width, i = first + j;
         Bent<L> b, other;

@@ -51,8 +51,9 @@ KernelInput Blending::blend(const BodyData& body, const KernelSet& kernels, std:
         in_lines ? (count + max_unit - 1) / max_unit * max_unit : count + max_unit - 1;
     const bool tangents = streams == StreamSet::positions_normals_tangents;
     const Squeeze squeeze = posed.squeezes[r];
-    kernels.blend_kernel(squeeze, streams)(body.columns, posed.k[r], posed.k[joint.neighbor], joint.blend,
-                                           first, computed, tangents, blended_);
+    const Coefficients neighbor = as_own(posed.k[joint.neighbor], joint.blend, squeeze == Squeeze::relative);
+    kernels.blend_kernel(squeeze, streams)(body.columns, posed.k[r], neighbor, joint.blend, first, computed,
+                                           tangents, blended_);
     set_columns(body.columns, streams, first, columns);
     if (squeeze == Squeeze::plain) return {&columns, &posed.k[r], Squeeze::none, 0};
     bare_ = without_wrinkles(posed.k[r]);

@@ -48,15 +48,15 @@ RestColumns rest_columns(const Body& body) noexcept {
 
 NeighborShare neighbor_share(const Body& body, std::size_t region, float height) noexcept {
     assert(region < body.region_count());
-    const RegionData& details = body.data()->details[region];
+    const auto& [below, above] = body.data()->details[region].joints;
     const auto share_of = [height](const Joint& joint, int neighbor) -> NeighborShare {
         const JointBlend& blend = joint.blend;
-        const float x = blend.at + blend.per_height * height;
+        const float x = std::min(blend.per_height * height + blend.at, 1.0f);
         return {neighbor, x * x * (1.5f - x), 3 * blend.per_length * (x - x * x), blend.gain[0],
                 blend.squeeze};
     };
-    if (details.below.blends() && details.below.nears(height)) return share_of(details.below, -1);
-    if (details.above.blends() && details.above.nears(height)) return share_of(details.above, 1);
+    if (below.blends() && below.nears(height)) return share_of(below, -1);
+    if (above.blends() && above.nears(height)) return share_of(above, 1);
     return {};
 }
 

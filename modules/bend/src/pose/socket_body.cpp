@@ -3,6 +3,7 @@
 #include <goffer/bend/sockets.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -12,7 +13,8 @@ std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> s
     std::vector<std::size_t> place(sockets.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
     std::ranges::stable_sort(place, {}, [&](std::size_t i) {  // by height too, as blends ask for
-        return std::pair(sockets[i].region, sockets[i].vertex.z);
+        const double z = sockets[i].vertex.z;
+        return std::pair(sockets[i].region, std::isnan(z) ? 0 : z);
     });
     std::vector<std::size_t> counts(body.region_count());
     std::vector<RestVertex> vertices;

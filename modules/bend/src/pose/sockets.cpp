@@ -56,7 +56,7 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
         }
     };
     for (std::size_t r = 0; r < body.regions.size(); ++r) {
-        const Joint &below = body.details[r].below, &above = body.details[r].above;
+        const Joint &below = body.details[r].joints.below, &above = body.details[r].joints.above;
         deform(r, &below, below.first, below.last);
         deform(r, nullptr, below.last, above.first);
         deform(r, &above, above.first, above.last);

@@ -30,11 +30,12 @@ struct RegionInput {
     double max_scale = 1;          ///< >= 1, largest RestVertex::scale of its vertices
     /// How far on both sides of the joint with the next region the wrinkles of both pass into each other,
     /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
-    /// table. The vertices of a region that are within that distance of a joint lie before all others at its
-    /// beginning, and behind all others at its end.
+    /// table, and are straight at rest or bent along one arc. Among a region's vertices, those within that
+    /// distance of the joint below come before those of the joint above; kernels are fastest if the former
+    /// come first of all and the latter last.
     double blend = 0;
-    double blend_gain =
-        1;  ///< the wave g of the next region over that of this one at the joint; used with a blend
+    /// The wave g of the next region over that of this one at the joint. Used with a blend.
+    double blend_gain = 1;
 
     [[nodiscard]] bool operator==(const RegionInput&) const = default;
 };

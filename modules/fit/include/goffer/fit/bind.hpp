@@ -75,8 +75,9 @@ struct BindOptions {
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions = {};
     /// Folds of Profile::even run on over the joints of regions that both wrinkle, and pass into each other
-    /// within half a fold of them, where they would else fade out. Has no effect with other profiles, and
-    /// with Amplitude::area. See modules/paper/README.md, "Folds over joints".
+    /// within a quarter of a fold on both sides, where they would else fade out; not where the folds of one
+    /// are more than three times as long as those of the other. Has no effect with other profiles, and with
+    /// Amplitude::area. See modules/paper/README.md, "Folds over joints".
     bool folds_over_joints = true;
     /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
     /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,
@@ -152,7 +153,8 @@ struct Binding {
 };
 
 /// Makes a body of `geometry` on `cylinder`, straight or bent at rest. A vertex belongs to the region that it
-/// stands in; within a region vertices keep the order that they have in the geometry (Binding::order).
+/// stands in; within a region those near joints that folds run over come first and last, and all else keeps
+/// the order that it has in the geometry (Binding::order).
 /// Normals and tangents are taken from the geometry, at unit length. Normals that it does not have, or that
 /// have no length, are made (make_normals); a tangent without length becomes a direction orthogonal to the
 /// normal. A vertex that no triangle uses and that lies beyond an end is bound at that end.

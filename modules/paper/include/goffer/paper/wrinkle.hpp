@@ -56,7 +56,7 @@ struct FoldRange {
     constexpr FoldRange(int own, int folds_before, int folds_in_all)
         : count(own), before(folds_before), total(folds_in_all) {}
 
-    [[nodiscard]] constexpr bool whole() const { return count == total; }
+    [[nodiscard]] constexpr bool whole() const { return before == 0 && count == total; }
 
     /// Returns where a place is in the wave, from -1 to 1, for one that has `share` of the region's folds
     /// before it.

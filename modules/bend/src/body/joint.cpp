@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "body/joint.hpp"
+
+#include "body/body_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace goffer::bend {
+namespace {
+
+/// `gain`: the neighbor's wave over the own one at the joint; `toward`: 1 where the region ends, -1 where it
+/// begins.
+JointBlend blend_between(const RegionInput& own, const RegionInput& neighbor, double radius, double blend,
+                         double gain, double toward) noexcept {
+    const double steps = own.length / blend;
+    const double scale = radius_of(own, radius) / radius_of(neighbor, radius);
+    JointBlend joint = {};
+    joint.at = static_cast<float>(1 - steps / 2);
+    joint.per_height = static_cast<float>(toward * steps);
+    joint.per_length = static_cast<float>(toward / blend);
+    joint.squeeze = static_cast<float>(scale);
+    // Squeezes that are relative have the radius about a vertex in them, others as a factor on T and its
+    // root.
+    const bool relative = compares_with_rest(own);
+    double factor = relative ? gain : gain * std::sqrt(scale);
+    for (float& term : joint.gain) {
+        term = static_cast<float>(factor);
+        if (!relative) factor *= scale;
+    }
+    return joint;
+}
+
+}  // namespace
+
+Joints joints_of(std::span<const RegionInput> regions, std::size_t r, double radius) noexcept {
+    Joints joints;
+    const RegionInput& own = regions[r];
+    if (r > 0 && regions[r - 1].blend != 0) {
+        const RegionInput& before = regions[r - 1];
+        joints.below.blend = blend_between(own, before, radius, before.blend, 1 / before.blend_gain, -1);
+        joints.below.neighbor = r - 1;
+    }
+    if (r + 1 < regions.size() && own.blend != 0) {
+        joints.above.blend = blend_between(own, regions[r + 1], radius, own.blend, own.blend_gain, 1);
+        joints.above.neighbor = r + 1;
+    }
+    return joints;
+}
+
+bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first, std::size_t last) noexcept {
+    auto& [below, above] = joints;
+    below.first = below.last = first;
+    above.first = above.last = last;
+    if (columns.scale != nullptr) below.max_scale = above.max_scale = 0;
+    for (std::size_t i = first; i < last && (below.blends() || above.blends()); ++i) {
+        for (Joint* joint : {&below, &above}) {
+            if (!joint->blends() || !joint->nears(columns.height[i])) continue;
+            if (joint == &below) below.last = i + 1;
+            if (joint == &above) above.first = std::min(above.first, i);
+            if (columns.scale != nullptr) joint->max_scale = std::max(joint->max_scale, columns.scale[i]);
+        }
+    }
+    const bool apart = below.last <= above.first;
+    if (!apart) above.first = below.last;
+    return apart;
+}
+
+Coefficients as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative) noexcept {
+    Coefficients k = neighbor;
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        k.amplitude[n] *= joint.gain[n];
+        k.amplitude_slope[n] *= joint.gain[n];
+    }
+    if (!relative) return k;
+    k.kappa_change *= joint.squeeze;
+    for (float& change : k.curl_change) change *= joint.squeeze;
+    return k;
+}
+
+}  // namespace goffer::bend
