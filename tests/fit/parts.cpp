@@ -59,7 +59,7 @@ Wobble wobble_of(const test::Solid& solid, const fit::Binding& binding) {
         job.wrinkle_weight = 0;
         job.positions = interleaved<3>(&bare[0].x, bare.size());
         bend::run(job);
-        for (std::size_t row = 0; row < 2 * (rows + 1); ++row) {
+        for (std::size_t row = 0; row < std::size_t{2} * (rows + 1); ++row) {
             glm::dvec3 moved(0);
             for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
                 moved += glm::dvec3(wrinkled[i] - bare[i]) / double{columns};

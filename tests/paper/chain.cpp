@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Regions of `folds` folds each, of one wave.
-std::vector<Parameters> joined(std::vector<int> folds, double fold_length, double radius) {
+std::vector<Parameters> joined(const std::vector<int>& folds, double fold_length, double radius) {
     std::vector<Parameters> regions;
     int total = 0, before = 0;
     for (const int count : folds) total += count;
