@@ -132,21 +132,7 @@ TEST_CASE("P9: with folds over joints, a chain of one curvature is one region, w
     parts.regions = {{0.25, 3}, {0.5, 6}, {0.25, 3}};
     const fit::Binding whole = fit::bind(test_mesh.geometry(), test_mesh.cylinder, one);
     const fit::Binding chain = fit::bind(test_mesh.geometry(), test_mesh.cylinder, parts);
-    const std::size_t count = test_mesh.positions.size();
-    Output a(count), b(count);
-    for (const Isa isa : isas_here()) {
-        for (const float angle : {0.01f, 1.0f, 3.0f}) {
-            const bend::Pose pose{angle, 0.7f};
-            const bend::Pose poses[] = {{0.25f * angle, 0.7f}, {0.5f * angle, 0.7f}, {0.25f * angle, 0.7f}};
-            bend::run(test::make_job(whole.body, pose, isa, a));
-            bend::run(make_job(chain.body, poses, isa, b));
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::size_t vertex = chain.order[i];
-                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 2e-6);
-                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 0.005);
-            }
-        }
-    }
+    check_is_one_region(whole, chain, 0.005);
 }
 
 TEST_CASE("P10: bounds and capsules hold folds over joints") {

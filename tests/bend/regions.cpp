@@ -64,21 +64,7 @@ TEST_CASE("P9: two regions of the same curvature and direction are one of the su
     two.regions = {{0.37, {}}, {0.63, {}}};
     const fit::Binding whole = fit::bind(test_mesh.geometry(), test_mesh.cylinder, one);
     const fit::Binding parts = fit::bind(test_mesh.geometry(), test_mesh.cylinder, two);
-    const std::size_t count = test_mesh.positions.size();
-    Output a(count), b(count);
-    for (const Isa isa : isas_here()) {
-        for (const float angle : {0.01f, 1.0f, 3.0f}) {
-            const bend::Pose pose{angle, 0.7f};
-            const bend::Pose poses[] = {{0.37f * angle, 0.7f}, {0.63f * angle, 0.7f}};
-            bend::run(test::make_job(whole.body, pose, isa, a));
-            bend::run(make_job(parts.body, poses, isa, b));
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::size_t vertex = parts.order[i];
-                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 2e-6);
-                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= 3e-4);
-            }
-        }
-    }
+    check_is_one_region(whole, parts, 3e-4);
 }
 
 TEST_CASE("regions meet: positions, and the tangent planes of the bare bend") {

@@ -51,4 +51,25 @@ inline void check_rest(const BoundCase& one) {
     }
 }
 
+/// Bends a body of one region, and a chain of the same mesh along the same arc: they must be the same.
+/// `direction`: what normals may be off by, degrees.
+inline void check_is_one_region(const fit::Binding& whole, const fit::Binding& chain, double direction) {
+    const std::size_t count = whole.body.vertex_count();
+    Output a(count), b(count);
+    for (const Isa isa : isas_here()) {
+        for (const float angle : {0.01f, 1.0f, 3.0f}) {
+            std::vector<bend::Pose> poses;
+            for (const fit::RegionBinding& region : chain.regions)
+                poses.push_back({static_cast<float>(region.length / chain.cylinder.length) * angle, 0.7f});
+            bend::run(make_job(whole.body, bend::Pose{angle, 0.7f}, isa, a));
+            bend::run(make_job(chain.body, poses, isa, b));
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t vertex = chain.order[i];
+                REQUIRE(glm::length(b.position(i) - a.position(vertex)) <= 2e-6);
+                REQUIRE(angle_between(b.normal(i), a.normal(vertex)) <= direction);
+            }
+        }
+    }
+}
+
 }  // namespace goffer::test

@@ -3,6 +3,8 @@
 
 #include <goffer/paper/shape.hpp>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -33,14 +35,10 @@ std::size_t knots_of(const Cylinder& cylinder, double length, const WrinkleRange
     return static_cast<std::size_t>(std::clamp(quarters, min_knots, max_knots)) + 1;
 }
 
-double smoothstep(double t) {
-    return t * t * (3 - 2 * t);
-}
-
 /// Full up to `full` radii, 0 from `longest` on; both a radius beyond what was asked for if that is longer.
 double fade_of(double radii, double asked) {
     const double excess = radii - std::max(asked - full, 0.0);
-    return smoothstep(std::clamp((longest - excess) / (longest - full), 0.0, 1.0));
+    return glm::smoothstep(longest, full, excess);
 }
 
 /// The weights of wrinkles in `range`: a spline reaches two knots beyond each of its values.
@@ -53,8 +51,7 @@ std::vector<double> window(const WrinkleRange& range, const Cylinder& cylinder, 
         double inside = cylinder.length;
         if (range.first > 0) inside = z - range.first * cylinder.length;
         if (range.last < 1) inside = std::min(inside, range.last * cylinder.length - z);
-        const double t = std::clamp((inside - 2 * step) / (in_radii * radii[i]), 0.0, 1.0);
-        weights.push_back(smoothstep(t));
+        weights.push_back(glm::smoothstep(0.0, 1.0, (inside - 2 * step) / (in_radii * radii[i])));
     }
     return weights;
 }

@@ -4,6 +4,8 @@
 #include "places.hpp"
 #include "rest.hpp"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,12 +76,6 @@ double outward(double x, double y, double center_x, double center_y, double radi
     const double rho = std::hypot(x, y), own = std::hypot(x - center_x, y - center_y);
     const double least = 0.25 * radius;  // below it a direction says little
     return rho > 0 ? ((x - center_x) * x + (y - center_y) * y) / (rho * std::max(own, least)) : 1;
-}
-
-/// From 0 up to x = 0 to 1 from x = 1/2 on.
-double smoothstep(double x) {
-    const double t = std::clamp(2 * x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
 }
 
 /// How far the center of an outline moves where the wrinkle of the inner line is 1 deep, in the direction of
@@ -176,7 +172,7 @@ void Parts::weigh(const std::function<double(double)>& depth) {
         for (Part& part : slices_[slice]) {
             part.weight = 1;
             if (!(deep > 0)) continue;
-            const double beside = smoothstep(std::hypot(part.x, part.y) / part.radius - 0.5);
+            const double beside = glm::smoothstep(0.5, 1.0, std::hypot(part.x, part.y) / part.radius);
             const double bearable = std::min(most_wobble / part.moved, most_depth / beside) * part.radius;
             part.weight = std::min(bearable / deep, 1.0);
             sound_ = sound_ && part.weight == 1 && std::hypot(part.x, part.y) < 0.5 * part.radius;

@@ -86,9 +86,9 @@ struct Wrinkle {
 /// For a relative squeeze, kernels evaluate a polynomial in q, whose coefficients are the row's divided by
 /// powers of kappa (taken as at least 1e-4). A row has an effect from the angle of the row before it on. q /
 /// kappa stays below 4.5, since a column that was shortened at rest is squeezed only where kappa is large.
-Wrinkle wrinkle_of(const RegionInput& region, double radius, double max_scale) noexcept {
+Wrinkle wrinkle_of(const RegionInput& region, double radius) noexcept {
     const bool relative = compares_with_rest(region);
-    const double per_angle = radius / region.length;
+    const double per_angle = radius / region.length, max_scale = region.max_scale;
     const double root = relative ? 1.1 : std::sqrt(2 * region.max_angle * per_angle * max_scale);
     const double step = max_scale * (relative ? 4.5 : 2), factor = max_factor(region.factors);
     const auto& rows = region.table.rows;
@@ -115,7 +115,7 @@ Wrinkle wrinkle_of(const RegionInput& region, double radius, double max_scale) n
 Wrinkle wrinkle_beyond(const RegionInput& own, const RegionInput& neighbor, double gain,
                        double radius) noexcept {
     const double beyond = radius_of(neighbor, radius), scale = radius_of(own, radius) / beyond;
-    Wrinkle wrinkle = wrinkle_of(neighbor, beyond, neighbor.max_scale);
+    Wrinkle wrinkle = wrinkle_of(neighbor, beyond);
     wrinkle.depth *= gain;
     wrinkle.amplitude *= gain * std::pow(std::max(scale, 1.0), wrinkle_degree + 0.5);
     return wrinkle;
@@ -145,8 +145,7 @@ BodyFault check_region(const RegionInput& region, std::size_t index, double body
     if (const Reason reason = check_table(region.factors); reason != Reason::none)
         return {BodyField::factors, reason, index};
     Reason reason = check_table(region.table);
-    if (reason == Reason::none && !wrinkle_fits(wrinkle_of(region, radius, region.max_scale)))
-        reason = Reason::out_of_range;
+    if (reason == Reason::none && !wrinkle_fits(wrinkle_of(region, radius))) reason = Reason::out_of_range;
     return reason == Reason::none ? BodyFault{} : BodyFault{BodyField::table, reason, index};
 }
 
@@ -280,7 +279,7 @@ BodyFault check_vectors(const BodyInput& input) noexcept {
 
 double deepest_wrinkle(std::span<const RegionInput> regions, std::size_t r, double radius) noexcept {
     const RegionInput& own = regions[r];
-    const double depth = wrinkle_of(own, radius_of(own, radius), own.max_scale).depth;
+    const double depth = wrinkle_of(own, radius_of(own, radius)).depth;
     double beyond = 0;
     if (r > 0 && regions[r - 1].blend != 0)
         beyond = wrinkle_beyond(own, regions[r - 1], 1 / regions[r - 1].blend_gain, radius).depth;
