@@ -49,7 +49,7 @@ public:
             const std::uint32_t own = root(from->from);
             const auto to =
                 std::find_if(from, segments_.end(), [&](const Segment& s) { return root(s.from) != own; });
-            visit(std::span(from, to));
+            visit(std::span<const Segment>(&*from, static_cast<std::size_t>(to - from)));
             from = to;
         }
     }
