@@ -256,13 +256,26 @@ TEST_CASE("P7: columns whose elements are too near to each other are named") {
     CHECK(told(after([](Crowd&, Batch& b) { b.previous_transforms.first.stride = 44; })) ==
           "previous_transform stride, batch 1");
     CHECK(told(after([](Crowd&, Batch& b) { b.transforms.first.stride = 48; })) == "none");
+    const auto after_layout = [](bend::TransformColumn::MatrixLayout layout, std::uint32_t stride) {
+        return told(after([&](Crowd&, Batch& b) {
+            b.transforms.layout = layout;
+            b.transforms.first.stride = stride;
+        }));
+    };
+    using enum bend::TransformColumn::MatrixLayout;
+    CHECK(after_layout(columns4, 48) == "transform stride, batch 1");  // the last one would be read beyond
+    CHECK(after_layout(columns4, 56) == "transform stride, batch 1");
+    CHECK(after_layout(columns4, 60) == "none");
+    CHECK(after_layout(rows4, 44) == "transform stride, batch 1");
+    CHECK(after_layout(rows4, 48) == "none");
     static_assert(sizeof(bend::Pose) == 8 && sizeof(glm::mat4x3) == 48, "as the words say");
     const auto words = [](const bend::Fault& fault) { return std::string(bend::describe(fault).c_str()); };
     CHECK(words(after([](Crowd&, Batch& b) { b.poses.stride = sizeof(bend::Pose); })) ==
           "batches[1].poses: an element is smaller than a pose (8 bytes) for each region of the body, which "
           "lie one after the other");
     CHECK(words(after([](Crowd&, Batch& b) { b.transforms.first.stride = 44; })) ==
-          "batches[1].transform: an element is smaller than a glm::mat4x3 (48 bytes)");
+          "batches[1].transform: an element is smaller than its matrix: 48 bytes, or 60 in the layout "
+          "columns4");
 }
 
 TEST_CASE("P7: columns that are not aligned to what they hold are named") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "job/check.hpp"
 
+#include "pose/matrix_layout.hpp"
 #include "pose/posed_group.hpp"
 
 #include <cmath>
@@ -181,12 +182,16 @@ Fault check_columns(const Batch& batch) noexcept {
     const bool previous = !batch.previous_positions.empty();
     if (previous && batch.previous_poses.empty()) return fault_of(Field::previous_poses, Reason::null);
     const std::size_t poses = batch.body->region_count() * sizeof(Pose);
-    constexpr std::size_t matrix = 12 * sizeof(float);
+    const auto matrix = [](const TransformColumn& column) {
+        return steps_of(column.layout).floats() * sizeof(float);
+    };
     columns.take(Field::poses, batch.poses, poses);
-    columns.take(Field::transform, batch.transforms.first, matrix);
+    columns.take(Field::transform, batch.transforms.first, matrix(batch.transforms));
     columns.take(Field::wrinkle_weight, batch.wrinkle_weights);
     if (previous) columns.take(Field::previous_poses, batch.previous_poses, poses);
-    if (previous) columns.take(Field::previous_transform, batch.previous_transforms.first, matrix);
+    if (previous)
+        columns.take(Field::previous_transform, batch.previous_transforms.first,
+                     matrix(batch.previous_transforms));
     columns.take(Field::visible, batch.visible);
     columns.take(Field::changed, batch.changed);
     columns.take(Field::update_intervals, batch.update_intervals);

@@ -2,6 +2,7 @@
 #include "job/batch_runner.hpp"
 #include "job/check.hpp"
 #include "kernel/kernels.hpp"
+#include "pose/matrix_layout.hpp"
 
 #include <goffer/bend/crowd.hpp>
 #include <goffer/engine/parallel.hpp>
@@ -191,11 +192,11 @@ Batch batch_of(const DeformJob& job) noexcept {
 
 glm::mat4x3 TransformColumn::operator[](std::size_t index) const noexcept {
     const float* from = first.at(index);
-    const int column = layout == MatrixLayout::columns3 ? 3 : layout == MatrixLayout::columns4 ? 4 : 1;
-    const int row = layout == MatrixLayout::rows4 ? 4 : 1;
+    const MatrixSteps steps = steps_of(layout);
     glm::mat4x3 matrix;
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 3; ++r) matrix[c][r] = from[c * column + r * row];
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t r = 0; r < 3; ++r)
+            matrix[static_cast<int>(c)][static_cast<int>(r)] = from[c * steps.column + r * steps.row];
     }
     return matrix;
 }

@@ -65,7 +65,8 @@ std::string_view reason_of_count(Field field) noexcept {
     return field == Field::poses || field == Field::previous_poses
                ? "not one per region of the body, for every instance (a single pose is for a body of one "
                  "region)"
-               : "fewer elements than instances, or than the indices ask for";
+           : field == Field::indices ? "not one for each instance"
+                                     : "fewer elements than instances, or than the indices ask for";
 }
 
 std::string_view reason_of_stride(Field field) noexcept {
@@ -76,7 +77,13 @@ std::string_view reason_of_stride(Field field) noexcept {
                    "after the other";
         case Field::transform:
         case Field::previous_transform:
-            return "an element is smaller than a glm::mat4x3 (48 bytes)";
+            return "an element is smaller than its matrix: 48 bytes, or 60 in the layout columns4";
+        case Field::wrinkle_weight:
+        case Field::visible:
+        case Field::changed:
+        case Field::update_intervals:
+        case Field::vertex_offsets:
+            return "elements are nearer to each other than the size of one";
         default:
             return "the stride is not a multiple of 4, or below what one vertex takes";
     }

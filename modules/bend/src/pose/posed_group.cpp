@@ -2,6 +2,7 @@
 #include "pose/posed_group.hpp"
 
 #include "body/direction.hpp"
+#include "pose/matrix_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,10 @@ float usable_weight(float weight) noexcept {
 /// Copies a matrix into lane `i`, column after column.
 void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
                     std::size_t i) noexcept {
-    using MatrixLayout = TransformColumn::MatrixLayout;
     const float* const from = transforms.first.at(element);
-    std::size_t column = 3, row = 1;
-    if (transforms.layout == MatrixLayout::columns4) column = 4;
-    if (transforms.layout == MatrixLayout::rows4) column = 1, row = 4;
+    const MatrixSteps steps = steps_of(transforms.layout);
     for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t r = 0; r < 3; ++r) columns[3 * c + r][i] = from[column * c + row * r];
+        for (std::size_t r = 0; r < 3; ++r) columns[3 * c + r][i] = from[c * steps.column + r * steps.row];
     }
 }
 

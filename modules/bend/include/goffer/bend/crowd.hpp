@@ -33,7 +33,7 @@ struct TransformColumn {
     /// How the matrix that takes column vectors to the outputs' space lies in memory.
     enum class MatrixLayout : std::uint8_t {
         columns3,  ///< four columns of 3 floats: glm::mat4x3
-        columns4,  ///< four columns of 4 floats, the fourth not read: glm::mat4
+        columns4,  ///< four columns of 4 floats: glm::mat4; the last float is not read
         rows4,     ///< three rows of 4 floats: the usual instance buffer of a GPU
     };
 
@@ -44,7 +44,7 @@ struct TransformColumn {
     TransformColumn() = default;
     TransformColumn(StridedView<float> view, MatrixLayout how) : first(view), layout(how) {}
     TransformColumn(const StridedView<glm::mat4x3>& view) : first(floats(view)) {}
-    /// Of glm::mat4, whose header, glm/mat4x4.hpp, is the caller's to include.
+    /// From glm::mat4; include glm/mat4x4.hpp for it.
     template <glm::qualifier Q>
     TransformColumn(const StridedView<glm::mat<4, 4, float, Q>>& view)
         : first(floats(view)), layout(MatrixLayout::columns4) {}
