@@ -178,8 +178,14 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
               o.profile = Profile::damped;
               o.folds = 65;
           }).find("folds: 65 is outside 0..64") != std::string::npos);
-    CHECK(refused([](TestMesh&, Options& o) { o.profile.roundness = 0.6; }).find("roundness") !=
-          std::string::npos);
+    for (const double bad : {-0.1, 0.6, std::nan("")}) {
+        const auto rounded = [&](TestMesh&, Options& o) { o.profile.roundness = bad; };
+        CHECK(refused(rounded).find("roundness") == 0);
+        CHECK(refused([&](TestMesh& mesh, Options& o) {
+                  mesh = random_mesh(random, 10, 1, 12, 161, 0);  // with rows for folds by itself
+                  rounded(mesh, o);
+              }).find("roundness") == 0);
+    }
     for (const double bad : {0.0, 1e-300, 1e300, HUGE_VAL})
         CHECK(refused([&](TestMesh&, Options& o) { o.fold_length = bad; }).find("fold_length") == 0);
     CHECK(refused([](TestMesh& s, Options&) { s.cylinder.radii = {1}; }).find("radii") != std::string::npos);

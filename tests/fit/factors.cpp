@@ -311,4 +311,8 @@ TEST_CASE("bind tells how far it is, and is not changed by that") {
         CHECK(heard.body.max_angle(r) == unheard.body.max_angle(r));
         CHECK(heard.body.region_inputs()[r].factors.rows == unheard.body.region_inputs()[r].factors.rows);
     }
+    options.amplitude = paper::Amplitude::paper;
+    shares.clear();
+    (void)fit::bind(solid.geometry(), cylinder, options);
+    CHECK(shares.back() == 1);
 }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,17 @@ TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one no
     for (std::size_t i = 0; i < count; ++i)
         worst = std::max(worst, double{glm::distance(result.normals[i], result.normals[count + i])});
     CHECK(worst < 1e-6);
+}
+
+TEST_CASE("a socket near a surface without area is refused") {
+    const Solid solid = fine_tube();
+    const fit::Binding binding = fit::bind(solid.geometry(), upright());
+    fit::Geometry flat = solid.geometry();
+    const std::vector<std::uint32_t> slivers{0, 0, 1, 2, 2, 2};
+    for (const std::span<const std::uint32_t> none : {std::span<const std::uint32_t>(), std::span(slivers)}) {
+        flat.triangles = none;
+        CHECK_THROWS_AS((void)fit::socket_near(binding, flat, {0, 0, 1}), fit::Error);
+    }
 }
 
 TEST_CASE("wrinkle mask: a socket goes where its place on the mesh goes") {

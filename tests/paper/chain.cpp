@@ -139,6 +139,10 @@ TEST_CASE("folds over joints: what cannot be is refused") {
     changed[1].folds = {3, 13, 15};
     refused(changed, {});
     changed = regions;
+    changed[1].shape = std::make_shared<const Shape>(changed[1].length, changed[1].radius,
+                                                     Shape::Knots{.weight = {0, 0, 0, 0}});
+    refused(changed, {0.1, 0.1, 0.1});
+    changed = regions;
     changed[1].profile = Profile::smooth;
     refused(changed, {});
     changed = regions;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "depth.hpp"
+
 #include <goffer/fit/base.hpp>
-#include <goffer/paper/wave.hpp>
+#include <goffer/paper/wrinkle.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,25 +44,15 @@ std::optional<double> base_area_change(const Binding& binding, std::span<const d
 }
 
 double wrinkle_depth(const Binding& binding, std::size_t region, double angle) {
-    const double length = binding.regions[region].length;
-    const paper::FoldRange folds = binding.regions[region].wave;
-    if (folds.count == 0) return 0;
-    const double wave_length = folds.wave_length(length);
-    constexpr double most = 0.999;  // of eq 7's domain; the largest angle is below it
-    const auto& shape = binding.regions[region].shape;
-    const double radius = shape ? shape->radius() : binding.cylinder.radius;
-    const double per_scale = 2 * std::fabs(angle) * radius / length;
-    const double trough = binding.profile.trough();
-    if (!shape)
-        return trough *
-               paper::amplitude(binding.profile, folds.total, wave_length, std::min(per_scale, most));
-    const paper::Wave wave(binding.profile, folds.total, std::min(per_scale * shape->max_scale(), most));
+    const RestRegion place = rest_regions(binding)[region];
+    const double radius = place.shape ? place.shape->radius() : binding.cylinder.radius;
+    const WrinkleDepth depth(place, radius, binding.profile, angle, place.length);
+    if (!place.shape) return depth(0);
     constexpr int slices = 64;
     double deepest = 0;
     for (int i = 0; i <= slices; ++i) {
-        const double z = length * i / slices, scale = shape->scale(z);
-        const double amplitude = wave.column(std::min(per_scale * scale, most)).amplitude * wave_length / 2;
-        deepest = std::max(deepest, trough * amplitude * shape->depth(z) / scale);
+        const double z = place.length * i / slices;
+        deepest = std::max(deepest, depth(z) / place.shape->scale(z));
     }
     return deepest * binding.cylinder.radius / radius;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "depth.hpp"
 #include "factors.hpp"
 #include "girths.hpp"
 #include "mask.hpp"
@@ -35,6 +36,7 @@ void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
     if (!(onset >= 0 && onset <= 1))
         throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
     check(options.wrinkle_range);
+    fit::check(options.profile);
     const bool whole = options.wrinkle_range.whole();
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +
@@ -230,34 +232,7 @@ struct Draft {
     }
 };
 
-/// How deep a region wrinkles in a body that is bent by a right angle.
-class Depth {
-public:
-    /// `radius`: of the base, where the region has no shape.
-    Depth(double body_length, const RestRegion& rest, double radius, Profile profile)
-        : shape_(rest.shape.get()),
-          kappa_(right_angle * (shape_ != nullptr ? shape_->radius() : radius) / body_length),
-          half_wave_(profile.trough() * rest.folds.wave_length(rest.length) / 2) {
-        const double max_scale = shape_ != nullptr ? shape_->max_scale() : 1;
-        if (rest.folds.count > 0)
-            wave_.emplace(profile, rest.folds.total, std::min(2 * kappa_ * max_scale, most_squeeze));
-    }
-
-    /// At height z of the region, model units.
-    [[nodiscard]] double operator()(double z) const {
-        if (!wave_) return 0;
-        const double scale = shape_ != nullptr ? shape_->scale(z) : 1;
-        const double amplitude = wave_->column(std::min(2 * kappa_ * scale, most_squeeze)).amplitude;
-        return half_wave_ * amplitude * (shape_ != nullptr ? shape_->depth(z) : 1);
-    }
-
-private:
-    static constexpr double right_angle = std::numbers::pi / 2, most_squeeze = 0.999;
-
-    const paper::Shape* shape_;
-    double kappa_, half_wave_;
-    std::optional<paper::Wave> wave_;
-};
+constexpr double right_angle = std::numbers::pi / 2;
 
 /// Lowers factors on a region's wrinkle, at equal steps from end to end, so that in a body that is bent by a
 /// right angle it is nowhere deeper than a share of the radius there. Of one that is bent at rest, none is
@@ -266,7 +241,7 @@ void keep_shallow(double body_length, const RestRegion& rest, const bend::Region
                   std::vector<double>& factors) {
     constexpr double most_depth = 0.23;
     if (input.rest_angle != 0) return;
-    const Depth depth(body_length, rest, input.radius, profile);
+    const WrinkleDepth depth(rest, input.radius, profile, right_angle, body_length);
     for (std::size_t i = 0; i < factors.size(); ++i) {
         const double z = rest.length * static_cast<double>(i) / static_cast<double>(factors.size() - 1);
         const double scale = rest.shape ? rest.shape->scale(z) : 1, deep = depth(z);
@@ -284,9 +259,9 @@ bool chooses_folds(const BindOptions& options) {
 
 /// Weighs what parts bear of the wrinkles of `regions`.
 void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> regions, Profile profile) {
-    std::vector<Depth> depths;
+    std::vector<WrinkleDepth> depths;
     for (const RestRegion& region : regions)
-        depths.emplace_back(cylinder.length, region, cylinder.radius, profile);
+        depths.emplace_back(region, cylinder.radius, profile, right_angle, cylinder.length);
     parts.weigh([&](double z) {
         const std::size_t r = region_at(regions, z);
         return depths[r](z - regions[r].start);
@@ -334,8 +309,8 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
 struct BindParts {
     Share draft, weights, weighted_draft, factors;
 
-    explicit BindParts(const std::function<void(double)>& listener)
-        : draft(listener, 0, 0.15),
+    BindParts(const std::function<void(double)>& listener, Amplitude amplitude)
+        : draft(listener, 0, amplitude == Amplitude::mesh ? 0.15 : 1),
           weights(listener, 0.15, 0.35),
           weighted_draft(listener, 0.35, 0.45),
           factors(listener, 0.45, 1) {}
@@ -422,7 +397,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     }
     std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places, parts_found.get());
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
-    const BindParts parts(options.progress);
+    const BindParts parts(options.progress, options.amplitude);
     parts.draft.tell(1, 1);
     if (options.amplitude == paper::Amplitude::mesh) {
         if (even) {

@@ -37,10 +37,6 @@ struct Piece {
     std::array<int, 3> halvings;
 };
 
-struct Edge {
-    std::uint32_t a, b;
-};
-
 /// Where a vertex lies across and along the straightened body.
 struct Place {
     glm::dvec2 across;

@@ -7,7 +7,14 @@
 #include <goffer/fit/geometry.hpp>
 #include <goffer/fit/refine.hpp>
 
+#include <cstdint>
+
 namespace goffer::fit {
+
+/// From one vertex to another.
+struct Edge {
+    std::uint32_t a, b;
+};
 
 /// Cuts edges that span too much of the circumference, where `scale` has folds. `rows`: a refinement of
 /// `geometry`, which is cut further; it comes back as it is where columns would be more than

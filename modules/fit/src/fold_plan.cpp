@@ -42,8 +42,8 @@ double fade_of(double radii, double asked) {
 }
 
 /// The weights of wrinkles in `range`: a spline reaches two knots beyond each of its values.
-std::vector<double> window(const WrinkleRange& range, const Cylinder& cylinder, double start, double length,
-                           const std::vector<double>& radii, double in_radii) {
+std::vector<double> weights_inside(const WrinkleRange& range, const Cylinder& cylinder, double start,
+                                   double length, const std::vector<double>& radii, double in_radii) {
     const double step = length / static_cast<double>(radii.size() - 1);
     std::vector<double> weights;
     for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -110,7 +110,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
     }
     if (!options.wrinkle_range.whole() && plan.folds > 0) {
         const std::vector<double> inside =
-            window(options.wrinkle_range, cylinder, start, length, radii, in_radii);
+            weights_inside(options.wrinkle_range, cylinder, start, length, radii, in_radii);
         shape.weight.resize(knots, 1);
         std::ranges::transform(shape.weight, inside, shape.weight.begin(), std::multiplies());
         if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;

@@ -23,10 +23,6 @@ namespace {
 constexpr int max_folds = 1 << 20;    // as folds_capacity
 constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
 
-struct Edge {
-    std::uint32_t a, b;
-};
-
 /// The corners of a triangle from bottom to top (by rows), and whether this order winds as the triangle does.
 struct Upright {
     std::uint32_t low, middle, high;

@@ -187,7 +187,7 @@ namespace {
 
 /// What the wave of a region is multiplied by at one of its ends.
 double wave_depth(const RestRegion& region, double z) {
-    return region.shape ? region.shape->depth(z) : 1;
+    return paper::wave_depth(region.shape.get(), z);
 }
 
 /// How far about a joint wrinkles pass into each other: a quarter of the shorter fold there, from its crest

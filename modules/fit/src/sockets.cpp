@@ -99,6 +99,7 @@ bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const
         triangle = geometry.triangles.subspan(t, 3);
         normal = glm::normalize(own);
     }
+    if (triangle.empty()) throw Error("socket: no triangle has an area; give the mesh that was bound");
     const Straightening straightening(binding.cylinder);
     paper::Cylindrical at = straightening.vertex(nearest);
     at.z = std::clamp(at.z, 0.0, binding.cylinder.length);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "chebyshev.hpp"
+#include "depth.hpp"
 #include "girths.hpp"
 #include "text.hpp"
 
@@ -32,8 +33,7 @@ void check_shape(paper::Profile profile, FoldRange folds, double length, double 
     const int most = BindOptions::max_folds * 2 / profile.folds_of_length(1);
     if (folds.count < 0 || folds.count > most)
         throw Error("folds: " + std::to_string(folds.count) + " is outside 0.." + std::to_string(most));
-    if (!(profile.roundness >= 0 && profile.roundness <= 0.5))
-        throw Error("roundness: " + text(profile.roundness) + " is outside 0..0.5");
+    check(profile);
 }
 
 /// Q(q) = (1 - q) a(q) / sqrt(q): the smooth part of eq 7's solution, A = (L / 2) sqrt(q) Q(q).
@@ -65,7 +65,10 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
     if (!(max_angle > 0) || max_angle * 2 * radius * max_scale >= length) {
         throw Error("max_angle: " + text(max_angle) + " is outside 0..length / (2 radius max_scale)");
     }
-    if (rows < 2 || rows > 4096) throw Error("table_rows: " + std::to_string(rows) + " is outside 2..4096");
+    if (rows < 2 || rows > bend::WrinkleTable::max_rows) {
+        throw Error("table_rows: " + std::to_string(rows) + " is outside 2.." +
+                    std::to_string(bend::WrinkleTable::max_rows));
+    }
     bend::WrinkleTable table;
     if (!wrinkles(amplitude, folds)) return table;
 

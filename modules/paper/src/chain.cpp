@@ -25,11 +25,6 @@ Frame end_frame(const Frame& base, const Parameters& body, const Pose& pose) {
 
 namespace {
 
-/// What the wave of a region is multiplied by at height z.
-double wave_depth(const Parameters& body, double z) {
-    return body.shape ? body.shape->depth(z) : 1;
-}
-
 /// Whether the wave of one region runs on in the next one.
 bool runs_on(const FoldRange& folds, const FoldRange& next) {
     return folds.count > 0 && next.count > 0 && folds.total == next.total &&
@@ -71,7 +66,12 @@ void Chain::add_joint(std::size_t region, double blend) {
                                     std::to_string(region));
     if (!(blend > 0 && ends_[region].below.blend + blend <= own.length && blend <= next.length))
         throw std::invalid_argument("blends: " + std::to_string(blend) + " does not lie within the regions");
-    const double gain = wave_depth(next, 0) / wave_depth(own, own.length);
+    const double depth = wave_depth(own.shape.get(), own.length),
+                 next_depth = wave_depth(next.shape.get(), 0);
+    if (!(depth > 0 && next_depth > 0))
+        throw std::invalid_argument("blends: the wave has no depth at the joint behind region " +
+                                    std::to_string(region));
+    const double gain = next_depth / depth;
     const double scale = own.radius / next.radius;
     ends_[region].above = {blend, gain, scale};
     ends_[region + 1].below = {blend, 1 / gain, 1 / scale};

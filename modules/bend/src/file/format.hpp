@@ -92,7 +92,7 @@ struct PartRecord {
 inline constexpr std::array<char, 8> file_magic{'G', 'O', 'F', 'F', 'E', 'R', '\r', '\n'};
 inline constexpr std::uint32_t file_byte_order = 0x01020304;
 /// The most rows of a region's table: each level has a copy.
-inline constexpr std::size_t most_rows = 4096;
+inline constexpr std::size_t most_rows = WrinkleTable::max_rows;
 inline constexpr std::size_t shared_sections = 8;  ///< from `rig` to `notes`
 inline constexpr std::size_t level_sections = 7;   ///< from `level` to `parts`
 

@@ -14,9 +14,9 @@ namespace goffer::fit {
 
 /// Returns the lateral area of the base, bent by `angles` (one per region) and wrinkled, over that of the
 /// straight one, less 1. Returns nothing where there is no closed form: for a body that is bent at rest or
-/// has an onset, and where a region has a shape, as all with folds have with Profile::even and
-/// Amplitude::mesh. With other profiles Amplitude::mesh counts as Amplitude::paper, since its factors are
-/// made for the mesh. Throws Error if there are not as many angles as regions. Thread-safe.
+/// has an onset, where folds run on over a joint, and where a region has a shape, as all with folds have with
+/// Profile::even and Amplitude::mesh. With other profiles Amplitude::mesh counts as Amplitude::paper, since
+/// its factors are made for the mesh. Throws Error if there are not as many angles as regions. Thread-safe.
 [[nodiscard]] std::optional<double> base_area_change(const Binding& binding, std::span<const double> angles);
 
 /// Returns how far the troughs of region `region`, bent by `angle`, reach inward where the base is squeezed

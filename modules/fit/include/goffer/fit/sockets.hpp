@@ -22,7 +22,8 @@ namespace goffer::fit {
 /// The third axis of its frame is the triangle's normal; the first one is the direction in the triangle's
 /// plane that points most toward the tip or, on a cap, away from the axis. Triangles without area do not
 /// count. `geometry` is the mesh that `binding` was bound from, with its mask; every triangle is looked at.
-/// Throws Error if `point` is not finite, and as check(geometry) does. Thread-safe.
+/// Throws Error if `point` is not finite or no triangle has an area, and as check(geometry) does.
+/// Thread-safe.
 [[nodiscard]] bend::Socket socket_near(const Binding& binding, const Geometry& geometry,
                                        const glm::dvec3& point);
 

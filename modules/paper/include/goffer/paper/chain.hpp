@@ -42,8 +42,8 @@ public:
     /// `regions` and `poses` go from base to tip, one pose for each region. `blends` has the distance for
     /// each joint, model units: 0 or more, 0 where wrinkles end at the joint; it may be empty: 0 for all of
     /// them. All are copied. Throws std::invalid_argument if the counts differ or are 0, if blends of a
-    /// region overlap, or if one is above 0 at a joint that no wave runs over, and as ClosedForm's
-    /// constructor does.
+    /// region overlap, or if one is above 0 at a joint that no wave runs over or where one has no depth, and
+    /// as ClosedForm's constructor does.
     Chain(std::span<const Parameters> regions, std::span<const Pose> poses,
           std::span<const double> blends = {});
 

@@ -48,17 +48,17 @@ public:
         std::vector<double> weight = {};       ///< 0..4, a factor on the wrinkle; empty: 1
     };
 
-    /// `radius`: of the cylinder, for a shape that gives none. Throws std::invalid_argument as Spline does,
-    /// if a value is out of its range, or if `radius` is not a finite number above 0.
+    /// `radius`: of the cylinder, > 0, for a shape that gives no radii; not looked at otherwise. Throws
+    /// std::invalid_argument as Spline does, and if a value is out of its range.
     Shape(double length, double radius, const Knots& knots);
 
-    /// Returns what it was made from, less the radius.
+    /// Returns the knots that it was made from.
     [[nodiscard]] const Knots& knots() const { return knots_; }
 
     /// Returns the mean of r(z), which is the radius of the region's base cylinder.
     [[nodiscard]] double radius() const { return mean_; }
 
-    /// Returns the largest r(z) / radius(), as far as a thousandth.
+    /// Returns the largest r(z) / radius(), to within a thousandth.
     [[nodiscard]] double max_scale() const { return max_scale_; }
 
     /// Returns how many folds there are from end to end if they are as long as fold_length says, in model
@@ -98,6 +98,11 @@ private:
     double mean_, max_scale_;
     std::vector<double> folds_;  // integrals of 1 / fold_length from 0 to equal steps
 };
+
+/// Returns shape->depth(z), or 1 where there is no shape.
+[[nodiscard]] inline double wave_depth(const Shape* shape, double z) {
+    return shape != nullptr ? shape->depth(z) : 1;
+}
 
 /// The shape g of a wrinkle at a height, and dg/dz.
 struct WaveAt {
