@@ -5,6 +5,7 @@
 
 #include <goffer/mesh/mesh.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,6 +20,9 @@
 namespace goffer::mesh {
 
 class Budget;
+
+/// What a corner has in place of an index where an attribute has no value for it.
+inline constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::string_view bytes,
                             const LoadOptions& options, Budget& budget, const Share& share);

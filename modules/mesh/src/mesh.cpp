@@ -17,8 +17,6 @@
 namespace goffer::mesh {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
-
 struct Key {
     std::uint32_t vertex = none, normal = none, tangent = none, uv = none;
     auto operator<=>(const Key&) const = default;

@@ -22,6 +22,9 @@ namespace goffer::cli {
 
 struct BoundModel;
 
+/// The cylinder of the figures that have no model.
+inline constexpr double base_length = 10, base_radius = 1;
+
 /// A picture of a figure, in the folder of the page.
 struct FigurePicture {
     std::string file;

@@ -16,7 +16,7 @@
 namespace goffer::cli {
 namespace {
 
-constexpr double length = 10, radius = 1, angle = std::numbers::pi / 2;
+constexpr double angle = std::numbers::pi / 2;
 constexpr int folds = 12;  // from end to end
 
 struct NamedProfile {
@@ -31,16 +31,17 @@ constexpr std::array profiles{NamedProfile{"damped", paper::Profile::damped},
 std::vector<double> changes(paper::Profile profile) {
     constexpr int steps = 1000;  // a chord of a thousandth of a fold is short by some 1e-6 of it
     const int own_count = folds / profile.folds_of_length(1);
-    const paper::ClosedForm map({.length = length, .radius = radius, .folds = own_count, .profile = profile},
-                                {angle, 0});
+    const paper::ClosedForm map(
+        {.length = base_length, .radius = base_radius, .folds = own_count, .profile = profile}, {angle, 0});
     std::vector<double> result;
     for (int fold = 0; fold < folds; ++fold) {
         const auto at = [&](int step) {
-            return map.position({0, length * (fold + static_cast<double>(step) / steps) / folds, radius});
+            return map.position(
+                {0, base_length * (fold + static_cast<double>(step) / steps) / folds, base_radius});
         };
         double bent = 0;
         for (int step = 0; step < steps; ++step) bent += glm::distance(at(step), at(step + 1));
-        result.push_back(bent / (length / folds) - 1);
+        result.push_back(bent / (base_length / folds) - 1);
     }
     return result;
 }
@@ -79,7 +80,7 @@ Figure fold_figure() {
     for (const auto& [name, profile] : profiles) {
         const std::vector<double>& own = columns.emplace_back(changes(profile));
         figure.summary->add({std::string(name), rms(own), worst(own), double{folds},
-                             angle * 180 / std::numbers::pi, length / radius});
+                             angle * 180 / std::numbers::pi, base_length / base_radius});
     }
     for (std::size_t fold = 0; fold < folds; ++fold)
         figure.table.add(

@@ -19,7 +19,6 @@
 namespace goffer::cli {
 namespace {
 
-constexpr double length = 10, radius = 1;
 constexpr std::uint32_t columns = 96, rows = 321;             // of vertices, the last row at the tip
 constexpr std::uint32_t square_columns = 3, square_rows = 8;  // cells of the grid
 
@@ -30,15 +29,15 @@ struct Chessboard {
 
 fit::Cylinder base_cylinder() {
     fit::Cylinder cylinder;
-    cylinder.length = length;
-    cylinder.radius = radius;
+    cylinder.length = base_length;
+    cylinder.radius = base_radius;
     return cylinder;
 }
 
 /// The arrays of the grid, four vertices to a cell.
 mesh::Mesh split_grid(std::vector<glm::vec4>& colors, std::vector<glm::vec3>& normals) {
     constexpr glm::vec4 dark{0.55f, 0.22f, 0.13f, 1}, light{0.80f, 0.62f, 0.45f, 1};
-    const paper::BaseMesh grid = paper::base_mesh(length, radius, columns, rows);
+    const paper::BaseMesh grid = paper::base_mesh(base_length, base_radius, columns, rows);
     paper::BaseMesh split;
     for (std::uint32_t row = 0; row + 1 < rows; ++row) {
         for (std::uint32_t column = 0; column < columns; ++column) {
@@ -50,7 +49,7 @@ mesh::Mesh split_grid(std::vector<glm::vec4>& colors, std::vector<glm::vec3>& no
             for (const std::uint32_t corner : corners) {
                 const glm::dvec3& position = grid.positions[corner];
                 split.positions.push_back(position);
-                normals.emplace_back(position.x / radius, position.y / radius, 0);
+                normals.emplace_back(position.x / base_radius, position.y / base_radius, 0);
                 colors.push_back((column / square_columns + row / square_rows) % 2 == 0 ? dark : light);
             }
             for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
@@ -86,7 +85,7 @@ double inner_column_factor(std::span<const glm::vec3> positions) {
         const std::size_t first = 4 * row * columns;
         bent += glm::distance(glm::dvec3(positions[first]), glm::dvec3(positions[first + 3]));
     }
-    return bent / length;
+    return bent / base_length;
 }
 
 std::vector<std::string> words(const Figure& figure, bool wrinkled) {
@@ -133,11 +132,11 @@ Figure base_grid_figure(Workshop& workshop, bool wrinkled) {
         const BentState state = bent_state(model, pose_by(model.binding.body, angle), wrinkled);
         const std::string file = picture_name(figure.name, angle);
         draw_state(workshop, model, state, board.colors, {}, file);
-        const double closed = paper::lateral_area(paper::Profile::damped, folds, length, radius,
+        const double closed = paper::lateral_area(paper::Profile::damped, folds, base_length, base_radius,
                                                   radians(angle), wrinkled ? 1 : 0);
         figure.table.add({angle, 1 + state.area_change, closed, inner_column_factor(state.records.positions),
-                          state.local.bent.rms, state.local.bent.worst, state.wrinkle_depth, largest, length,
-                          radius, static_cast<double>(folds), file});
+                          state.local.bent.rms, state.local.bent.worst, state.wrinkle_depth, largest,
+                          base_length, base_radius, static_cast<double>(folds), file});
         const std::size_t row = figure.table.rows() - 1;
         figure.pictures[0].push_back({file, html(figure.table, row, "angle_degrees") + " degrees: area " +
                                                 html(figure.table, row, "area_factor", Shown::percent)});

@@ -17,7 +17,7 @@ namespace goffer::cli {
 
 /// A tube of length 10 and radius 1, whose relief is a twentieth of that.
 struct Tube {
-    static constexpr double length = 10, radius = 1;
+    static constexpr double length = base_length, radius = base_radius;
     static constexpr int folds = 5;  ///< per half length
 
     std::vector<paper::Cylindrical> vertices;

@@ -9,18 +9,16 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
-
 std::size_t size_of(std::uint64_t component) {
     switch (component) {
-        case i8:
-        case u8:
+        case i8_type:
+        case u8_type:
             return 1;
-        case i16:
-        case u16:
+        case i16_type:
+        case u16_type:
             return 2;
-        case u32:
-        case f32:
+        case u32_type:
+        case float_type:
             return 4;
         default:
             return 0;
@@ -45,15 +43,15 @@ T get(const char* bytes) {
 /// KHR_mesh_quantization.
 double component_at(const char* bytes, std::uint64_t component, bool normalized) {
     switch (component) {
-        case i8:
+        case i8_type:
             return normalized ? std::max(get<std::int8_t>(bytes) / 127.0, -1.0) : get<std::int8_t>(bytes);
-        case u8:
+        case u8_type:
             return get<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
-        case i16:
+        case i16_type:
             return normalized ? std::max(get<std::int16_t>(bytes) / 32767.0, -1.0) : get<std::int16_t>(bytes);
-        case u16:
+        case u16_type:
             return get<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
-        case u32:
+        case u32_type:
             return get<std::uint32_t>(bytes) / (normalized ? 4294967295.0 : 1.0);
         default:
             return static_cast<double>(get<float>(bytes));
@@ -64,7 +62,7 @@ double component_at(const char* bytes, std::uint64_t component, bool normalized)
 struct Run {
     const char* first = nullptr;
     std::size_t stride = 0;
-    std::uint64_t component = f32;
+    std::uint64_t component = float_type;
     bool normalized = false;
 };
 
@@ -104,7 +102,8 @@ void copy_element(const Run& run, std::size_t element, std::size_t components, T
 std::uint64_t component_type(const Value& owner, bool unsigned_only) {
     const Value type = owner["componentType"];
     const std::uint64_t value = type.whole();
-    const bool known = size_of(value) != 0 && (!unsigned_only || value == u8 || value == u16 || value == u32);
+    const bool known =
+        size_of(value) != 0 && (!unsigned_only || value == u8_type || value == u16_type || value == u32_type);
     if (!known)
         type.fail("is " + std::to_string(value) + ", expected " +
                   (unsigned_only ? "5121, 5123 or 5125" : "5120 to 5126") + "; export the file again");

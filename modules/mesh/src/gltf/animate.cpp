@@ -9,8 +9,6 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-constexpr int u8_type = 5121, float_type = 5126;
-
 template <class T>
 bool all_equal(std::span<const T> values) {
     return std::ranges::all_of(values, [&](const T& value) { return value == values.front(); });

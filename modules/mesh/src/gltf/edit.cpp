@@ -120,7 +120,7 @@ std::vector<Kept> kept_ranges(const Document& document, const std::map<std::size
 }  // namespace
 
 Json float_fields(const std::vector<float>& values, std::size_t components, bool bounds) {
-    Json fields = {{"componentType", 5126}, {"count", values.size() / components}};
+    Json fields = {{"componentType", float_type}, {"count", values.size() / components}};
     if (bounds) set_bounds(fields, values, components);
     return fields;
 }

@@ -29,6 +29,16 @@
 
 namespace goffer::mesh::gltf {
 
+/// Types of an accessor's components: glTF 2.0, 3.6.2.2.
+enum ComponentType : int {
+    i8_type = 5120,
+    u8_type = 5121,
+    i16_type = 5122,
+    u16_type = 5123,
+    u32_type = 5125,
+    float_type = 5126
+};
+
 using Json = nlohmann::ordered_json;
 
 /// A value of a document and its path, so that each error can say where. The document must outlive it.

@@ -9,8 +9,6 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-constexpr int u8_type = 5121, u16_type = 5123, u32_type = 5125, float_type = 5126;
-
 /// The elements, of three components each, that are not zero.
 std::vector<std::uint32_t> moved(const std::vector<float>& values) {
     std::vector<std::uint32_t> elements;

@@ -18,12 +18,10 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-constexpr int float_type = 5126, u16_type = 5123, u32_type = 5125, attribute_target = 34962,
-              index_target = 34963;
+constexpr int attribute_target = 34962, index_target = 34963;
 
 /// Which value of each stream a glTF vertex has: position, normal, tangent, UV sets; or `none`.
 using Key = std::vector<std::uint32_t>;
-constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
 /// The mesh's vertices with one index for all streams, as glTF has them. They are in the order of the mesh's
 /// vertices; a vertex that occurs with several values is there once for each, in the order of use. A vertex
@@ -90,7 +88,7 @@ float finite(float value) {
 }
 
 /// The vector at unit length; null if it has no direction.
-std::optional<glm::vec3> unit(const glm::dvec3& v) {
+std::optional<glm::vec3> unit_or_null(const glm::dvec3& v) {
     const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(most > 0.0 && std::isfinite(most))) return std::nullopt;
     return glm::vec3(glm::normalize(v / most));
@@ -156,7 +154,8 @@ std::vector<glm::vec3> Maker::face_normals() const {
     }
     std::vector<glm::vec3> normals;
     normals.reserve(sums.size());
-    for (const glm::dvec3& sum : sums) normals.push_back(unit(sum).value_or(glm::vec3(0.0f, 0.0f, 1.0f)));
+    for (const glm::dvec3& sum : sums)
+        normals.push_back(unit_or_null(sum).value_or(glm::vec3(0.0f, 0.0f, 1.0f)));
     return normals;
 }
 
@@ -164,7 +163,8 @@ std::vector<glm::vec3> Maker::normals() const {
     std::vector<glm::vec3> result = face_normals();
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::uint32_t index = split_.keys[i][1];
-        if (index != none) result[i] = unit(glm::dvec3(mesh_.normals.values[index])).value_or(result[i]);
+        if (index != none)
+            result[i] = unit_or_null(glm::dvec3(mesh_.normals.values[index])).value_or(result[i]);
     }
     return result;
 }
@@ -178,8 +178,8 @@ std::vector<glm::vec4> Maker::tangents(const std::vector<glm::vec3>& normals) co
             glm::cross(glm::dvec3(n), std::abs(n.x) < 0.5f ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
         const std::uint32_t index = split_.keys[i][2];
         const glm::vec4 own = index == none ? glm::vec4(0.0f) : mesh_.tangents.values[index];
-        const auto direction = unit(glm::dvec3(own));
-        result.emplace_back(direction.value_or(*unit(across)), own.w < 0.0f ? -1.0f : 1.0f);
+        const auto direction = unit_or_null(glm::dvec3(own));
+        result.emplace_back(direction.value_or(*unit_or_null(across)), own.w < 0.0f ? -1.0f : 1.0f);
     }
     return result;
 }

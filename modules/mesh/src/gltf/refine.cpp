@@ -17,8 +17,6 @@ namespace gltf {
 
 namespace {
 
-constexpr std::uint64_t u8_type = 5121, u16_type = 5123, u32_type = 5125, float_type = 5126;
-
 /// The new vertices of a block.
 struct BlockCut {
     std::size_t count = 0;              ///< vertices before

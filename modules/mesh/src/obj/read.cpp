@@ -20,7 +20,6 @@
 namespace goffer::mesh {
 namespace {
 
-constexpr std::uint32_t none = Attribute<glm::vec3>::none;
 constexpr double counted = 0.2, parsed = 0.9;  ///< shares of the time by when the two passes are over
 
 class ObjReader {

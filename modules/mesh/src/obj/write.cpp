@@ -12,8 +12,6 @@
 namespace goffer::mesh {
 namespace {
 
-constexpr std::uint32_t none = Attribute<glm::vec3>::none;
-
 void append_vector(std::string& out, const char* keyword, const glm::vec3& value) {
     out += keyword;
     append_all(out, value.x, value.y, value.z);

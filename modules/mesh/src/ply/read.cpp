@@ -10,8 +10,7 @@ namespace goffer::mesh {
 namespace {
 
 using namespace ply;
-constexpr std::uint32_t none = Attribute<glm::vec2>::none;
-constexpr double parsed = 0.85;  ///< the share of the time after which the source is put together
+constexpr double all_parsed = 0.85;  ///< the share of the time after which the source is put together
 
 class PlyReader {
 public:
@@ -163,7 +162,7 @@ float PlyReader::finite_or_zero(double value) {
 
 Mesh read_ply(const std::filesystem::path& file, std::string_view bytes, Budget& budget, const Share& share) {
     const Header header = read_header(file, bytes);
-    Mesh mesh = PlyReader(header, budget, share.part(0, parsed, bytes.size())).read();
+    Mesh mesh = PlyReader(header, budget, share.part(0, all_parsed, bytes.size())).read();
     auto source = std::make_shared<PlySource>();
     source->bytes = bytes;
     source->read = mesh;

@@ -13,7 +13,6 @@ namespace goffer::mesh {
 namespace {
 
 using namespace ply;
-constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 
 /// Whether the header's types can hold what is added: interpolated coordinates, larger indices.
 bool has_room(const Header& header, std::size_t vertices) {

@@ -11,7 +11,6 @@ namespace goffer::mesh {
 namespace {
 
 using namespace ply;
-constexpr std::uint32_t none = Attribute<glm::vec2>::none;
 constexpr std::endian order = std::endian::little;  ///< of new files
 
 /// Edits the file that a mesh came from: puts in new positions and normals, in the file's own format and
