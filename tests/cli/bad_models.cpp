@@ -14,10 +14,10 @@ namespace {
 
 constexpr const char* endings[] = {".obj", ".ply", ".stl", ".glb", ".gltf"};
 
-struct Place {
+struct Refusals {
     Folder folder;
 
-    Place() {
+    Refusals() {
         for (const std::string name : {"out.ply", "out.png", "out.json"}) folder.write(name, "kept");
     }
 
@@ -46,7 +46,7 @@ const std::string tetrahedron = "f 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 }  // namespace
 
 TEST_CASE("bad models: missing, empty, folders, not a mesh") {
-    const Place place;
+    const Refusals place;
     for (const std::string ending : endings) {
         place.refuse("none" + ending, {"no such file"});
         place.refuse("empty" + ending, "", {"empty"});
@@ -62,7 +62,7 @@ TEST_CASE("bad models: missing, empty, folders, not a mesh") {
 }
 
 TEST_CASE("bad models: cut off") {
-    const Place place;
+    const Refusals place;
     for (const std::string ending : endings) {
         const std::string name = base(place.folder, "whole" + ending, {"--columns", "16", "--rows", "41"});
         const std::string whole = bytes_of(place.folder / name);
@@ -78,7 +78,7 @@ TEST_CASE("bad models: cut off") {
 }
 
 TEST_CASE("bad models: coordinates that are no numbers") {
-    const Place place;
+    const Refusals place;
     const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (const std::string bad : {"nan", "inf", "-inf", "1e39", "NaN"}) {
         CAPTURE(bad);
@@ -112,7 +112,7 @@ TEST_CASE("bad models: coordinates that are no numbers") {
 }
 
 TEST_CASE("bad models: no triangles, one triangle") {
-    const Place place;
+    const Refusals place;
     const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     place.refuse("points.obj", three, {"no faces"});
     place.refuse("lines.obj", three + "l 1 2 3\n", {"no faces"});
@@ -128,7 +128,7 @@ TEST_CASE("bad models: no triangles, one triangle") {
 }
 
 TEST_CASE("bad models: all in one point, on one line, in one plane") {
-    const Place place;
+    const Refusals place;
     place.refuse("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nv 1 2 3\n" + tetrahedron, {"one point"});
     place.refuse("line.obj", "v 0 0 0\nv 1 1 2\nv 2 2 4\nv 5 5 10\n" + tetrahedron, {"one line"});
     place.refuse("plane.obj", "v 0 0 0\nv 1 0 1\nv 0 1 0\nv 5 3 5\n" + tetrahedron, {"one plane"});
@@ -141,7 +141,7 @@ TEST_CASE("bad models: all in one point, on one line, in one plane") {
 }
 
 TEST_CASE("bad models: an index out of range") {
-    const Place place;
+    const Refusals place;
     const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\n";
     for (const std::string face :
          {"f 1 2 5\n", "f 0 1 2\n", "f 1 2 -9\n", "f 1 2 4294967297\n", "f 1 2 1e1\n"}) {
@@ -160,7 +160,7 @@ TEST_CASE("bad models: an index out of range") {
 }
 
 TEST_CASE("bad models: materials outside the model's folder are left out, unless that is allowed") {
-    const Place place;
+    const Refusals place;
     std::filesystem::create_directory(place.folder / "in");
     const std::string name = base(place.folder, "in/base.obj", {"--columns", "16", "--rows", "41"});
     place.folder.write("secret.mtl", "newmtl a\nKd 1 0 0\n");
@@ -177,7 +177,7 @@ TEST_CASE("bad models: materials outside the model's folder are left out, unless
 }
 
 TEST_CASE("bad models: what would take more memory than is allowed") {
-    const Place place;
+    const Refusals place;
     base(place.folder, "base.ply", {"--columns", "16", "--rows", "41"});
     base(place.folder, "large.ply", {"--columns", "100", "--rows", "41"});
     for (const std::string command : {"inspect", "crowd"})
@@ -206,7 +206,7 @@ TEST_CASE("bad models: many vertices without a triangle are no reason to wait") 
 }
 
 TEST_CASE("bad models: too far from the origin for floats") {
-    const Place place;
+    const Refusals place;
     std::string text;
     for (const std::string z : {"0", "1"})
         for (const std::string xy : {"1e9 1e9 ", "1.0000001e9 1e9 ", "1e9 1.0000001e9 "})

@@ -10,10 +10,10 @@ using namespace goffer::test;
 namespace {
 
 /// A model and one of every output, to be left as they are.
-struct Place {
+struct KeptOutputs {
     Folder folder;
 
-    Place() {
+    KeptOutputs() {
         base(folder);
         for (const std::string name : {"out.ply", "out.png", "out.json"}) folder.write(name, "kept");
     }
@@ -26,7 +26,7 @@ struct Place {
 }  // namespace
 
 TEST_CASE("bad words: angles") {
-    const Place place;
+    const KeptOutputs place;
     for (const std::string option : {"--angle", "--direction"}) {
         for (const std::string word : {"nan", "inf", "-inf", "1e400", "abc", "", "90deg", "9 0"}) {
             place.refuse_bend({option, word}, {option, std::string("'") + word + "'", "degrees"});
@@ -38,7 +38,7 @@ TEST_CASE("bad words: angles") {
 }
 
 TEST_CASE("bad words: axes") {
-    const Place place;
+    const KeptOutputs place;
     for (const std::string word : {"0,0,0", "nan,0,1", "inf,0,0"}) {
         place.refuse_bend({"--axis", word}, {"--axis", word, "three finite numbers"});
         refused(place.folder, 2, {"inspect", "base.ply", "--axis", word}, {"--axis", word});
@@ -50,7 +50,7 @@ TEST_CASE("bad words: axes") {
 }
 
 TEST_CASE("bad words: numbers and names out of range") {
-    const Place place;
+    const KeptOutputs place;
     for (const std::string word : {"65", "-1", "2.5", "many", ""})
         place.refuse_bend({"--folds", word}, {"--folds"});
     for (const std::string word : {"-1", "1025", "x"}) place.refuse_bend({"--threads", word}, {"--threads"});
@@ -72,7 +72,7 @@ TEST_CASE("bad words: numbers and names out of range") {
 }
 
 TEST_CASE("bad words: what does not go together") {
-    const Place place;
+    const KeptOutputs place;
     refused(place.folder, 2, {"bend", "base.ply", "-o", "a.obj", "--json", "a.mtl"},
             {"--json", "a.mtl", "materials"});
     place.refuse_bend({"--ghost"}, {"--ghost", "--png"});
@@ -91,7 +91,7 @@ TEST_CASE("bad words: what does not go together") {
 }
 
 TEST_CASE("bad words: no or another command, unknown options, too many words") {
-    const Place place;
+    const KeptOutputs place;
     refused(place.folder, 2, {},
             {"give a command: base, inspect, refine, bend, animate, bake, crowd, cache, figures, view; see "
              "goffer --help"});
@@ -120,7 +120,7 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
 
 #ifdef GOFFER_HAS_VIEWER
 TEST_CASE("bad words: of a viewer, before it looks for a display") {
-    const Place place;
+    const KeptOutputs place;
     refused(place.folder, 2, {"view", "--size", "10"}, {"--size: '10' is no size; give WIDTHxHEIGHT"});
     refused(place.folder, 2, {"view", "--json", "out.json"}, {"--json: ", "add --frames N"});
     refused(place.folder, 2, {"view", "--crowd", "-3"}, {"--crowd"});
@@ -129,7 +129,7 @@ TEST_CASE("bad words: of a viewer, before it looks for a display") {
 #endif
 
 TEST_CASE("bad words: endings") {
-    const Place place;
+    const KeptOutputs place;
     for (const std::string name : {"out", "out.xyz", ".ply.", "out.fbx", ""}) {
         refused(place.folder, 2, {"bend", "base.ply", "-o", name}, {"-o: ", name, ".glb"});
     }
@@ -137,7 +137,7 @@ TEST_CASE("bad words: endings") {
 }
 
 TEST_CASE("bad words: an output in the place of another file of the command") {
-    const Place place;
+    const KeptOutputs place;
     std::filesystem::create_symlink("base.ply", place.folder / "link.ply");
     std::filesystem::create_directory(place.folder / "sub");
     place.folder.write("fit.json", "{}");

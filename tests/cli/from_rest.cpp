@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 
 /// A base cylinder that is bent by 70 degrees toward 30 in its file.
 struct Bent {
@@ -44,9 +44,9 @@ void check_pose(const json& pose, double angle, double direction) {
 
 /// Angle and direction of the sum of two bends.
 std::pair<double, double> sum(double a, double at, double b, double bt) {
-    const double x = a * std::cos(at * degree) + b * std::cos(bt * degree);
-    const double y = a * std::sin(at * degree) + b * std::sin(bt * degree);
-    return {std::hypot(x, y), std::atan2(y, x) / degree};
+    const double x = a * std::cos(at * radians_per_degree) + b * std::cos(bt * radians_per_degree);
+    const double y = a * std::sin(at * radians_per_degree) + b * std::sin(bt * radians_per_degree);
+    return {std::hypot(x, y), std::atan2(y, x) / radians_per_degree};
 }
 
 }  // namespace
