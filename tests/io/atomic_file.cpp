@@ -170,7 +170,7 @@ TEST_CASE("atomic file: a part of a process that is gone stays while somebody ho
     CHECK(!fs::exists(foreign));
 }
 
-TEST_CASE("atomic file: a handler of signals can remove what is unfinished") {
+TEST_CASE("atomic file: a signal handler can remove what is unfinished") {
     const Folder folder;
     folder.write("a", "old");
     const fs::path before = fs::current_path();
@@ -193,7 +193,7 @@ TEST_CASE("atomic file: a handler of signals can remove what is unfinished") {
     CHECK(folder.files() == 2);
 }
 
-TEST_CASE("atomic file: a handler of signals finds what all threads are writing, in any moment") {
+TEST_CASE("atomic file: a signal handler finds what all threads are writing, in any moment") {
     for (int round = 0; round < 100; ++round) {
         const Folder folder;
         const pid_t child = fork();

@@ -38,9 +38,9 @@ struct Slot {
 
     bool change(int from, int to) { return state.compare_exchange_strong(from, to); }
 };
-static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals must not wait");
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait");
 
-/// State of the process, the only one in goffer: a handler of signals is given nothing, must not allocate and
+/// The only mutable state of the process in goffer: a signal handler is given nothing, must not allocate and
 /// must not wait, so that what it needs lies here, at a fixed size.
 std::array<Slot, 128> slots;
 std::atomic<int> made_now{0};  // and not noted yet

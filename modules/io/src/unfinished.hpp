@@ -4,7 +4,7 @@
 #include <csignal>
 #include <filesystem>
 
-/// The list of unfinished files that a handler of signals goes through. Nothing here allocates: a file that
+/// The list of unfinished files that a signal handler goes through. Nothing here allocates: a file that
 /// cannot be noted would stay where memory is short.
 
 namespace goffer::io {

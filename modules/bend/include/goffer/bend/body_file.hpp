@@ -26,8 +26,8 @@
 ///     job.body = &file->levels[0].body;
 ///
 /// A body that was saved and loaded deforms to the same bits. The format is in modules/bend/README.md. All
-/// functions are thread-safe; they allocate, and may throw std::bad_alloc, which leaks what they have
-/// allocated.
+/// functions are thread-safe; all but is_body_file() allocate, and may throw std::bad_alloc, which leaks what
+/// they have allocated.
 
 namespace goffer::bend {
 

@@ -32,9 +32,10 @@ struct Capsule {
 /// rest.
 ///
 /// A capsule's segment is the chord of its piece of the center line. Its radius is the sum of three lengths,
-/// times the largest scale of the transform: the largest distance of a vertex from the axis in that piece,
-/// the deepest wrinkle there, and the chord's distance from the arc (the sagitta). The sagitta falls with the
-/// square of `pieces`. A region without vertices has capsules of radius 0. Does not allocate. Thread-safe.
+/// times an upper bound of the transform's largest scale, which is exact for rotations and uniform scales:
+/// the largest distance of a vertex from the axis in that piece, the deepest wrinkle there, and the chord's
+/// distance from the arc (the sagitta). The sagitta falls with the square of `pieces`. A region without
+/// vertices has capsules of radius 0. Does not allocate. Thread-safe.
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept;
 
 }  // namespace goffer::bend

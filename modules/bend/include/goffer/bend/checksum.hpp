@@ -18,7 +18,7 @@ public:
     /// Returns the checksum of all that was added.
     [[nodiscard]] std::uint64_t value() const noexcept;
 
-    /// Of the specification's five primes.
+    /// The first two of the specification's five primes.
     static constexpr std::uint64_t prime1 = 0x9e3779b185ebca87, prime2 = 0xc2b2ae3d27d4eb4f;
 
 private:

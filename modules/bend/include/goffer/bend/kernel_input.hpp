@@ -17,9 +17,9 @@ class Body;
 struct Batch;
 
 /// The columns of a body, one value per vertex, as plain pointers. S is the scale of a
-/// vertex's column at rest, s the radius about the vertex over that of its region; in regions that do not
-/// compare_with_rest, S stands for sqrt(s). For g and w see modules/paper/README.md, "Wrinkle", for s and D
-/// "Shaped bodies".
+/// vertex's column at rest, s the radius about the vertex over that of its region. In regions that do not
+/// compare_with_rest, sqrt(s) stands for S in the first columns, and 1 in the last three. For g and w see
+/// modules/paper/README.md, "Wrinkle", for s and D "Shaped bodies".
 struct RestColumns {
     const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
     const float* sin_half_beta = nullptr;  ///< sqrt(2) sin(beta / 2)
@@ -90,8 +90,9 @@ static_assert(sizeof(Coefficients) == coefficient_rows * 4 * sizeof(float));
 [[nodiscard]] RestColumns rest_columns(const Body& body) noexcept;
 
 /// What the wrinkle of a vertex near a joint has of the region beyond: its amplitude A, and derivatives of
-/// it, are A + share (A' - A), with A' the amplitude that the coefficients of that region give, times `gain`,
-/// if s is multiplied by `scale`. See modules/paper/README.md, "Folds over joints".
+/// it, are A + share (A' - A). A' is the amplitude that the coefficients of that region give for s times
+/// `scale`, times `gain`; a factor sqrt(s) in it is the vertex's own, without `scale`. See
+/// modules/paper/README.md, "Folds over joints".
 struct NeighborShare {
     int neighbor = 0;  ///< 1: the next region, -1: the one before; 0: the vertex is near no joint
     float share = 0;   ///< 0..1/2
@@ -100,8 +101,8 @@ struct NeighborShare {
     float scale = 1;
 };
 
-/// Returns what vertices of region `region` of `body`, which is not empty, have of it at `height`
-/// (RestColumns). Does not allocate. Thread-safe.
+/// Returns the share that the neighbor has in the wrinkle of vertices of region `region` of `body`, which is
+/// not empty, at `height`: RestColumns::height. Does not allocate. Thread-safe.
 [[nodiscard]] NeighborShare neighbor_share(const Body& body, std::size_t region, float height) noexcept;
 
 /// Sets up every instance of `batch`, whatever its masks say: result[i * regions + r] are the coefficients of

@@ -44,7 +44,7 @@ struct PathFit {
 /// Each region ends in the direction that the path has at that length along it; positions follow from the
 /// directions. On a smooth path, the error falls with the square of the regions' lengths. Corners are not
 /// rounded, so of long pieces only their directions at the ends of regions count. Beyond its last point the
-/// path goes straight on. Takes time in proportion to the number of points.
+/// path goes straight on. `body` is not empty. Takes time in proportion to the number of points.
 ///
 /// Points that repeat the point before them are skipped. If all points are the same, the body goes straight
 /// on from there, unturned. With fewer than two points, or one that is not finite, all poses are straight,

@@ -76,9 +76,10 @@ private:
     std::string bytes_;             ///< of a frame
 };
 
-/// Opens an MDD or a PC2, which are told apart by the content, from whomever it comes: nothing is allocated
-/// that the file's size does not account for. Throws io::Error if the file cannot be read, is neither, has
-/// another size than its counts ask for, no frames or no points, or a time that is not finite.
+/// Opens an MDD or a PC2, told apart by content, which may be untrusted: nothing is allocated that the file's
+/// size does not account for. Throws io::Error if the file cannot be read, is neither, is a PC2 of another
+/// version than 1, has another size than its counts ask for, no frames or no points, or a time, a start or a
+/// step that is not finite.
 [[nodiscard]] PointCache read_point_cache(const std::filesystem::path& file);
 
 }  // namespace goffer::clip

@@ -55,23 +55,23 @@ struct BindOptions {
     /// Profile::even folds are longer where the mesh has fewer rows than 8 for one, or where the region is
     /// too long for so many. They fade where that makes them 1.5 to 2.5 radii long, or up to a radius longer
     /// than a fold_length above 1.5. Otherwise sensible_folds() of each region, with a capacity of at most
-    /// max_folds: with the default fold_length none where a region is longer than 256 radii.
+    /// max_folds: with the default fold_length none where a region is longer than 257 radii.
     std::optional<int> folds = {};
     /// Length of a fold, in radii of the body where it stands, 1e-40..1e40. Depth goes with it: half as long,
     /// half as deep. Has no effect where folds are given. Unset: default_fold_length().
     std::optional<double> fold_length = {};
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::even;
-    /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). Of a body that
-    /// is bent at rest and has several regions, and with Amplitude::area, the base is a cylinder in any case.
-    /// See modules/paper/README.md, "Shaped bodies" and "Parts beside the axis".
+    /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). A body that
+    /// is bent at rest and has several regions gets a cylinder in any case, and so does any with
+    /// Amplitude::area. See modules/paper/README.md, "Shaped bodies" and "Parts beside the axis".
     ShapeMode shape = ShapeMode::automatic;
     /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
     /// body; at an end that is not the body's own they fade within a fold and half a radius.
     /// Amplitude::mesh keeps the area of what lies inside. What is not to be smooth all around the body is
     /// said by Geometry::wrinkle_mask, which takes nothing from the depth elsewhere, and adds nothing to it.
     WrinkleRange wrinkle_range = {};
-    int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..4096
+    int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..WrinkleTable::max_rows
     /// From base to tip, at most bend::max_regions. Empty: the body is one region.
     std::vector<RegionOptions> regions = {};
     /// Folds of Profile::even run on over the joints of regions that both wrinkle, and pass into each other
@@ -110,7 +110,8 @@ void check(std::span<const RegionOptions> regions);
 struct RegionBinding {
     double length = 0;       ///< of the region's outer line, model units
     int folds = 0;           ///< k in use; 0: no wrinkle
-    int folds_capacity = 0;  ///< most folds that the mesh has vertices for, where it wrinkles
+    int folds_capacity = 0;  ///< most folds that the mesh has vertices for: after bind, where it wrinkles;
+                             ///< after bind_level, in the whole region
     /// How its radius and its folds change along it; null: not at all.
     std::shared_ptr<const paper::Shape> shape = {};
     /// Its folds as a part of the wave that they belong to, which may run on over joints.

@@ -61,9 +61,9 @@ public:
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
-/// Throws Error as check(geometry) does, and if an axis is zero or not finite. Throws AxisError if no axis is
-/// given and the mesh has no long one, the mesh has no surface around the axis or no extent along it, or the
-/// body is too thin for float at its coordinates. Thread-safe.
+/// Throws Error as check(geometry) does, and if an axis is zero or not finite, or no triangle has an area.
+/// Throws AxisError if no axis is given and the mesh has no long one, the mesh has no surface around the axis
+/// or no extent along it, or the body is too thin for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     RestPose rest = RestPose::automatic);
 

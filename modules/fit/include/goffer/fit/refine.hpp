@@ -19,10 +19,10 @@
 ///
 /// A fold needs 8 rows of vertices. An edge that reaches over more than one row is cut into pieces of equal
 /// height, at most a row each, and every triangle with such an edge into pieces that reach over at most a
-/// row. Of what comes of that, an edge is cut in half where a wrinkle that is linear along it would be off in
+/// row. Edges of the result are then cut in half where a wrinkle that is linear along it would be off in
 /// its middle by more than 4.4 % of its depth: on the skin, where the edge spans more than 34 degrees. So a
 /// body of 11 equal sides or more gets no columns. Neither do edges near the axis, where wrinkles fade, those
-/// within a row of either end, as of a flat cap, and those in a stretch without folds.
+/// within 1.3 rows of either end, as of a flat cap, and those in a stretch without folds.
 ///
 /// Only the places of its two ends decide where an edge is cut, so that both triangles at it agree, even
 /// where vertices are duplicated along a seam: what was closed stays closed, and the surface at rest stays as
@@ -82,7 +82,7 @@ public:
 
 /// Limits of a refinement, and who hears how far it is.
 struct RefineOptions {
-    /// Of the refined mesh: where rows take more, that is a SizeError; where columns do, there are none.
+    /// Limit for the refined mesh. Rows beyond it are a SizeError; columns beyond it are left out.
     std::size_t max_triangles = 50'000'000;
     /// Called with the share that is done, 0 to 1, ascending, a few hundred times at most, from the calling
     /// thread; it must not throw. Empty: nobody is told.

@@ -35,7 +35,7 @@ public:
     /// Appends `bytes`. Throws Error (disk full, ..).
     void write(std::string_view bytes);
 
-    /// Writes `bytes` in the place of the first ones, which is the last that may be written. Throws Error.
+    /// Overwrites the beginning of the file with `bytes`. Nothing may be written afterward. Throws Error.
     void replace_start(std::string_view bytes);
 
     /// For libraries that write to a C stream; owned by this object, null after `commit`. To be asked for
@@ -88,10 +88,10 @@ private:
 /// The whole of a file at once: opened, written and committed. Throws Error.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
-/// Removes the unfinished files of all AtomicFile objects of this process, which cannot commit any more;
-/// those that other threads begin afterward are refused. For a handler of signals that ends the process, and
-/// may be called in one; goffer's libraries install none. Does nothing on Windows, where a file that is open
-/// cannot be removed.
+/// Removes the unfinished files of this process, up to 128 at a time whose absolute paths are shorter than
+/// 4096 bytes. None of them can be committed afterward, and files that other threads begin later are refused.
+/// For a signal handler that ends the process, and may be called in one; goffer's libraries install none.
+/// Does nothing on Windows, where a file that is open cannot be removed.
 void remove_unfinished() noexcept;
 
 }  // namespace goffer::io

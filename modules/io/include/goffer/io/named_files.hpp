@@ -6,7 +6,7 @@
 
 namespace goffer::io {
 
-/// The files that a document names, by ways from the folder that it is in, and which of them may be read: a
+/// The files that a document names, by paths relative to its folder, and which of them may be read: a
 /// document that somebody else made must not decide that a private file goes into the output. A link that
 /// is put in the place of a file between the look and the reading is not found out.
 class NamedFiles {

@@ -146,9 +146,9 @@ struct LoadOptions {
 /// face, or a glTF is compressed and has no plain copy of its data.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// Returns the buffers that a glTF or GLB file names, which hold its vertices and may not be there; none for
-/// other formats and for what is no mesh. Those that lie outside its folder are left out as by load(). Throws
-/// Error if the file cannot be read or is beyond the limits. Thread-safe.
+/// Returns the buffers that a glTF or GLB file names, which need not exist, without those outside its folder,
+/// which load() refuses; none for other formats and for a glTF that is broken. Throws Error if the file
+/// cannot be read or is beyond the limits. Thread-safe.
 [[nodiscard]] std::vector<std::filesystem::path> named_buffers(const std::filesystem::path& file,
                                                                const LoadOptions& options = {});
 
@@ -217,10 +217,10 @@ struct VertexArrays {
 
 /// Returns `mesh` with the positions, normals and tangents of `bent`, whose entries are those of
 /// vertex_arrays(mesh), or of vertex_arrays_with_uvs(mesh, bent.uv_set) if it has uvs, in the same order. Its
-/// texture coordinates are not looked at: bending does not change them. Of several entries of one vertex, the
-/// first one's position counts, and its normal and tangent where the mesh has these per vertex. Streams that
-/// the mesh does not have are ignored. Values of attributes with indices keep their places; one that several
-/// entries share and that is no longer the same for all is split, its copies behind the others. Keeps
+/// texture coordinates are not looked at: bending does not change them. Where a vertex has several entries,
+/// the first one's position counts, and its normal and tangent where the mesh has these per vertex. Streams
+/// that the mesh does not have are ignored. Values of attributes with indices keep their places; one that
+/// several entries share and that is no longer the same for all is split, its copies behind the others. Keeps
 /// `source`, so that save() gives the file back. Throws Error if `bent` has too few entries.
 [[nodiscard]] Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent);
 

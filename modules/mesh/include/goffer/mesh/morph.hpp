@@ -47,7 +47,7 @@ struct MorphingFile {
 /// outside of 0..1 are written, but programs clamp them, Blender 3.4 for one. Targets are floats, and sparse
 /// accessors where these are smaller. Tangents are not in them: they stay as they are in the mesh.
 ///
-/// Of a source that is a glTF, what would move the mesh another way is left out, with a warning: animations,
+/// Where the source is a glTF, what would move the mesh another way is left out, with a warning: animations,
 /// skins, and the morph targets of what moves. Their bytes stay in the buffer. A node that is scaled to
 /// nothing keeps its shape.
 ///

@@ -65,10 +65,11 @@ struct Depth {
 class ClosedForm {
 public:
     /// Throws std::invalid_argument if length or radius is not a finite number above 0; folds, rest_angle or
-    /// onset is negative; |angle| or rest_angle is not below length / (2 radius); a direction is not finite;
-    /// the amplitude is `area` and the body is bent at rest, has an onset or a shape, or its wave runs on,
-    /// for which no factor is known; a wave that runs on is not of Profile::even; or the shape has another
-    /// radius, or is too thick for an angle, where it is thickest.
+    /// onset is negative; the folds do not lie in their wave; roundness is not in 0..0.5; |angle| or
+    /// rest_angle is not below length / (2 radius); a direction is not finite; the amplitude is `area` and
+    /// the body is bent at rest, has an onset or a shape, or its wave runs on, for which no factor is known;
+    /// a wave that runs on is not of Profile::even; or the shape has another radius, or is too thick for an
+    /// angle, where it is thickest.
     ClosedForm(const Parameters& body, const Pose& pose);
 
     /// Returns the deformed position in the body frame (eq 2-6). Nothing is divided by alpha: at alpha = 0

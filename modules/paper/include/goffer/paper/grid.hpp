@@ -67,7 +67,7 @@ class Grid {
 public:
     /// `columns` counts the vertices around, the first at beta = 0; `rows` counts the rings of vertices from
     /// z = 0 to z = L. Throws std::invalid_argument if columns < 3 or rows < 2, if length or radius is not a
-    /// finite number above 0, if folds is negative, or if there is a shape.
+    /// finite number above 0, if folds is negative, or if there is a shape or its wave runs on over joints.
     Grid(const Parameters& body, std::uint32_t columns, std::uint32_t rows);
 
     /// Finds the cell of a vertex and its detail. beta may be any angle; z beyond the ends is extrapolated

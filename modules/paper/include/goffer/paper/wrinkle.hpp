@@ -18,8 +18,8 @@ struct Profile {
     enum class Kind {
         damped,  ///< g(u) = (1 - u) cos(2 pi k u), the paper's. Creases at mid-height and at the ends.
         smooth,  ///< g(u) = (1 - u^2)^2 cos(2 pi k u). No crease along the body.
-        even,  ///< g(u) = w(u) (cos(pi k u) - b cos(2 pi k u)): k folds of one depth, over the whole length,
-               ///< of which w fades the first and the last. No crease along the body.
+        even,  ///< g(u) = e(u) (cos(pi k u) - b cos(2 pi k u)): k folds of one depth, over the whole length,
+               ///< of which e fades the first and the last. No crease along the body.
     };
 
     Kind kind = Kind::damped;

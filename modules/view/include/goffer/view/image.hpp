@@ -28,11 +28,11 @@ struct Image {
 /// The most pixels of an image along a side, and the most in all.
 inline constexpr std::uint64_t largest_image_side = 16384, most_image_pixels = std::uint64_t{64} << 20;
 
-/// Decodes a PNG or a JPEG, whichever it is by its content, from whomever it comes. Of more than
-/// `most_pixels` nothing is decoded, nor of more than most_image_pixels; until then it takes 4 bytes a pixel,
-/// and a JPEG whose parts come in turns (progressive) as much again or more. Thread-safe.
+/// Decodes a PNG or a JPEG, told apart by content; the bytes may be untrusted. Images beyond `most_pixels`,
+/// most_image_pixels or largest_image_side are refused before anything is decoded. Takes 4 bytes a pixel, and
+/// a progressive JPEG at least twice that. Thread-safe.
 ///
-/// Throws Error if it is neither, broken, cut off or larger, or a JPEG in the colors of print (CMYK).
+/// Throws Error if it is neither, broken, cut off or too large, a CMYK JPEG, or one of more than 100 scans.
 /// In browsers, what is missing of a JPEG is gray instead, and those of print are shown.
 [[nodiscard]] Image decode_image(std::string_view bytes, std::uint64_t most_pixels = most_image_pixels);
 

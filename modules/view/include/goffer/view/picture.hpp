@@ -53,8 +53,8 @@ inline constexpr int largest_side = 16384, most_samples = 16384;
 struct Settings {
     int width = 1280;  ///< pixels, 1..largest_side
     int height = 960;  ///< pixels, 1..largest_side
-    /// Of a pixel with an edge in it, 1..most_samples. Every pixel sends an eighth as many rays to each
-    /// light. More are smoother and slower.
+    /// Samples of a pixel that has an edge in it, 1..most_samples; other pixels take one. Every pixel sends
+    /// an eighth as many rays to each light. More are smoother and slower.
     int samples = 16;
     /// Called with the share of the rows that are done, ascending to 1, from the calling thread. Empty:
     /// nobody is told.
@@ -77,10 +77,10 @@ struct Picture {
 /// number of threads. Thread-safe.
 ///
 /// Throws Error if there is nothing to see (no triangles, or all vertices in one point), a setting is out of
-/// range, the camera has no direction, or a model is broken (an index out of range or not 3 per triangle, a
-/// vertex that is not finite, normals or colors that are not one per vertex, coordinates that are not one per
-/// corner). It is then named by its index
-/// in `models`.
+/// range, the camera has no direction or no up direction, a point that is to be seen is not finite, there is
+/// not enough memory, or a model is broken (an index out of range or not 3 per triangle, a vertex that is not
+/// finite, normals or colors that are not one per vertex, coordinates that are not one per corner). It is
+/// then named by its index in `models`.
 [[nodiscard]] Picture render(std::span<const Model> models, const Camera& camera,
                              const Settings& settings = {});
 
