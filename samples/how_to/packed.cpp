@@ -20,7 +20,9 @@
 
 using namespace goffer;
 
-// A vertex shader includes the same file, and gets words as R32G32B32_UINT, low and high once per instance.
+// On the GPU, a vertex shader includes the same file, goffer/bend/packed.glsl, or packed.hlsl for HLSL. Here
+// it is compiled as C++, to see how exact it is. modules/gpu/README.md has a shader, and how to declare
+// attributes.
 namespace shader {
 using namespace glm;
 #include <goffer/bend/packed.glsl>

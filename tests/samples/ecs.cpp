@@ -56,11 +56,23 @@ TEST_CASE("ecs: worlds and threads draw the same, and frames do not allocate") {
         drawn,
         std::regex(
             R"(creatures per frame: \d{3}\.\d seen, \d{2,3}\.\d deformed, \d+\.\d with hats, \d*\.\d touched)")));
+    const std::string hash = line_of(plain, "hash "), frame = line_of(plain, "frame: ");
+    MESSAGE(hash << "; " << frame);
+    const std::string time = R"((\d+\.\d{3}))";
+    std::smatch times;
+    REQUIRE(std::regex_match(frame, times,
+                             std::regex("frame: " + time + R"( ms \(animate )" + time + ", cull " + time +
+                                        ", deform " + time + ", hats and touch " + time + R"(\))")));
+    // Milliseconds: medians of the whole and of its parts.
+    const double whole = std::stod(times[1]), deform = std::stod(times[4]);
+    CHECK(deform > 0);
+    CHECK(whole > deform);
+    CHECK(whole < 1000);
     const auto plays_the_same = [&](const std::string& world, const std::string& words) {
         CAPTURE(world);
         CAPTURE(words);
         const std::string out = game.play(world, words + three);
-        CHECK(line_of(out, "hash ") == line_of(plain, "hash "));
+        CHECK(line_of(out, "hash ") == hash);
         CHECK(line_of(out, "creatures per frame:") == drawn);
         CHECK(out.ends_with("exit 0\n"));
         if (measure::allocations()) CHECK(line_of(out, "allocations") == "allocations in frames: 0");

@@ -110,8 +110,16 @@ Out main(uint id : SV_VertexID, float2 number : TEXCOORD1) {
 VARIABLES = {"packed": "vec3 box_low; vec3 box_high;", "deform": "vec4 rows[34];",
              "clip": "int width; int rows_per_frame; vec3 low; vec3 high; float frame; int frames; int flipped_height;"}
 SAMPLERS = ("highp sampler2D shares", "highp usampler2D steps")
+MODULES = pathlib.Path(__file__).resolve().parents[2] / "modules"
 TARGETS = {"GLSL 3.30": "#version 330 core", "GLSL 4.60": "#version 460 core", "GLSL ES 3.00": "#version 300 es",
            "GLSL ES 3.20": "#version 320 es", "Vulkan": "#version 450"}
+
+
+def found(name, folder):
+    """Where an included file lies: in the folder, or among the headers of the module that it names."""
+    if (folder / name).exists():
+        return folder / name
+    return MODULES / name.split("/")[1] / "include" / name
 
 
 def included(text, folder):
@@ -119,7 +127,7 @@ def included(text, folder):
     lines = []
     for line in text.splitlines():
         if line.startswith("#include"):
-            path = folder / line.split(None, 1)[1].strip('<>"')
+            path = found(line.split(None, 1)[1].strip('<>"'), folder)
             line = included(path.read_text(), path.parent)
         lines.append(line)
     return "\n".join(lines)
