@@ -69,9 +69,6 @@ void add_region(BodyData& data, const RegionInput& input, const Bands& bands) {
     data.length += input.length;
     const std::size_t r = data.regions.size() - 1;
     details.joints = joints_of(data.inputs, r, data.radius);
-    // What is out of order was a fault of what the body is made from.
-    static_cast<void>(
-        find_vertices(details.joints, data.columns, data.regions[r].first, data.regions[r].last));
 }
 
 }  // namespace goffer::bend

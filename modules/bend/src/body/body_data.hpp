@@ -105,7 +105,7 @@ struct BodyData {
 void set_frame(BodyData& data, const glm::dvec3& origin, const glm::dmat3& axes, double radius) noexcept;
 
 /// Adds the next region, made from `input`, which is the next one of data.inputs. The columns and the frame
-/// are there.
+/// are there. Its joints know of no vertices.
 void add_region(BodyData& data, const RegionInput& input, const Bands& bands);
 
 }  // namespace goffer::bend

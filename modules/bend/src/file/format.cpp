@@ -8,8 +8,8 @@
 
 namespace goffer::bend {
 
-BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept {
-    BandsRecord record = {};
+FirstBandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept {
+    FirstBandsRecord record = {};
     record.vertex_count = vertex_count;
     record.lowest = bands.lowest;
     record.highest = bands.highest;
@@ -22,6 +22,12 @@ BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept {
     std::ranges::copy(bands.inward, record.inward);
     std::ranges::copy(bands.drift, record.drift);
     return record;
+}
+
+BandsRecord record_of(const Bands& bands, const Joints& joints, std::size_t first,
+                      std::size_t vertex_count) noexcept {
+    return {record_of(bands, vertex_count), joints.below.last - first, joints.above.first - first,
+            joints.below.max_scale, joints.above.max_scale};
 }
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) noexcept {

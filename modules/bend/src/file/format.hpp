@@ -75,12 +75,20 @@ struct LevelRecord {
     std::uint32_t zero;
 };
 
-/// A region's vertices in one level. See Bands.
-struct BandsRecord {
+/// A region's vertices in one level, as version 1 has them. See Bands.
+struct FirstBandsRecord {
     std::uint64_t vertex_count;
     float lowest, highest, drift_error, max_drift_step, max_scale;
     std::uint32_t shaped;
     float rho[Bands::places], outward[Bands::places], inward[Bands::places], drift[Bands::places];
+};
+
+struct BandsRecord {
+    FirstBandsRecord first;
+    /// Of the region's vertices: those near the joint below come before `below_last`, those near the joint
+    /// above from `above_first` on. See Joint, and for the scales Joint::max_scale.
+    std::uint64_t below_last, above_first;
+    float below_scale, above_scale;
 };
 
 struct PartRecord {
@@ -100,7 +108,8 @@ inline constexpr std::size_t level_sections = 7;   ///< from `level` to `parts`
 static_assert(sizeof(FileHeader) == 64 && sizeof(SectionRecord) == 16 && sizeof(RigRecord) == 104);
 static_assert(sizeof(FirstRegionRecord) == 72 && sizeof(RegionRecord) == 88);
 static_assert(sizeof(MaterialRecord) == 24 && sizeof(SocketRecord) == 128);
-static_assert(sizeof(LevelRecord) == 56 && sizeof(BandsRecord) == 288 && sizeof(PartRecord) == 20);
+static_assert(sizeof(LevelRecord) == 56 && sizeof(FirstBandsRecord) == 288 && sizeof(BandsRecord) == 312 &&
+              sizeof(PartRecord) == 20);
 static_assert(wrinkle_degree == 7 && FactorTable::directions == 16 && Bands::count == 11);
 static_assert(all_columns == 14 && all_shape_columns == 3 && all_rest_columns == 5);
 static_assert(column_alignment == 64 && widest_batch == 32);
@@ -120,8 +129,11 @@ static_assert(column_alignment == 64 && widest_batch == 32);
     return section < FileSection::level ? place : place + level * level_sections;
 }
 
-/// A region's bands and number of vertices as a record.
-[[nodiscard]] BandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept;
+/// A region's bands as a record.
+[[nodiscard]] FirstBandsRecord record_of(const Bands& bands, std::size_t vertex_count) noexcept;
+/// The same with its joints. `first`: the region's first vertex.
+[[nodiscard]] BandsRecord record_of(const Bands& bands, const Joints& joints, std::size_t first,
+                                    std::size_t vertex_count) noexcept;
 
 /// The first fault in the columns of `data`, all of whose regions are there: a number with which a run might
 /// leave float's range or the bounds. Numbers of several vertices are looked at together, and one by one only

@@ -36,7 +36,7 @@ bool all_finite(std::span<const float> numbers) {
 }
 
 /// Whether two records differ by no more than rounding, and numbers that a processor may take for 0.
-bool agree(const BandsRecord& a, const BandsRecord& b) {
+bool agree(const FirstBandsRecord& a, const FirstBandsRecord& b) {
     const auto near = [](float x, float y) {
         return std::fabs(x - y) <= 1e-5f * std::max(std::fabs(x), std::fabs(y)) + 1e-30f;
     };
@@ -46,6 +46,11 @@ bool agree(const BandsRecord& a, const BandsRecord& b) {
            near(a.max_drift_step, b.max_drift_step) && near(a.max_scale, b.max_scale) &&
            all_near(a.rho, b.rho) && all_near(a.outward, b.outward) && all_near(a.inward, b.inward) &&
            all_near(a.drift, b.drift);
+}
+
+bool agree(const BandsRecord& a, const BandsRecord& b) {
+    return agree(a.first, b.first) && a.below_last == b.below_last && a.above_first == b.above_first &&
+           a.below_scale == b.below_scale && a.above_scale == b.above_scale;
 }
 
 class Loader {
@@ -238,29 +243,59 @@ private:
         return {};
     }
 
+    /// The bands, of any version. In version 1 wrinkles pass no joint: its vertices are near none.
+    [[nodiscard]] std::vector<BandsRecord> bands_records(const BodyData& data, std::size_t level) const {
+        if (sections_.version() != 1) {
+            const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
+            return {records.begin(), records.end()};
+        }
+        const float no_scale = data.layout.shape ? 0.0f : 1.0f;
+        std::vector<BandsRecord> records;
+        for (const FirstBandsRecord& record : sections_.get<FirstBandsRecord>(FileSection::bands, level))
+            records.push_back({record, 0, record.vertex_count, no_scale, no_scale});
+        return records;
+    }
+
     [[nodiscard]] BodyFileFault load_regions(BodyData& data, std::size_t level) {
-        const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
+        const std::vector<BandsRecord> records = bands_records(data, level);
         if (records.size() != regions_.size()) return count(FileSection::bands);
         data.inputs = regions_;
         const bool compares = std::ranges::any_of(regions_, compares_with_rest);
         if (compares && !data.layout.rest) return {FileReason::layout, FileSection::level};
         std::size_t left = data.vertex_count;
         for (std::size_t r = 0; r < records.size(); ++r) {
-            if (records[r].vertex_count > left) return count(FileSection::bands);
-            data.inputs[r].vertex_count = static_cast<std::size_t>(records[r].vertex_count);
+            if (records[r].first.vertex_count > left) return count(FileSection::bands);
+            data.inputs[r].vertex_count = static_cast<std::size_t>(records[r].first.vertex_count);
             left -= data.inputs[r].vertex_count;
         }
         if (left != 0) return count(FileSection::bands);
         set_frame(data, rig_.origin, rig_.axes, rig_.radius);
         for (std::size_t r = 0; r < records.size(); ++r) {
-            const std::optional<Bands> bands = bands_from(records[r]);
+            const std::optional<Bands> bands = bands_from(records[r].first);
             if (!bands) return number(FileSection::bands, r);
             add_region(data, data.inputs[r], *bands);
+            if (!set_joints(data, records[r])) return number(FileSection::bands, r);
         }
         return {};
     }
 
-    static std::optional<Bands> bands_from(const BandsRecord& record) {
+    /// Sets which vertices of the last region are near its joints, or returns false: they cannot be.
+    static bool set_joints(BodyData& data, const BandsRecord& record) {
+        auto& [below, above] = data.details.back().joints;
+        const auto [first, last] = std::pair(data.regions.back().first, data.regions.back().last);
+        const bool apart = record.below_last <= record.above_first && record.above_first <= last - first;
+        const auto scales = [](float scale) { return scale >= 0 && scale <= WorkingRange::max_scale; };
+        if (!apart || !scales(record.below_scale) || !scales(record.above_scale)) return false;
+        below.first = first;
+        below.last = first + static_cast<std::size_t>(record.below_last);
+        above.first = first + static_cast<std::size_t>(record.above_first);
+        above.last = last;
+        below.max_scale = record.below_scale;
+        above.max_scale = record.above_scale;
+        return (below.blends() || below.first == below.last) && (above.blends() || above.first == above.last);
+    }
+
+    static std::optional<Bands> bands_from(const FirstBandsRecord& record) {
         const float numbers[] = {record.lowest, record.highest, record.drift_error, record.max_drift_step,
                                  record.max_scale};
         const bool finite = all_finite(numbers) && all_finite(record.rho) && all_finite(record.outward) &&
@@ -292,12 +327,15 @@ private:
         }
         if (const BodyFault fault = check_columns(data); !fault.none())
             return number(FileSection::columns, fault.index, fault);
-        const auto records = sections_.get<BandsRecord>(FileSection::bands, level);
+        const std::vector<BandsRecord> records = bands_records(data, level);
         for (std::size_t r = 0; r < records.size(); ++r) {
             const Region& region = data.regions[r];
-            const BandsRecord made =
-                record_of(bands_of(data.columns, region.first, region.last), data.inputs[r].vertex_count);
-            if (!agree(made, records[r])) return number(FileSection::bands, r);
+            Joints joints = data.details[r].joints;
+            if (!find_vertices(joints, data.columns, region.first, region.last) ||
+                !agree(record_of(bands_of(data.columns, region.first, region.last), joints, region.first,
+                                 data.inputs[r].vertex_count),
+                       records[r]))
+                return number(FileSection::bands, r);
         }
         return {};
     }

@@ -171,8 +171,11 @@ void add_level(Writer& out, const LevelInput& input, const std::vector<PartRecor
                                {box.high.x, box.high.y, box.high.z},
                                0};
     std::vector<BandsRecord> bands;
-    for (std::size_t r = 0; r < data.details.size(); ++r)
-        bands.push_back(record_of(data.details[r].bands, data.inputs[r].vertex_count));
+    for (std::size_t r = 0; r < data.details.size(); ++r) {
+        const RegionData& details = data.details[r];
+        bands.push_back(
+            record_of(details.bands, details.joints, data.regions[r].first, data.inputs[r].vertex_count));
+    }
     out.add(std::span<const LevelRecord>(&level, 1));
     out.add(bands);
     out.add(std::span<const float>(data.columns.cos_half_beta, data.layout.columns() * data.stride));

@@ -33,7 +33,7 @@ std::size_t size_of(FileSection section, std::uint32_t version) {
         case FileSection::level:
             return sizeof(LevelRecord);
         case FileSection::bands:
-            return sizeof(BandsRecord);
+            return version == 1 ? sizeof(FirstBandsRecord) : sizeof(BandsRecord);
         case FileSection::columns:
             return sizeof(float);
         case FileSection::triangles:
