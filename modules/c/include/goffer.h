@@ -40,7 +40,7 @@ GOFFER_API const char* goffer_version(void);
 enum {
     GOFFER_ERROR_NONE,
     GOFFER_ERROR_ARGUMENT, /* null, out of its range, or not what goes with the others; a job or crowd too */
-    GOFFER_ERROR_MEMORY,   /* there is not enough */
+    GOFFER_ERROR_MEMORY,   /* there is not enough; what was half made may be lost */
     GOFFER_ERROR_BIND,     /* the mesh cannot be bound, or not with these options [fit::Error] */
     GOFFER_ERROR_MISSING,  /* there is no file of that name */
     GOFFER_ERROR_SYSTEM,   /* the file cannot be opened or read */
