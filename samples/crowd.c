@@ -92,7 +92,7 @@ static int run(const goffer_body* body, goffer_error* error) {
 }
 
 int main(int argc, char** argv) {
-    goffer_error error = {"not enough memory"};
+    goffer_error error = {"not enough memory", GOFFER_ERROR_MEMORY};
     goffer_file* file = NULL;
     int good = 0;
     if (argc != 2) {

@@ -23,7 +23,7 @@ VERTEX = np.dtype([("position", np.float32, 3), ("normal", np.float32, 3)])
 
 # The structs of goffer.h that are needed here.
 class Error(c.Structure):
-    _fields_ = [("text", c.c_char * 512)]
+    _fields_ = [("text", c.c_char * 512), ("code", c.c_int)]
 
 
 class Column(c.Structure):

@@ -45,7 +45,7 @@ class Fault(Exception):
 
 
 class Error(c.Structure):
-    _fields_ = [("text", c.c_char * 512)]
+    _fields_ = [("text", c.c_char * 512), ("code", c.c_int)]
 
 
 class Mesh(c.Structure):

@@ -3,6 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
 /// The body file: what is loaded deforms to the bits of what was saved, and nothing else is ever loaded.
 
 namespace goffer::test {
@@ -158,6 +163,22 @@ void check_kept(const char* name, const std::vector<bend::Pose>& poses, const st
 }
 
 }  // namespace
+
+TEST_CASE("body file: one of each version is kept, by its number") {
+    std::set<std::uint32_t> kept;
+    for (const auto& entry : std::filesystem::directory_iterator(GOFFER_SOURCE_DIR "/tests/data")) {
+        if (entry.path().extension() != ".goffer") continue;
+        std::array<char, 16> start;
+        std::ifstream(entry.path(), std::ios::binary).read(start.data(), start.size());
+        const auto version = get<std::uint32_t>(std::as_bytes(std::span(start)), 12);
+        CHECK(entry.path().stem().string().ends_with("_v" + std::to_string(version)));
+        kept.insert(version);
+    }
+    for (std::uint32_t version = 1; version <= bend::body_file_version; ++version) {
+        CAPTURE(version);
+        CHECK(kept.contains(version));
+    }
+}
 
 TEST_CASE("body file: those of all versions are read, and bend as they did when they were written") {
     check_kept("cylinder_v1.goffer", {{0.6f, 0.3f}, {-0.4f, 1.0f}},

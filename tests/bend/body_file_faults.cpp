@@ -45,24 +45,19 @@ TEST_CASE("body file: what does not fit together is not saved") {
     faulty(FileReason::number, FileSection::sockets, [](Drawn& d) { d.sockets[1].socket.normal.rho = 2; });
 }
 
-TEST_CASE("body file: no byte can be changed, added or taken away unnoticed") {
+TEST_CASE("body file: no byte can be changed, or added, unnoticed") {
     Random random(56);
-    const bend::Body body = random_body(random);
-    const AlignedBytes file(saved(body));
+    const AlignedBytes file(saved(random_body(random, 3)));
     const std::span<std::byte> bytes = file.bytes();
-    const std::size_t step = sanitized ? 7 : 1;
-    for (std::size_t i = 0; i < bytes.size(); i += step) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
         const std::byte kept = bytes[i];
-        for (const std::byte flip : {std::byte{1}, std::byte{0x80}, std::byte{0xff}}) {
-            bytes[i] = kept ^ flip;
-            if (bend::load(bytes)) FAIL("byte " << i);
+        for (int flip = 1; flip < 256; ++flip) {
+            bytes[i] = kept ^ static_cast<std::byte>(flip);
+            if (bend::load(bytes)) FAIL("byte " << i << " with " << flip);
         }
         bytes[i] = kept;
     }
     CHECK(bend::load(bytes).has_value());
-    for (std::size_t size = 0; size < bytes.size(); size += step) {
-        if (bend::load(bytes.first(size))) FAIL("first " << size << " bytes");
-    }
     std::vector<std::byte> longer(bytes.begin(), bytes.end());
     longer.push_back(std::byte{0});
     BodyFileFault fault;

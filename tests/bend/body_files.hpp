@@ -29,9 +29,9 @@ using bend::FileReason;
 using bend::FileSection;
 
 /// A random body, straight or bent at rest, with one radius or a shape, of one region or three,
-/// some of which wrinkle over their joints.
-inline bend::Body random_body(Random& random) {
-    LooseVertices loose(random, 60, 0.15);
+/// some of which wrinkle over their joints. `count` is a multiple of 3.
+inline bend::Body random_body(Random& random, std::size_t count = 60) {
+    LooseVertices loose(random, count, 0.15);
     const bool shape = random() % 2 == 0, bent = random() % 2 == 0;
     if (shape) loose.add_shape(random);
     if (random() % 2 == 0) loose.tangents.clear(), loose.signs.clear();
@@ -40,7 +40,7 @@ inline bend::Body random_body(Random& random) {
         region.length = 1;
         region.max_angle = 3;
         region.max_scale = shape ? LooseVertices::max_scale : 1;
-        region.vertex_count = 60 / regions.size();
+        region.vertex_count = count / regions.size();
         region.table.max_angle = 3;
         region.table.rows.resize(2 + random() % 5);
         for (bend::WrinkleRow& row : region.table.rows) {
@@ -61,7 +61,7 @@ inline bend::Body random_body(Random& random) {
 
 /// A triangle, a part, a material, a socket and notes.
 struct Drawn {
-    std::vector<std::uint32_t> triangles{0, 1, 2, 57, 58, 59}, source;
+    std::vector<std::uint32_t> triangles{0, 1, 2}, source;
     std::vector<glm::vec2> uvs;
     std::vector<bend::DrawPart> parts{{"upper", 0, 1, 1}, {"", 1, 1, -1}};
     std::vector<bend::DrawMaterial> materials{{"skin", {1, 0.5f, 0.25f, 1}}, {"cloth", glm::vec4(0.5f)}};
@@ -69,7 +69,9 @@ struct Drawn {
     std::vector<bend::LevelInput> levels;
 
     explicit Drawn(const bend::Body& body) {
-        for (std::uint32_t i = 0; i < 60; ++i) {
+        const auto count = static_cast<std::uint32_t>(body.vertex_count());
+        triangles.insert(triangles.end(), {count - 3, count - 2, count - 1});
+        for (std::uint32_t i = 0; i < count; ++i) {
             source.push_back(1000 - i);
             uvs.emplace_back(0.1f * static_cast<float>(i), 1.0f - static_cast<float>(i));
         }

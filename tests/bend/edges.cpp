@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
+#include "support/guarded.hpp"
 #include "support/rounds.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
 #include <doctest/doctest.h>
 #include <glm/mat4x3.hpp>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstring>
@@ -20,42 +19,6 @@
 
 namespace goffer::test {
 namespace {
-
-enum class Edge { begin, end };
-
-/// Memory for `count` values between two such pages, at its beginning or at its end.
-template <class T>
-class Guarded {
-public:
-    Guarded(std::size_t count, Edge edge) : count_(count) {
-        const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-        const std::size_t bytes = count * sizeof(T), inside = (bytes + page - 1) / page * page;
-        whole_ = inside + 2 * page;
-        memory_ =
-            static_cast<std::byte*>(mmap(nullptr, whole_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
-        REQUIRE(memory_ != MAP_FAILED);
-        REQUIRE((inside == 0 || mprotect(memory_ + page, inside, PROT_READ | PROT_WRITE) == 0));
-        first_ = reinterpret_cast<T*>(memory_ + page + (edge == Edge::end ? inside - bytes : 0));
-    }
-    Guarded(Guarded&& other) noexcept
-        : memory_(std::exchange(other.memory_, nullptr)),
-          whole_(other.whole_),
-          first_(other.first_),
-          count_(other.count_) {}
-    Guarded& operator=(const Guarded&) = delete;
-    ~Guarded() {
-        if (memory_ != nullptr) munmap(memory_, whole_);
-    }
-
-    [[nodiscard]] T* data() const { return first_; }
-    [[nodiscard]] std::span<T> values() const { return {first_, count_}; }
-
-private:
-    std::byte* memory_;
-    std::size_t whole_ = 0;
-    T* first_;
-    std::size_t count_;
-};
 
 /// How the outputs lie: `record` floats from one vertex to the next, 0 for planes, of which the last record
 /// has no gap behind it.

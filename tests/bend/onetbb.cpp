@@ -9,6 +9,7 @@
 #include <tbb/task_scheduler_observer.h>
 
 #include <cfenv>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -65,14 +66,24 @@ private:
     bend::Batch batch_;
 };
 
-/// What the whole process shares.
+/// Whether the calling thread takes subnormal results for 0, and subnormal operands: bits of its control
+/// register.
+std::size_t flushed() {
+    using Limits = std::numeric_limits<float>;
+    const volatile float least = Limits::min(), subnormal = Limits::denorm_min();
+    const volatile float result = least * 0.5f, operand = subnormal * 0x1p30f;
+    return (result == 0 ? 1u : 0u) + (operand == 0 ? 2u : 0u);
+}
+
+/// What the whole process shares, and what is the calling thread's own.
 std::vector<std::size_t> globals() {
     using tbb::global_control;
     return {global_control::active_value(global_control::max_allowed_parallelism),
             global_control::active_value(global_control::thread_stack_size),
             global_control::active_value(global_control::terminate_on_exception),
             static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
-            static_cast<std::size_t>(std::fegetround())};
+            static_cast<std::size_t>(std::fegetround()),
+            flushed()};
 }
 
 }  // namespace

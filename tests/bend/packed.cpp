@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 #include "support/output_buffer.hpp"
+#include "support/unpacked.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
@@ -8,12 +9,7 @@
 #include <goffer/bend/rest_vertex.hpp>
 
 #include <doctest/doctest.h>
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <glm/packing.hpp>
-#include <glm/vec2.hpp>
 
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -22,11 +18,6 @@
 
 namespace goffer::test {
 namespace {
-
-namespace shader {
-using namespace glm;
-#include <goffer/bend/packed.glsl>
-}  // namespace shader
 
 namespace hlsl {
 using namespace glm;
@@ -42,12 +33,6 @@ glm::vec3 unorm(const std::uint16_t (&steps)[3]) {
 }
 glm::vec2 snorm(const std::int16_t (&steps)[2]) {
     return glm::max(glm::vec2(steps[0], steps[1]) / 32767.0f, -1.0f);
-}
-
-glm::uvec3 words(const bend::PackedVertex& vertex) {
-    glm::uvec3 result;
-    std::memcpy(&result, &vertex, sizeof result);
-    return result;
 }
 
 /// The largest differences between what is decoded and what the planes hold; NaN counts as the largest.

@@ -13,6 +13,8 @@
 #include <doctest/doctest.h>
 #include <goffer.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -140,6 +142,12 @@ TEST_CASE("C: a body file") {
     CHECK(draw.triangle_count == triangles);
     CHECK(draw.uvs == nullptr);
     CHECK(draw.part_count == 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::ranges::minmax(
+            twice.mesh.positions, {}, [&](const glm::vec3& position) { return position[axis]; });
+        CHECK(std::fabs(draw.rest_bounds.low[axis] - low[axis]) < 1e-4f);
+        CHECK(std::fabs(draw.rest_bounds.high[axis] - high[axis]) < 1e-4f);
+    }
     const auto text = [](const goffer_string& string) { return std::string(string.data, string.size); };
     CHECK(text(goffer_file_part(file, 0, 0).name) == "all");
     CHECK(goffer_file_part(file, 0, 0).triangle_count == triangles);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl.hpp"
 
-#include "support/gl_program.hpp"
+#include "gl_vertex.hpp"
 
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/draw/offscreen.hpp>
@@ -9,11 +9,10 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <initializer_list>
-#include <stdexcept>
-#include <string_view>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace goffer::test {
 namespace {
@@ -93,15 +92,11 @@ std::string text_of(GlApi api) {
 }
 
 GLuint linked(GlApi api) {
+    if (api != GlApi::compute)
+        return vertex_program(text_of(api), api == GlApi::embedded,
+                              {"bent_position", "bent_normal", "bent_tangent"});
     const GLuint program = glCreateProgram();
-    glAttachShader(program,
-                   compiled(api == GlApi::compute ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, text_of(api)));
-    if (api == GlApi::embedded)  // which has no program without one
-        glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
-    if (api != GlApi::compute) {
-        const char* const outputs[] = {"bent_position", "bent_normal", "bent_tangent"};
-        glTransformFeedbackVaryings(program, 3, outputs, GL_INTERLEAVED_ATTRIBS);
-    }
+    glAttachShader(program, compiled(GL_COMPUTE_SHADER, text_of(api)));
     link_program(program);
     return program;
 }
@@ -188,20 +183,9 @@ public:
             buffer(GL_ARRAY_BUFFER, vertices.size(), vertices.data());
             set_attributes(layout);
             set_texture(api_, rows);
-            // Without something to draw into nothing is drawn: there is no window.
-            const draw::OffscreenTarget target_pixel(1, 1);
-            glBindBufferBase(target, 0, buffer(target, bytes, nullptr));
-            glEnable(GL_RASTERIZER_DISCARD);
-            glBeginTransformFeedback(GL_POINTS);
-            glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(count), static_cast<GLsizei>(instances));
-            glEndTransformFeedback();
+            capture(bytes, count, instances);
         }
-        const void* const mapped =
-            glMapBufferRange(target, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
-        check(mapped != nullptr, "the results cannot be mapped");
-        std::copy_n(static_cast<const GlVertex*>(mapped), result.size(), result.begin());
-        glUnmapBuffer(target);
-        check(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
+        read_back(target, std::span(result));
         return result;
     }
 

@@ -16,7 +16,8 @@ using namespace goffer::test;
 /// modules/bend is compiled without exceptions: what it had half made when memory ran out is not freed
 /// (modules/README.md, "Errors"). All else has to be.
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): its name
-    return "leak:goffer::bend::Body::make\nleak:goffer::bend::load\nleak:goffer::bend::save\n";
+    return "leak:goffer::bend::Body::make\nleak:goffer::bend::load\nleak:goffer::bend::save\n"
+           "leak:goffer::bend::Sockets::make\n";
 }
 
 namespace {

@@ -11,12 +11,13 @@
  * caller's memory, a crowd many, from the caller's columns. What C++ headers say of the same things holds
  * here; they are named in brackets.
  *
- * A function that can fail returns null or 0, and says why in one line in *error, unless that is null. No
- * exception leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to
- * const may be called from several threads at the same time, if they write to different memory. Objects that
- * goffer_.._free takes belong to the caller; null may be freed. Angles are radians, lengths are in the mesh's
- * units. Structs may grow: set one to 0, or to its defaults, before you fill it, and build against the header
- * of the library that you load. */
+ * A function that can fail returns null or 0, and says why in *error, unless that is null. No exception
+ * leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to const may
+ * be called from several threads at the same time, if they write to different memory. Objects that
+ * goffer_.._free takes belong to the caller; null may be freed. A handle that is null, and an index of what
+ * is not there, do no harm: the result is zeros, or nothing is done, unless a function asks for what
+ * validates. Angles are radians, lengths are in the mesh's units. Structs may grow: set one to 0, or to its
+ * defaults, before you fill it, and build against the header of the library that you load. */
 
 #ifdef _WIN32
 #ifdef GOFFER_BUILDING
@@ -35,8 +36,23 @@ extern "C" {
 /* The version of the library, as "0.1.0". */
 GOFFER_API const char* goffer_version(void);
 
+/* What an error is about, for programs. These numbers stay as they are; there may be more of them. */
+enum {
+    GOFFER_ERROR_NONE,
+    GOFFER_ERROR_ARGUMENT, /* null, out of its range, or not what goes with the others; a job or crowd too */
+    GOFFER_ERROR_MEMORY,   /* there is not enough; what was half made may be lost */
+    GOFFER_ERROR_BIND,     /* the mesh cannot be bound, or not with these options [fit::Error] */
+    GOFFER_ERROR_MISSING,  /* there is no file of that name */
+    GOFFER_ERROR_SYSTEM,   /* the file cannot be opened or read */
+    GOFFER_ERROR_FILE,     /* no body file, or one that is damaged */
+    GOFFER_ERROR_VERSION,  /* a body file of a newer version, or of the other byte order: bake it again */
+    GOFFER_ERROR_OTHER
+};
+
+/* What went wrong; of a call that did not fail, no text and GOFFER_ERROR_NONE. */
 typedef struct goffer_error {
-    char text[512];
+    char text[512]; /* one line, for people: may change from version to version */
+    int code;       /* one of GOFFER_ERROR_.. */
 } goffer_error;
 
 /* Characters that no 0 ends. */
@@ -182,7 +198,7 @@ typedef struct goffer_material {
     float base_color[4]; /* linear RGBA */
 } goffer_material;
 
-/* Levels count from 0, the finest. Indices must be in range. */
+/* Levels count from 0, the finest. */
 GOFFER_API size_t goffer_file_level_count(const goffer_file* file);
 GOFFER_API const goffer_body* goffer_file_body(const goffer_file* file, size_t level);
 GOFFER_API goffer_file_draw goffer_file_mesh(const goffer_file* file, size_t level);
@@ -292,8 +308,8 @@ typedef struct goffer_crowd goffer_crowd;
 /* A crowd of `batch_count` empty batches. */
 GOFFER_API goffer_crowd* goffer_crowd_create(size_t batch_count, goffer_error* error);
 GOFFER_API void goffer_crowd_free(goffer_crowd* crowd);
-/* Sets batch `index`, which must be in range. What the batch points to is read when the crowd runs, so that
- * it is to be set again only where an address or a count changes. Allocates nothing. */
+/* Sets batch `index`. What the batch points to is read when the crowd runs, so that it is to be set again
+ * only where an address or a count changes. Allocates nothing. */
 GOFFER_API int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batch,
                                 goffer_error* error);
 /* The number of the frame, by which update_intervals count. */

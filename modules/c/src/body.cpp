@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 using namespace goffer;
 using namespace goffer::c;
@@ -20,7 +21,7 @@ fit::Profile profile_of(const goffer_bind_options& options) {
     constexpr paper::Profile::Kind kinds[] = {paper::Profile::Kind::even, paper::Profile::Kind::damped,
                                               paper::Profile::Kind::smooth};
     if (options.profile < GOFFER_PROFILE_EVEN || options.profile > GOFFER_PROFILE_SMOOTH)
-        throw fit::Error(
+        throw std::invalid_argument(
             "profile: no such one; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or GOFFER_PROFILE_SMOOTH");
     return {kinds[options.profile], options.roundness};
 }
@@ -29,7 +30,7 @@ fit::Amplitude amplitude_of(const goffer_bind_options& options) {
     constexpr fit::Amplitude amplitudes[] = {fit::Amplitude::none, fit::Amplitude::paper,
                                              fit::Amplitude::area, fit::Amplitude::mesh};
     if (options.amplitude < GOFFER_AMPLITUDE_NONE || options.amplitude > GOFFER_AMPLITUDE_MESH)
-        throw fit::Error("amplitude: no such one; use one of GOFFER_AMPLITUDE_..");
+        throw std::invalid_argument("amplitude: no such one; use one of GOFFER_AMPLITUDE_..");
     return amplitudes[options.amplitude];
 }
 
@@ -44,7 +45,7 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     if (!(given.onset < 0)) options.onset = given.onset;
     options.wrinkle_range = {given.wrinkle_first, given.wrinkle_last};
     if (given.region_count > 0 && given.shares == nullptr)
-        throw fit::Error("shares: null; give one for each region");
+        throw std::invalid_argument("shares: null; give one for each region");
     for (std::size_t i = 0; i < given.region_count; ++i)
         options.regions.push_back({given.shares[i], std::nullopt});
     return options;
@@ -63,8 +64,9 @@ fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& given,
 }  // namespace
 
 fit::Geometry goffer::c::geometry_of(const goffer_mesh& mesh) {
-    if (mesh.positions == nullptr) throw fit::Error("positions: null; give 3 floats for each vertex");
-    if (mesh.triangles == nullptr) throw fit::Error("triangles: null; give 3 indices for each");
+    if (mesh.positions == nullptr)
+        throw std::invalid_argument("positions: null; give 3 floats for each vertex");
+    if (mesh.triangles == nullptr) throw std::invalid_argument("triangles: null; give 3 indices for each");
     const auto vectors = [&](const float* first) {
         return std::span(reinterpret_cast<const glm::vec3*>(first), first != nullptr ? mesh.vertex_count : 0);
     };
@@ -96,7 +98,7 @@ goffer_bind_options goffer_bind_defaults(void) {
 goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options* options,
                               goffer_error* error) {
     return guarded(error, [&]() -> goffer_body* {
-        if (mesh == nullptr) throw fit::Error("mesh: null");
+        if (mesh == nullptr) throw std::invalid_argument("mesh: null");
         auto body = std::make_unique<goffer_body>();
         const goffer_bind_options given = options != nullptr ? *options : goffer_bind_defaults();
         const fit::BindOptions wanted = options_of(given);

@@ -14,6 +14,7 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct goffer_crowd {
     goffer::bend::Stores stores = goffer::bend::Stores::automatic;
     goffer::Isa isa = goffer::Isa::automatic;
 
+    /// Null where there is no such batch.
+    [[nodiscard]] const goffer::bend::Batch* batch(std::size_t index) const noexcept {
+        return index < batches.size() ? &batches[index] : nullptr;
+    }
     [[nodiscard]] goffer::bend::CrowdJob job() const noexcept {
         goffer::bend::CrowdJob job;
         job.batches = batches;
@@ -44,22 +49,36 @@ struct goffer_crowd {
 
 namespace goffer::c {
 
-inline void say(goffer_error* error, const char* text) noexcept {
-    if (error != nullptr) std::snprintf(error->text, sizeof error->text, "%s", text);
+inline void say(goffer_error* error, int code, const char* text) noexcept {
+    if (error == nullptr) return;
+    std::snprintf(error->text, sizeof error->text, "%s", text);
+    error->code = code;
 }
 
-/// What `work` returns, or nothing where it throws; *error says which.
+/// Whether there is no fault; *error says which there is.
+inline int say_fault(goffer_error* error, const bend::Fault& fault) noexcept {
+    if (fault.none()) return say(error, GOFFER_ERROR_NONE, ""), 1;
+    return say(error, GOFFER_ERROR_ARGUMENT, bend::describe(fault).c_str()), 0;
+}
+
+/// What `work` returns, or nothing where it throws; *error says which. A std::logic_error is the caller's.
 template <class Work>
 auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
-    say(error, "");
+    say(error, GOFFER_ERROR_NONE, "");
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        say(error, "not enough memory");
+        say(error, GOFFER_ERROR_MEMORY, "not enough memory");
+    } catch (const std::length_error&) {  // of an array that no memory could hold
+        say(error, GOFFER_ERROR_MEMORY, "not enough memory");
+    } catch (const std::logic_error& thrown) {
+        say(error, GOFFER_ERROR_ARGUMENT, thrown.what());
+    } catch (const fit::Error& thrown) {
+        say(error, GOFFER_ERROR_BIND, thrown.what());
     } catch (const std::exception& thrown) {
-        say(error, thrown.what());
+        say(error, GOFFER_ERROR_OTHER, thrown.what());
     } catch (...) {
-        say(error, "an unknown error");
+        say(error, GOFFER_ERROR_OTHER, "an unknown error");
     }
     return {};
 }

@@ -92,24 +92,23 @@ int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batc
 }
 
 void goffer_crowd_set_frame(goffer_crowd* crowd, uint32_t frame) {
-    crowd->frame = frame;
+    if (crowd != nullptr) crowd->frame = frame;
 }
 
 void goffer_crowd_set_stores(goffer_crowd* crowd, int stores) {
+    if (crowd == nullptr) return;
     crowd->stores = stores == GOFFER_STORES_CACHED         ? bend::Stores::cached
                     : stores == GOFFER_STORES_NON_TEMPORAL ? bend::Stores::non_temporal
                                                            : bend::Stores::automatic;
 }
 
 void goffer_crowd_set_isa(goffer_crowd* crowd, int isa) {
-    crowd->isa = isa_of(isa);
+    if (crowd != nullptr) crowd->isa = isa_of(isa);
 }
 
 int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error) {
-    if (crowd == nullptr) return say(error, "crowd: null"), 0;
-    const bend::Fault fault = bend::validate(crowd->job());
-    say(error, fault.none() ? "" : bend::describe(fault).c_str());
-    return fault.none() ? 1 : 0;
+    if (crowd == nullptr) return say(error, GOFFER_ERROR_ARGUMENT, "crowd: null"), 0;
+    return say_fault(error, bend::validate(crowd->job()));
 }
 
 goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd) {
@@ -129,6 +128,7 @@ goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t pie
 }
 
 void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result) {
-    const bend::Batch& batch = crowd->batches[index];
-    bend::bounds(batch, {reinterpret_cast<bend::Bounds*>(result), batch.count}, crowd->isa);
+    const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
+    if (batch == nullptr || batch->body == nullptr) return;
+    bend::bounds(*batch, {reinterpret_cast<bend::Bounds*>(result), batch->count}, crowd->isa);
 }

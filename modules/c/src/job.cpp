@@ -85,13 +85,11 @@ goffer_job goffer_job_defaults(void) {
 }
 
 int goffer_job_validate(const goffer_job* job, goffer_error* error) {
-    if (job == nullptr) return say(error, "job: null"), 0;
+    if (job == nullptr) return say(error, GOFFER_ERROR_ARGUMENT, "job: null"), 0;
     // C++ takes no poses for that of a body of one region.
     if (job->poses == nullptr || job->pose_count == 0)
-        return say(error, "poses: none; give one for each region"), 0;
-    const bend::Fault fault = bend::validate(job_of(*job));
-    say(error, fault.none() ? "" : bend::describe(fault).c_str());
-    return fault.none() ? 1 : 0;
+        return say(error, GOFFER_ERROR_ARGUMENT, "poses: none; give one for each region"), 0;
+    return say_fault(error, bend::validate(job_of(*job)));
 }
 
 goffer_job_result goffer_job_run(const goffer_job* job) {

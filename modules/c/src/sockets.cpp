@@ -51,6 +51,7 @@ size_t goffer_sockets_count(const goffer_sockets* sockets) {
 
 void goffer_sockets_frames(const goffer_sockets* sockets, const goffer_job* job,
                            goffer_socket_frame* result) {
+    if (sockets == nullptr) return;
     sockets->sockets.frames(job_of(*job),
                             {reinterpret_cast<bend::SocketFrame*>(result), sockets->sockets.count()});
 }

@@ -48,18 +48,20 @@ ColumnExtent extent_of(const float* column, std::size_t first, std::size_t last)
     return extent;
 }
 
-/// Whether the sums of squares of `N` columns lie within `slack` of `wanted`. The columns are finite.
+/// Whether the sums of squares of `N` columns lie within `slack` of `wanted`. Compares them as integers,
+/// whose order is the same where no sign is, so that compilers make vectors of the loop.
 template <std::size_t N>
 bool squares_are(double wanted, double slack, const std::array<const float*, N>& columns, std::size_t first,
                  std::size_t last) noexcept {
-    float low = static_cast<float>(wanted), high = low;
+    std::int32_t lowest = std::bit_cast<std::int32_t>(static_cast<float>(wanted)), highest = lowest;
     for (std::size_t i = first; i < last; ++i) {
         float sum = 0;
         for (const float* column : columns) sum += column[i] * column[i];
-        low = std::min(low, sum);
-        high = std::max(high, sum);
+        lowest = std::min(lowest, std::bit_cast<std::int32_t>(sum));
+        highest = std::max(highest, std::bit_cast<std::int32_t>(sum));
     }
-    return static_cast<double>(low) >= wanted - slack && static_cast<double>(high) <= wanted + slack;
+    return static_cast<double>(std::bit_cast<float>(lowest)) >= wanted - slack &&
+           static_cast<double>(std::bit_cast<float>(highest)) <= wanted + slack;
 }
 
 /// Which number of a vertex a column was made from.
@@ -216,6 +218,12 @@ private:
 };
 
 }  // namespace
+
+bool all_below(std::size_t count, std::span<const std::uint32_t> indices) noexcept {
+    std::uint32_t largest = 0;
+    for (const std::uint32_t index : indices) largest = std::max(largest, index);
+    return indices.empty() || largest < count;
+}
 
 BodyFault check_columns(const BodyData& data) noexcept {
     for (std::size_t r = 0; r < data.regions.size(); ++r) {

@@ -140,6 +140,10 @@ static_assert(column_alignment == 64 && widest_batch == 32);
 /// where the most extreme of them would make no good vertex.
 [[nodiscard]] BodyFault check_columns(const BodyData& data) noexcept;
 
+/// Whether all indices are below `count`. A function of its own: within code that runs once compilers make no
+/// vectors of a loop.
+[[nodiscard]] bool all_below(std::size_t count, std::span<const std::uint32_t> indices) noexcept;
+
 /// The checksum of a file, of which at least the header is there.
 [[nodiscard]] std::uint64_t checksum_of(std::span<const std::byte> bytes) noexcept;
 

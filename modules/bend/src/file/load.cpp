@@ -349,9 +349,7 @@ private:
         if (!mesh.uvs.empty() && mesh.uvs.size() != vertices) return count(FileSection::uvs);
         if (!mesh.source.empty() && mesh.source.size() != vertices) return count(FileSection::source);
         if (everything_) {
-            std::uint32_t largest = 0;  // without a branch, so that compilers vectorize it
-            for (const std::uint32_t vertex : mesh.triangles) largest = std::max(largest, vertex);
-            if (!mesh.triangles.empty() && largest >= vertices) {
+            if (!all_below(vertices, mesh.triangles)) {
                 const auto bad = std::ranges::find_if(mesh.triangles, [&](auto i) { return i >= vertices; });
                 return no_such(FileSection::triangles,
                                static_cast<std::size_t>(bad - mesh.triangles.begin()) / 3);
