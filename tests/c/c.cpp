@@ -272,6 +272,9 @@ TEST_CASE("C: what is wrong is said, and null does no harm") {
     CHECK(error_of_job(job).starts_with("body: "));
     job.body = twice.body;
     CHECK(error_of_job(job).starts_with("outputs: "));
+    float number = 0;
+    for (float*& component : job.previous_positions.component) component = &number;
+    CHECK(error_of_job(job).starts_with("previous_poses: none"));
     CHECK(goffer_job_validate(nullptr, &error) == 0);
     CHECK(goffer_crowd_validate(nullptr, &error) == 0);
     CHECK(goffer_body_vertex_count(nullptr) == 0);

@@ -128,6 +128,7 @@ GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_b
 /* Not for the bodies of a file. */
 GOFFER_API void goffer_body_free(goffer_body* body);
 
+/* 0 for null and where there is no such region. Lengths are in model units, angles in radians. [bend::Body] */
 GOFFER_API size_t goffer_body_vertex_count(const goffer_body* body);
 GOFFER_API size_t goffer_body_region_count(const goffer_body* body);
 GOFFER_API int goffer_body_has_tangents(const goffer_body* body);
@@ -248,7 +249,8 @@ typedef struct goffer_job_result {
     int at_rest; /* a pose was not finite, and all were taken as at rest */
 } goffer_job_result;
 
-/* 1 if the job may run. What ran once may run again with any numbers in poses, weight and transforms. */
+/* 1 if the job may run. A job that validated once may run again with any numbers in poses, weight and
+ * transforms. */
 GOFFER_API int goffer_job_validate(const goffer_job* job, goffer_error* error);
 /* The job must validate. Allocates nothing. */
 GOFFER_API goffer_job_result goffer_job_run(const goffer_job* job);
@@ -314,11 +316,13 @@ GOFFER_API int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_
                                 goffer_error* error);
 /* The number of the frame, by which update_intervals count. */
 GOFFER_API void goffer_crowd_set_frame(goffer_crowd* crowd, uint32_t frame);
-/* Whether results go past the cache; automatic where the number means nothing. [bend::Stores] */
+/* Whether results go past the cache. Any other number means automatic. [bend::Stores] */
 enum { GOFFER_STORES_AUTOMATIC, GOFFER_STORES_CACHED, GOFFER_STORES_NON_TEMPORAL };
 GOFFER_API void goffer_crowd_set_stores(goffer_crowd* crowd, int stores);
 /* The crowd does not validate if `isa` does not run here. */
 GOFFER_API void goffer_crowd_set_isa(goffer_crowd* crowd, int isa);
+/* 1 if the crowd may run. A crowd that validated once may run again with any numbers in its columns, but those
+ * of indices and vertex offsets. */
 GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
 /* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
  * caller's. The crowd must validate. The bits are the same. */

@@ -6,6 +6,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+
 using namespace goffer;
 using namespace goffer::c;
 
@@ -89,6 +91,10 @@ int goffer_job_validate(const goffer_job* job, goffer_error* error) {
     // C++ takes no poses for that of a body of one region.
     if (job->poses == nullptr || job->pose_count == 0)
         return say(error, GOFFER_ERROR_ARGUMENT, "poses: none; give one for each region"), 0;
+    const float* const* const previous = job->previous_positions.component;
+    const bool wanted = std::any_of(previous, previous + 3, [](const float* c) { return c != nullptr; });
+    if (wanted && job->previous_poses == nullptr)
+        return say(error, GOFFER_ERROR_ARGUMENT, "previous_poses: none; give one for each region"), 0;
     return say_fault(error, bend::validate(job_of(*job)));
 }
 
