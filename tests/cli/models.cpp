@@ -2,10 +2,15 @@
 #include "support/models.hpp"
 
 #include "command.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
 
 using namespace goffer;
 using namespace goffer::test;
@@ -28,7 +33,8 @@ void check_bends(const char* name, const char* axis = "auto") {
     if (file.empty()) return;
     const Folder folder;
     const mesh::Mesh rest = mesh::load(file);
-    for (const std::string angle : {"30", "90", "36000"}) {
+    const std::array<std::string, 3> angles{"90", "30", "36000"};
+    for (const std::string& angle : std::span(angles).first(rounds<std::size_t>(angles.size(), 1))) {
         CAPTURE(angle);
         const auto all = report(folder, {"bend", file.string(), "-o", name, "--axis", axis, "--angle", angle,
                                          "--direction", "25", "--refine", "off"});
