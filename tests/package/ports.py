@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the vcpkg port and the Conan recipe with stand-ins for what those programs bring, and configures goffer with the
-options that they come to. Neither program is needed.
-   ports.py TOP FOLDER"""
+options that they come to; builds and runs what Conan would test the package with. Neither program is needed.
+   ports.py TOP FOLDER PREFIX
+PREFIX: where goffer is installed, as the package that the recipe makes would be."""
 import importlib.util
 import json
 import pathlib
@@ -11,7 +12,7 @@ import subprocess
 import sys
 import types
 
-TOP, WORK = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+TOP, WORK, PREFIX = map(pathlib.Path, sys.argv[1:])
 PORT = TOP / "engine/packaging/vcpkg/goffer"
 VERSION = re.search(r"project\(goffer VERSION ([\d.]+)", (TOP / "CMakeLists.txt").read_text()).group(1)
 
@@ -72,21 +73,56 @@ class Recorder:
         """Writes nothing."""
 
 
-def conan(chosen):
-    """The options that the recipe comes to."""
+class Builder:
+    """Stands for Conan's CMake: builds a recipe's project in its folder for programs."""
+
+    def __init__(self, recipe):
+        self.source, self.binary = recipe.recipe_folder, recipe.cpp.build.bindir
+
+    def configure(self):
+        """Finds goffer as CMakeDeps would have it found."""
+        subprocess.run(["cmake", "-S", self.source, "-B", self.binary, "-DCMAKE_BUILD_TYPE=Release",
+                        f"-DCMAKE_PREFIX_PATH={PREFIX}"], check=True)
+
+    def build(self):
+        """All of it."""
+        subprocess.run(["cmake", "--build", self.binary], check=True)
+
+
+def recipe_of(path, name, cmake):
+    """A recipe of Conan's, and the module that it comes from. `cmake` stands for its class CMake."""
     conanfile = types.SimpleNamespace(ConanFile=object)
     tools = {"conan": conanfile, "conan.tools": types.SimpleNamespace(),
-             "conan.tools.build": types.SimpleNamespace(check_min_cppstd=None),
-             "conan.tools.cmake": types.SimpleNamespace(CMake=Recorder, CMakeDeps=Recorder, CMakeToolchain=Recorder,
+             "conan.tools.build": types.SimpleNamespace(check_min_cppstd=None, can_run=lambda _: True),
+             "conan.tools.cmake": types.SimpleNamespace(CMake=cmake, CMakeDeps=Recorder, CMakeToolchain=Recorder,
                                                         cmake_layout=None),
              "conan.tools.files": types.SimpleNamespace(copy=None, load=lambda _, file: pathlib.Path(file).read_text())}
     sys.modules.update(tools)
-    path = TOP / "engine/packaging/conan/conanfile.py"
     spec = importlib.util.spec_from_file_location("recipe", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    recipe = module.Goffer()
+    recipe = getattr(module, name)()
     recipe.recipe_folder = str(path.parent)
+    return recipe, module
+
+
+def conan_test():
+    """Builds and runs what `conan create` tests the package with."""
+    recipe, _ = recipe_of(TOP / "engine/packaging/conan/test_package/conanfile.py", "GofferTest", Builder)
+    recipe.cpp = types.SimpleNamespace(build=types.SimpleNamespace(bindir=str(WORK / "conan test")))
+    recipe.tested_reference_str = f"goffer/{VERSION}"
+    needed = []
+    recipe.requires = needed.append
+    recipe.run = lambda program, **_: subprocess.run([program], check=True)
+    recipe.requirements()
+    assert needed == [recipe.tested_reference_str], needed
+    recipe.build()
+    recipe.test()
+
+
+def conan(chosen):
+    """The options that the recipe comes to."""
+    recipe, module = recipe_of(TOP / "engine/packaging/conan/conanfile.py", "Goffer", Recorder)
     recipe.options = types.SimpleNamespace(**{**module.Goffer.default_options, **chosen})
     needed = []
     recipe.requires = lambda name, **_: needed.append(name)
@@ -112,3 +148,4 @@ for chosen in ({}, {"offline": True}, {"tbb": False}):
     assert all("include_prerelease" in name for name in needed if "-" in name.partition("/")[2]), needed
     assert any("onetbb" in name for name in needed) == chosen.get("tbb", True), needed
     configure(f"conan {chosen}".replace("'", ""), options)
+conan_test()
