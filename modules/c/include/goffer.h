@@ -128,7 +128,8 @@ GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_b
 /* Not for the bodies of a file. */
 GOFFER_API void goffer_body_free(goffer_body* body);
 
-/* 0 for null and where there is no such region. Lengths are in model units, angles in radians. [bend::Body] */
+/* 0 for null and where there is no such region. Lengths are in model units, angles in radians. [bend::Body]
+ */
 GOFFER_API size_t goffer_body_vertex_count(const goffer_body* body);
 GOFFER_API size_t goffer_body_region_count(const goffer_body* body);
 GOFFER_API int goffer_body_has_tangents(const goffer_body* body);
@@ -321,8 +322,8 @@ enum { GOFFER_STORES_AUTOMATIC, GOFFER_STORES_CACHED, GOFFER_STORES_NON_TEMPORAL
 GOFFER_API void goffer_crowd_set_stores(goffer_crowd* crowd, int stores);
 /* The crowd does not validate if `isa` does not run here. */
 GOFFER_API void goffer_crowd_set_isa(goffer_crowd* crowd, int isa);
-/* 1 if the crowd may run. A crowd that validated once may run again with any numbers in its columns, but those
- * of indices and vertex offsets. */
+/* 1 if the crowd may run. A crowd that validated once may run again with any numbers in its columns, but
+ * those of indices and vertex offsets. */
 GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
 /* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
  * caller's. The crowd must validate. The bits are the same. */
