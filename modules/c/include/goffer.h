@@ -52,7 +52,7 @@ enum {
 /* What went wrong; of a call that did not fail, no text and GOFFER_ERROR_NONE. */
 typedef struct goffer_error {
     char text[512]; /* one line, for people: may change from version to version */
-    int code;       /* one of GOFFER_ERROR_.. */
+    int code;       /* the error, one of the numbers above */
 } goffer_error;
 
 /* Characters that no 0 ends. */
