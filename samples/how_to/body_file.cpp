@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// How do I load bodies, and reload one while a crowd of it runs? body_file FILE.goffer NEWER.goffer
+// How do I load bodies, and reload one between two frames of a crowd? body_file FILE.goffer NEWER.goffer
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/body_table.hpp>

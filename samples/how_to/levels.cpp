@@ -28,11 +28,11 @@ int main(int argc, char** argv) {
     if (levels[0].body.region_count() != 1) return std::puts("this program is for bodies of one region"), 1;
     if (levels.size() == 1) std::puts("this file has one level: goffer bake --lod adds coarser ones");
     std::vector<Worm> worms(100);
-    for (std::uint32_t i = 0; i < worms.size(); ++i) {
-        worms[i].place = static_cast<float>(i);
-        worms[i].first_vertex = i * static_cast<std::uint32_t>(levels[0].body.vertex_count());
-    }
-    std::vector<glm::vec3> vertices(worms.size() * levels[0].body.vertex_count());
+    std::size_t room = 0;  // vertices of the finest level
+    for (const bend::BodyFileLevel& level : levels) room = std::max(room, level.body.vertex_count());
+    for (std::uint32_t i = 0; i < worms.size(); ++i)
+        worms[i] = {.place = static_cast<float>(i), .first_vertex = i * static_cast<std::uint32_t>(room)};
+    std::vector<glm::vec3> vertices(worms.size() * room);
     std::vector<std::vector<std::uint32_t>> worms_of(levels.size());
     std::vector<bend::Batch> batches(levels.size());
     for (int frame = 0; frame < 3; ++frame) {

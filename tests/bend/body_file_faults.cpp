@@ -120,6 +120,13 @@ TEST_CASE("body file: a forged one is refused for what is in it") {
     CHECK(at(FileSection::level, 28, std::numeric_limits<float>::quiet_NaN()).section == FileSection::level);
     CHECK(at(FileSection::bands, 8, 0.25f).section == FileSection::bands);
     CHECK(at(FileSection::bands, 36, 0.25f).section == FileSection::bands);
+    // Vertices near joints: where none can be, behind the last one, and with scales that none has.
+    CHECK(at(FileSection::bands, 288, std::uint64_t{1}).section == FileSection::bands);
+    CHECK(at(FileSection::bands, 296, ~std::uint64_t{0}).section == FileSection::bands);
+    for (const float scale : {-1.0f, 1001.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        CHECK(at(FileSection::bands, 304, scale).section == FileSection::bands);
+        CHECK(at(FileSection::bands, 308, scale).section == FileSection::bands);
+    }
     CHECK(at(FileSection::materials, 0, 0xffffffffu).reason == FileReason::index);
     CHECK(at(FileSection::parts, 4, 1000u).reason == FileReason::index);
     CHECK(at(FileSection::parts, 24, 5u).reason == FileReason::index);  // characters of another name

@@ -45,7 +45,7 @@ enum {
     GOFFER_ERROR_MISSING,  /* there is no file of that name */
     GOFFER_ERROR_SYSTEM,   /* the file cannot be opened or read */
     GOFFER_ERROR_FILE,     /* no body file, or one that is damaged */
-    GOFFER_ERROR_VERSION,  /* a body file of a newer version, or of the other byte order: bake it again */
+    GOFFER_ERROR_VERSION,  /* a body file of an unknown version or of the other byte order: bake it again */
     GOFFER_ERROR_OTHER
 };
 
@@ -128,8 +128,7 @@ GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_b
 /* Not for the bodies of a file. */
 GOFFER_API void goffer_body_free(goffer_body* body);
 
-/* 0 for null and where there is no such region. Lengths are in model units, angles in radians. [bend::Body]
- */
+/* Zeros for null, and where there is no such region. [bend::Body] */
 GOFFER_API size_t goffer_body_vertex_count(const goffer_body* body);
 GOFFER_API size_t goffer_body_region_count(const goffer_body* body);
 GOFFER_API int goffer_body_has_tangents(const goffer_body* body);
@@ -264,7 +263,8 @@ typedef struct goffer_capsule {
     float from[3], to[3], radius;
 } goffer_capsule;
 
-/* Writes `pieces` >= 1 capsules for each region. */
+/* Writes `pieces` >= 1 capsules for each region. The job has a pose for each region; its streams are not
+ * looked at. */
 GOFFER_API void goffer_job_capsules(const goffer_job* job, size_t pieces, goffer_capsule* result);
 
 /* ---- Crowds [goffer/bend/crowd.hpp] ---- */
@@ -330,7 +330,8 @@ GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* er
 GOFFER_API goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces);
-/* The bounds of each instance of a batch, from its poses alone; `result` holds as many. */
+/* The bounds of each instance of a batch, from its poses alone; `result` holds as many. The batch has a body,
+ * and columns as for a crowd that validates; its streams are not looked at. */
 GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result);
 
 /* ---- Shaders [modules/gpu/README.md, goffer/gpu/vertices.hpp, goffer/bend/kernel_input.hpp] ---- */
@@ -346,8 +347,8 @@ GOFFER_API void goffer_body_write_vertices(const goffer_body* body, void* result
 
 /* Floats that a shader reads of each region of each instance. */
 #define GOFFER_COEFFICIENTS 68
-/* Writes them for a batch, whatever its masks say: instance after instance, those of its regions in order.
- * `result` is aligned to 16 bytes. */
+/* Writes them for a batch as goffer_crowd_bounds() takes it, whatever its masks say: instance after instance,
+ * those of its regions in order. `result` is aligned to 16 bytes. */
 GOFFER_API void goffer_crowd_set_up(const goffer_crowd* crowd, size_t index, float* result);
 /* The same at the previous poses and transforms, which must be given. */
 GOFFER_API void goffer_crowd_set_up_previous(const goffer_crowd* crowd, size_t index, float* result);
@@ -363,7 +364,7 @@ typedef struct goffer_socket_frame {
     float position[3];
 } goffer_socket_frame;
 
-/* All sockets of a file. */
+/* All sockets of a file; null, with GOFFER_ERROR_ARGUMENT, where it has none. */
 GOFFER_API goffer_sockets* goffer_file_sockets(const goffer_file* file, goffer_error* error);
 /* Sockets of a bound body, at the places of `mesh`, which is the one that it was bound from, that are nearest
  * to `count` points of 3 floats. */

@@ -61,7 +61,8 @@ goffer_file* handle_of(std::optional<bend::BodyFile> loaded, const bend::BodyFil
 
 goffer_file* goffer_file_load(const void* bytes, size_t size, int verify, int copy, goffer_error* error) {
     return guarded(error, [&] {
-        const std::span all(static_cast<const std::byte*>(bytes), bytes != nullptr ? size : 0);
+        if (bytes == nullptr && size > 0) throw std::invalid_argument("bytes: null");
+        const std::span all(static_cast<const std::byte*>(bytes), size);
         const auto load = copy != 0 ? bend::load_copy : bend::load;
         bend::BodyFileFault fault;
         std::optional<bend::BodyFile> loaded = load(all, &fault, verify_of(verify));

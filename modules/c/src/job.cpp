@@ -115,6 +115,7 @@ goffer_bounds goffer_job_bounds(const goffer_job* job) {
 }
 
 void goffer_job_capsules(const goffer_job* job, size_t pieces, goffer_capsule* result) {
+    if (job == nullptr || job->body == nullptr) return;
     const bend::DeformJob made = job_of(*job);
     bend::capsules(made, pieces,
                    {reinterpret_cast<bend::Capsule*>(result), bend::capsule_count(*made.body, pieces)});

@@ -21,7 +21,7 @@ namespace {
 template <class SetUp>
 void set_up(const goffer_crowd* crowd, std::size_t index, float* result, const SetUp& work) {
     const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
-    if (batch == nullptr || batch->body == nullptr) return;
+    if (batch == nullptr || batch->body == nullptr || batch->poses.empty()) return;
     const std::size_t count = batch->count * batch->body->region_count();
     work(*batch, std::span(reinterpret_cast<bend::Coefficients*>(result), count), crowd->isa);
 }
@@ -47,6 +47,8 @@ void goffer_crowd_set_up(const goffer_crowd* crowd, size_t index, float* result)
 }
 
 void goffer_crowd_set_up_previous(const goffer_crowd* crowd, size_t index, float* result) {
+    const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
+    if (batch == nullptr || batch->previous_poses.empty()) return;
     set_up(crowd, index, result, bend::set_up_previous);
 }
 

@@ -3,6 +3,8 @@
 
 #include <goffer/fit/sockets.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -35,6 +37,8 @@ goffer_sockets* goffer_body_sockets(const goffer_body* body, const goffer_mesh* 
         std::vector<bend::Socket> sockets;
         for (std::size_t i = 0; i < count; ++i) {
             const float* p = points + 3 * i;
+            if (!std::all_of(p, p + 3, [](float x) { return std::isfinite(x); }))
+                throw std::invalid_argument("points: one is not finite");
             sockets.push_back(fit::socket_near(*body->binding, geometry, glm::dvec3(p[0], p[1], p[2])));
         }
         return make_sockets(*body->body, sockets);
@@ -51,7 +55,7 @@ size_t goffer_sockets_count(const goffer_sockets* sockets) {
 
 void goffer_sockets_frames(const goffer_sockets* sockets, const goffer_job* job,
                            goffer_socket_frame* result) {
-    if (sockets == nullptr) return;
+    if (sockets == nullptr || job == nullptr) return;
     sockets->sockets.frames(job_of(*job),
                             {reinterpret_cast<bend::SocketFrame*>(result), sockets->sockets.count()});
 }

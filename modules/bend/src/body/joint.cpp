@@ -52,7 +52,7 @@ bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first
     auto& [below, above] = joints;
     below.first = below.last = first;
     above.first = above.last = last;
-    if (columns.scale != nullptr) below.max_scale = above.max_scale = 0;
+    below.max_scale = above.max_scale = columns.scale != nullptr ? 0.0f : 1.0f;
     for (std::size_t i = first; i < last && (below.blends() || above.blends()); ++i) {
         for (Joint* joint : {&below, &above}) {
             if (!joint->blends() || !joint->nears(columns.height[i])) continue;

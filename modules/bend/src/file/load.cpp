@@ -48,11 +48,6 @@ bool agree(const FirstBandsRecord& a, const FirstBandsRecord& b) {
            all_near(a.drift, b.drift);
 }
 
-bool agree(const BandsRecord& a, const BandsRecord& b) {
-    return agree(a.first, b.first) && a.below_last == b.below_last && a.above_first == b.above_first &&
-           a.below_scale == b.below_scale && a.above_scale == b.above_scale;
-}
-
 class Loader {
 public:
     Loader(std::span<const std::byte> bytes, std::size_t levels, Verify verify, FileMemory holdings)
@@ -318,7 +313,7 @@ private:
     }
 
     /// The columns, what lies between them, and what was derived from them.
-    [[nodiscard]] BodyFileFault check_numbers(const BodyData& data, std::size_t level) const {
+    [[nodiscard]] BodyFileFault check_numbers(BodyData& data, std::size_t level) const {
         const float* column = data.columns.cos_half_beta;
         for (std::size_t c = 0; c < data.layout.columns(); ++c, column += data.stride) {
             const auto padding = std::as_bytes(std::span(column + data.vertex_count, column + data.stride));
@@ -330,11 +325,11 @@ private:
         const std::vector<BandsRecord> records = bands_records(data, level);
         for (std::size_t r = 0; r < records.size(); ++r) {
             const Region& region = data.regions[r];
-            Joints joints = data.details[r].joints;
-            if (!find_vertices(joints, data.columns, region.first, region.last) ||
-                !agree(record_of(bands_of(data.columns, region.first, region.last), joints, region.first,
-                                 data.inputs[r].vertex_count),
-                       records[r]))
+            const FirstBandsRecord made =
+                record_of(bands_of(data.columns, region.first, region.last), data.inputs[r].vertex_count);
+            if (!agree(made, records[r].first)) return number(FileSection::bands, r);
+            // What is found here counts: a vertex where a blend begins may round to either side of it.
+            if (!find_vertices(data.details[r].joints, data.columns, region.first, region.last))
                 return number(FileSection::bands, r);
         }
         return {};
