@@ -54,20 +54,6 @@ bool within(std::span<const std::byte> part, std::span<const std::byte> all) {
     return part.data() >= all.data() && part.data() + part.size() <= all.data() + all.size();
 }
 
-}  // namespace
-
-TEST_CASE("body file: columns and triangles are used where they lie") {
-    const AlignedBytes file = file_of(1000);
-    const BodyFile made = loaded(file);
-    const bend::BodyData& data = *made.levels[0].body.data();
-    const std::span columns(data.columns.cos_half_beta, data.layout.columns() * data.stride);
-    CHECK(within(std::as_bytes(columns), file.bytes()));
-    CHECK(within(std::as_bytes(made.levels[0].mesh.triangles), file.bytes()));
-    CHECK(made.levels[0].body.bytes() < columns.size_bytes() / 10);
-}
-
-namespace {
-
 void check_cost(const AlignedBytes& small, const AlignedBytes& large) {
     const auto few = allocations_of(small), many = allocations_of(large);
     if (!few) {
@@ -83,6 +69,16 @@ void check_cost(const AlignedBytes& small, const AlignedBytes& large) {
 }
 
 }  // namespace
+
+TEST_CASE("body file: columns and triangles are used where they lie") {
+    const AlignedBytes file = file_of(1000);
+    const BodyFile made = loaded(file);
+    const bend::BodyData& data = *made.levels[0].body.data();
+    const std::span columns(data.columns.cos_half_beta, data.layout.columns() * data.stride);
+    CHECK(within(std::as_bytes(columns), file.bytes()));
+    CHECK(within(std::as_bytes(made.levels[0].mesh.triangles), file.bytes()));
+    CHECK(made.levels[0].body.bytes() < columns.size_bytes() / 10);
+}
 
 TEST_CASE("body file: to load 100,000 vertices takes no more allocations than 1,000, and below 100 us") {
     check_cost(file_of(1000), file_of(100'000));

@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <span>
@@ -157,8 +156,7 @@ struct Baked {
         binding = fit::bind(mesh.geometry(), mesh.cylinder, options);
         const fit::BakeLevel level{&binding, {mesh.triangles, {}, {}, {}}};
         const std::vector<std::byte> bytes = fit::bake({{&level, 1}});
-        std::ofstream(file, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        folder.write("worm.goffer", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
 };
 

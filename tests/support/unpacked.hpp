@@ -16,7 +16,12 @@
 namespace goffer::test {
 
 namespace shader {
-using namespace glm;
+using glm::abs;
+using glm::max;
+using glm::normalize;
+using glm::uvec3;
+using glm::vec2;
+using glm::vec3;
 #include <goffer/bend/packed.glsl>
 }  // namespace shader
 

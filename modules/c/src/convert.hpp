@@ -33,10 +33,6 @@ struct goffer_crowd {
     goffer::bend::Stores stores = goffer::bend::Stores::automatic;
     goffer::Isa isa = goffer::Isa::automatic;
 
-    /// Null where there is no such batch.
-    [[nodiscard]] const goffer::bend::Batch* batch(std::size_t index) const noexcept {
-        return index < batches.size() ? &batches[index] : nullptr;
-    }
     [[nodiscard]] goffer::bend::CrowdJob job() const noexcept {
         goffer::bend::CrowdJob job;
         job.batches = batches;
@@ -85,6 +81,15 @@ auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
 
 [[nodiscard]] inline const bend::Body* body_of(const goffer_body* body) noexcept {
     return body != nullptr ? body->body : nullptr;
+}
+
+/// Batch `index` of a crowd; null where there is none that has a body and `poses`.
+[[nodiscard]] inline const bend::Batch* posed_batch(
+    const goffer_crowd* crowd, std::size_t index,
+    StridedView<bend::Pose> bend::Batch::*poses = &bend::Batch::poses) noexcept {
+    if (crowd == nullptr || index >= crowd->batches.size()) return nullptr;
+    const bend::Batch& batch = crowd->batches[index];
+    return batch.body != nullptr && !(batch.*poses).empty() ? &batch : nullptr;
 }
 
 /// One that does not run here where the number means nothing.

@@ -128,7 +128,7 @@ goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t pie
 }
 
 void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result) {
-    const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
-    if (batch == nullptr || batch->body == nullptr || batch->poses.empty()) return;
+    const bend::Batch* const batch = posed_batch(crowd, index);
+    if (batch == nullptr) return;
     bend::bounds(*batch, {reinterpret_cast<bend::Bounds*>(result), batch->count}, crowd->isa);
 }

@@ -19,9 +19,8 @@ namespace {
 
 /// The caller's memory as C++ has it: rows of floats, whose alignment set-up wants.
 template <class SetUp>
-void set_up(const goffer_crowd* crowd, std::size_t index, float* result, const SetUp& work) {
-    const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
-    if (batch == nullptr || batch->body == nullptr || batch->poses.empty()) return;
+void set_up(const bend::Batch* batch, const goffer_crowd* crowd, float* result, const SetUp& work) {
+    if (batch == nullptr) return;
     const std::size_t count = batch->count * batch->body->region_count();
     work(*batch, std::span(reinterpret_cast<bend::Coefficients*>(result), count), crowd->isa);
 }
@@ -43,13 +42,11 @@ void goffer_body_write_vertices(const goffer_body* body, void* result) {
 }
 
 void goffer_crowd_set_up(const goffer_crowd* crowd, size_t index, float* result) {
-    set_up(crowd, index, result, bend::set_up);
+    set_up(posed_batch(crowd, index), crowd, result, bend::set_up);
 }
 
 void goffer_crowd_set_up_previous(const goffer_crowd* crowd, size_t index, float* result) {
-    const bend::Batch* const batch = crowd != nullptr ? crowd->batch(index) : nullptr;
-    if (batch == nullptr || batch->previous_poses.empty()) return;
-    set_up(crowd, index, result, bend::set_up_previous);
+    set_up(posed_batch(crowd, index, &bend::Batch::previous_poses), crowd, result, bend::set_up_previous);
 }
 
 goffer_string goffer_deform_glsl(void) {

@@ -4,6 +4,7 @@
 #include "girths.hpp"
 #include "mask.hpp"
 #include "parts.hpp"
+#include "profile.hpp"
 #include "rest.hpp"
 #include "share.hpp"
 #include "text.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "depth.hpp"
 
-#include "text.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +10,6 @@ namespace {
 constexpr double most_squeeze = 0.999;  // of eq 7's domain; the largest angle is below it
 
 }  // namespace
-
-void check(const Profile& profile) {
-    if (!(profile.roundness >= 0 && profile.roundness <= 0.5))
-        throw Error("roundness: " + text(profile.roundness) + " is outside 0..0.5");
-}
 
 WrinkleDepth::WrinkleDepth(const RestRegion& region, double radius, Profile profile, double angle,
                            double length)

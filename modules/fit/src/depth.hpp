@@ -9,9 +9,6 @@
 
 namespace goffer::fit {
 
-/// Throws Error if the roundness is not in 0..0.5.
-void check(const Profile& profile);
-
 /// How deep the troughs of a region are where the base is squeezed most. Counts from the straight body and
 /// without an onset.
 class WrinkleDepth {

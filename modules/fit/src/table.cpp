@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "chebyshev.hpp"
-#include "depth.hpp"
 #include "girths.hpp"
+#include "profile.hpp"
 #include "text.hpp"
 
 #include <goffer/fit/bind.hpp>

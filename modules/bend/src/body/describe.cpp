@@ -50,9 +50,8 @@ Words words_of(BodyField field) noexcept {
                     "no rows or two and more, of finite numbers, up to 1e-12 radians or more"};
         case BodyField::blend:
             return {"regions", ".blend",
-                    "0, or 1e-5 of both lengths and more, with room for it in both regions, which wrinkle "
-                    "and share "
-                    "onsets and rest arcs"};
+                    "0, or 1e-5 of both lengths and more, with room for it in both regions, which wrinkle, "
+                    "and have one rest arc or none, and both an onset or neither"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};

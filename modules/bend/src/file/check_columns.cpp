@@ -225,11 +225,11 @@ bool all_below(std::size_t count, std::span<const std::uint32_t> indices) noexce
     return indices.empty() || largest < count;
 }
 
-BodyFault check_columns(const BodyData& data) noexcept {
+BodyFault check_columns(BodyData& data) noexcept {
     for (std::size_t r = 0; r < data.regions.size(); ++r) {
         const auto [first, last] = std::pair(data.regions[r].first, data.regions[r].last);
         if (first == last) continue;
-        Joints joints = data.details[r].joints;
+        Joints& joints = data.details[r].joints;
         if (!find_vertices(joints, data.columns, first, last))
             return {BodyField::vertices, Reason::out_of_range, first};
         for (const Joint& joint : {joints.below, joints.above}) {

@@ -137,8 +137,9 @@ static_assert(column_alignment == 64 && widest_batch == 32);
 
 /// The first fault in the columns of `data`, all of whose regions are there: a number with which a run might
 /// leave float's range or the bounds. Numbers of several vertices are looked at together, and one by one only
-/// where the most extreme of them would make no good vertex.
-[[nodiscard]] BodyFault check_columns(const BodyData& data) noexcept;
+/// where the most extreme of them would make no good vertex. Finds anew which vertices are near joints: one
+/// where a blend begins may round to either side of it, as this build has it.
+[[nodiscard]] BodyFault check_columns(BodyData& data) noexcept;
 
 /// Whether all indices are below `count`. A function of its own: within code that runs once compilers make no
 /// vectors of a loop.

@@ -194,9 +194,8 @@ glm::mat4x3 TransformColumn::operator[](std::size_t index) const noexcept {
     const float* from = first.at(index);
     const MatrixSteps steps = steps_of(layout);
     glm::mat4x3 matrix;
-    for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t r = 0; r < 3; ++r)
-            matrix[static_cast<int>(c)][static_cast<int>(r)] = from[c * steps.column + r * steps.row];
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) matrix[c][r] = from[c * steps.column + r * steps.row];
     }
     return matrix;
 }

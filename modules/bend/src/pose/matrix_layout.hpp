@@ -9,21 +9,17 @@ namespace goffer::bend {
 
 /// Where a layout has the numbers of a matrix, in floats from its first one.
 struct MatrixSteps {
-    std::size_t column, row;  ///< from one column, or row, to the next
+    int column, row;  ///< from one column, or row, to the next
 
     /// From the first number to behind the last one that is read.
-    [[nodiscard]] constexpr std::size_t floats() const noexcept { return 3 * column + 2 * row + 1; }
+    [[nodiscard]] constexpr std::size_t floats() const noexcept {
+        return static_cast<std::size_t>(3 * column + 2 * row + 1);
+    }
 };
 
 [[nodiscard]] constexpr MatrixSteps steps_of(TransformColumn::MatrixLayout layout) noexcept {
-    switch (layout) {
-        case TransformColumn::MatrixLayout::columns3:
-            return {3, 1};
-        case TransformColumn::MatrixLayout::columns4:
-            return {4, 1};
-        case TransformColumn::MatrixLayout::rows4:
-            return {1, 4};
-    }
+    if (layout == TransformColumn::MatrixLayout::columns4) return {4, 1};
+    if (layout == TransformColumn::MatrixLayout::rows4) return {1, 4};
     return {3, 1};
 }
 

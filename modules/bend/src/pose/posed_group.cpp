@@ -28,8 +28,8 @@ void read_transform(const TransformColumn& transforms, std::size_t element, floa
                     std::size_t i) noexcept {
     const float* const from = transforms.first.at(element);
     const MatrixSteps steps = steps_of(transforms.layout);
-    for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t r = 0; r < 3; ++r) columns[3 * c + r][i] = from[c * steps.column + r * steps.row];
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) columns[3 * c + r][i] = from[c * steps.column + r * steps.row];
     }
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "text.hpp"
+
+#include <goffer/fit/bind.hpp>
+
+namespace goffer::fit {
+
+/// Throws Error if the roundness is not in 0..0.5.
+inline void check(const Profile& profile) {
+    if (!(profile.roundness >= 0 && profile.roundness <= 0.5))
+        throw Error("roundness: " + text(profile.roundness) + " is outside 0..0.5");
+}
+
+}  // namespace goffer::fit
