@@ -183,7 +183,7 @@ Fault check_columns(const Batch& batch) noexcept {
     if (previous && batch.previous_poses.empty()) return fault_of(Field::previous_poses, Reason::null);
     const std::size_t poses = batch.body->region_count() * sizeof(Pose);
     const auto matrix = [](const TransformColumn& column) {
-        return steps_of(column.layout).floats() * sizeof(float);
+        return static_cast<std::size_t>(steps_of(column.layout).floats()) * sizeof(float);
     };
     columns.take(Field::poses, batch.poses, poses);
     columns.take(Field::transform, batch.transforms.first, matrix(batch.transforms));

@@ -3,8 +3,6 @@
 
 #include <goffer/bend/crowd.hpp>
 
-#include <cstddef>
-
 namespace goffer::bend {
 
 /// Where a layout has the numbers of a matrix, in floats from its first one.
@@ -12,9 +10,7 @@ struct MatrixSteps {
     int column, row;  ///< from one column, or row, to the next
 
     /// From the first number to behind the last one that is read.
-    [[nodiscard]] constexpr std::size_t floats() const noexcept {
-        return static_cast<std::size_t>(3 * column + 2 * row + 1);
-    }
+    [[nodiscard]] constexpr int floats() const noexcept { return 3 * column + 2 * row + 1; }
 };
 
 [[nodiscard]] constexpr MatrixSteps steps_of(TransformColumn::MatrixLayout layout) noexcept {
