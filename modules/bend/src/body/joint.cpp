@@ -66,16 +66,23 @@ bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first
     return apart;
 }
 
-Coefficients as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative) noexcept {
-    Coefficients k = neighbor;
+void set_as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative,
+                Coefficients& own) noexcept {
     for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        k.amplitude[n] *= joint.gain[n];
-        k.amplitude_slope[n] *= joint.gain[n];
+        own.amplitude[n] = joint.gain[n] * neighbor.amplitude[n];
+        own.amplitude_slope[n] = joint.gain[n] * neighbor.amplitude_slope[n];
     }
-    if (!relative) return k;
-    k.kappa_change *= joint.squeeze;
-    for (float& change : k.curl_change) change *= joint.squeeze;
-    return k;
+    own.cos_half_direction = neighbor.cos_half_direction;
+    own.sin_half_direction = neighbor.sin_half_direction;
+    if (!relative) return;
+    own.cos_direction = neighbor.cos_direction;
+    own.sin_direction = neighbor.sin_direction;
+    own.onset = neighbor.onset;
+    own.kappa_change = joint.squeeze * neighbor.kappa_change;
+    for (std::size_t n = 0; n < 2; ++n) {
+        own.rest_curl[n] = neighbor.rest_curl[n];
+        own.curl_change[n] = joint.squeeze * neighbor.curl_change[n];
+    }
 }
 
 }  // namespace goffer::bend

@@ -45,9 +45,10 @@ struct Joints {
     return scale * static_cast<double>(joint.squeeze) <= slack * max_scale;
 }
 
-/// The coefficients of the region beyond a joint, with amplitudes and squeezes as those of the region itself.
-/// `relative`: the squeezes are.
-[[nodiscard]] Coefficients as_own(const Coefficients& neighbor, const JointBlend& joint,
-                                  bool relative) noexcept;
+/// Sets what `own` has of wrinkles to that of the region beyond a joint, with amplitudes and squeezes as
+/// those of the region itself, and nothing else of it: compilers copy all of them by an instruction that
+/// waits until what was written before, past the cache too, is in memory. `relative`: the squeezes are.
+void set_as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative,
+                Coefficients& own) noexcept;
 
 }  // namespace goffer::bend

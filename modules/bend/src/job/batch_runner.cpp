@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace goffer::bend {
 namespace {
@@ -101,6 +102,7 @@ void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
         }
         begin = end;
     }
+    write_staged();
     member_count_ = 0;
 }
 
@@ -203,13 +205,12 @@ void BatchRunner::each_blended(std::size_t member, const PassPlan& pass, std::si
         below.last > first ? std::min({line_behind(member, below.last), above.first, last}) : first;
     const std::size_t above_begin =
         above.first < last ? std::max(line_before(member, above.first), below_end) : last;
-    RestColumns columns;
     const auto blend = [&](const Joint& joint, std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t next = block_end(member, begin, end, BlendColumns::vertices);
             const bool in_lines = begin >= members_[member].peeled && line_before(member, begin) == begin;
             deform(blending_.blend(body_, kernels_, region, joint, {k, squeeze}, pass.streams, begin,
-                                   next - begin, in_lines, columns),
+                                   next - begin, in_lines),
                    begin, next);
             begin = next;
         }
@@ -302,10 +303,13 @@ void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t f
     }
 }
 
-/// Kernels of all passes in the mode `mode` write planes of the stage, which is then written out.
+/// Kernels of all passes in the mode `mode` write planes of the stage. The last block of it stays there until
+/// write_staged(): to read a line that two kernels have just written waits until all before it is in memory,
+/// past the cache too, which goes on beside the next stretch.
 void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t first,
                                 std::size_t last) noexcept {
     while (first < last) {
+        write_staged();
         const std::size_t end = block_end(member, first, last, stage_.capacity());
         for (const PassPlan& pass : plan_.passes()) {
             if (pass.mode != mode) continue;
@@ -318,10 +322,14 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
                            });
             });
         }
-        stage_.write(plan_, kernels_, mode, members_[member].vertex + first, end - first,
-                     end == body_.vertex_count);
+        staged_ = {mode, members_[member].vertex + first, end - first, end == body_.vertex_count};
         first = end;
     }
+}
+
+void BatchRunner::write_staged() noexcept {
+    const auto [mode, vertex, count, ends] = std::exchange(staged_, {});
+    if (count != 0) stage_.write(plan_, kernels_, mode, vertex, count, ends);
 }
 
 }  // namespace goffer::bend

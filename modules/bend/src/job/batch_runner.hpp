@@ -41,6 +41,14 @@ private:
         std::size_t peeled;    ///< its vertices before the first one that begins a cache line
     };
 
+    /// Vertices in the stage.
+    struct StagedBlock {
+        WriteMode mode;
+        std::size_t vertex;  ///< the first one's place in the buffer
+        std::size_t count;   ///< 0: there are none
+        bool ends;           ///< the last one is that of an instance
+    };
+
     /// A group has `set_count_` sets of coefficients per member, one for each pose that is wanted, and in
     /// each set one per region. There is room for one member of a body with max_regions.
     static constexpr std::size_t max_coefficients = 96;
@@ -67,6 +75,7 @@ private:
     void each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                       const Deform& deform) noexcept;
     void deform_staged(std::size_t member, WriteMode mode, std::size_t first, std::size_t last) noexcept;
+    void write_staged() noexcept;
     [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
                                         std::size_t most) const noexcept;
     template <class Deform>
@@ -98,6 +107,7 @@ private:
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;
     StagingBuffer stage_;
+    StagedBlock staged_ = {};  // what is yet to be written of the stage
     Blending blending_;
 };
 

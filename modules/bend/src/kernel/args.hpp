@@ -90,9 +90,9 @@ using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, f
                                std::size_t first, std::size_t count, Write write, std::size_t peeled);
 
 /// Wrinkles `count` vertices of one region from vertex `first` on, at most BlendColumns::places, of which
-/// some are near the joint that `joint` tells of. `neighbor` are the coefficients of the region beyond it,
-/// as_own(). Writes normals only if it is a kernel of directions, tangents only if these are wanted too.
-/// `count` is max_unit or more, and no other rest vertices are read.
+/// some are near the joint that `joint` tells of. `neighbor` has what set_as_own() sets of the region beyond
+/// it. Writes normals only if it is a kernel of directions, tangents only if these are wanted too. `count` is
+/// max_unit or more, and no other rest vertices are read.
 using BlendKernel = void (*)(const RestColumns& rest, const Coefficients& own, const Coefficients& neighbor,
                              const JointBlend& joint, std::size_t first, std::size_t count, bool tangents,
                              BlendColumns& out);

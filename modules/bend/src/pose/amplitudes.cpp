@@ -11,7 +11,8 @@ Float4 amplitudes(const BodyData& body, std::size_t r, const Coefficients* k,
     for (const Joint* joint : {&region.joints.below, &region.joints.above}) {
         const Squeeze squeeze = squeezes[joint->neighbor];
         if (joint->first == joint->last || squeeze == Squeeze::none) continue;
-        const Coefficients other = as_own(k[joint->neighbor], joint->blend, squeeze == Squeeze::relative);
+        Coefficients other;
+        set_as_own(k[joint->neighbor], joint->blend, squeeze == Squeeze::relative, other);
         beyond = std::max(beyond, amplitudes(other, squeeze, joint->max_scale)[sectors - 1]);
     }
     return simd::max(own, splat(0.5f) * (own + splat(beyond)));

@@ -27,18 +27,17 @@ class Blending {
 public:
     /// Wrinkles `count` vertices of region `r` from `first` on, at most BlendColumns::vertices. Those that
     /// are not near `joint` become what kernels make of them without it, bit for bit. `in_lines`: the kernel
-    /// will begin with a whole unit, or does not care for lines. Sets `columns`, which the result refers to;
-    /// it is valid until the next call.
+    /// will begin with a whole unit, or does not care for lines. The result is valid until the next call.
     [[nodiscard]] KernelInput blend(const BodyData& body, const KernelSet& kernels, std::size_t r,
                                     const Joint& joint, const PosedRegions& posed, StreamSet streams,
-                                    std::size_t first, std::size_t count, bool in_lines,
-                                    RestColumns& columns) noexcept;
+                                    std::size_t first, std::size_t count, bool in_lines) noexcept;
 
 private:
-    void set_columns(const RestColumns& rest, StreamSet streams, std::size_t first,
-                     RestColumns& columns) const noexcept;
+    void set_columns(const RestColumns& rest, StreamSet streams, std::size_t first) noexcept;
 
-    Coefficients bare_;
+    // Both are reused by all calls, each of which sets what is read. Compilers clear and copy objects of that
+    // size by one instruction, which waits until what was written before, past the cache too, is in memory.
+    RestColumns columns_;
     BlendColumns blended_;
 };
 

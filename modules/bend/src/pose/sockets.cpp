@@ -39,14 +39,13 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
     const PosedInstance posed(body, set.setup, poses_of(job), job.transform, job.wrinkle_weight);
     constexpr StreamSet streams = StreamSet::positions_normals_tangents;
     Blending blending;
-    RestColumns columns;
     const auto deform = [&](std::size_t r, const Joint* joint, std::size_t first, std::size_t last) {
         for (; first < last; first += chunk) {
             const std::size_t count = std::min(chunk, last - first);
             const KernelInput input = joint == nullptr || posed.squeezes[r] == Squeeze::none
                                           ? KernelInput{&body.columns, &posed.k[r], posed.squeezes[r], first}
                                           : blending.blend(body, set, r, *joint, {posed.k, posed.squeezes},
-                                                           streams, first, count, true, columns);
+                                                           streams, first, count, true);
             set.plane_kernel(input.squeeze, streams)(*input.columns, *input.k, out, input.first, count,
                                                      Write::staged);
             for (std::size_t i = 0; i < count; ++i) {
