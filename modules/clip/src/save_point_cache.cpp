@@ -15,18 +15,19 @@
 namespace goffer::clip {
 namespace {
 
-constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();  // readers take counts as signed
+constexpr std::size_t most_in_cache =
+    std::numeric_limits<std::int32_t>::max();  // readers take counts as signed
 
 void check(const Frames& frames, std::size_t vertices, const std::filesystem::path& file) {
     const auto too_many = [&](const char* what, std::size_t count) {
         fail(file, std::to_string(count) + " " + what + " are more than a point cache can hold, which is " +
-                       std::to_string(most) + "; give it fewer");
+                       std::to_string(most_in_cache) + "; give it fewer");
     };
     if (vertices == 0 || vertices > frames.vertices())
         fail(file, "a point cache of " + std::to_string(vertices) + " vertices cannot be made of frames of " +
                        std::to_string(frames.vertices()) + "; give it 1 or more of them");
-    if (vertices > most) too_many("vertices", vertices);
-    if (frames.count() > most) too_many("frames", frames.count());
+    if (vertices > most_in_cache) too_many("vertices", vertices);
+    if (frames.count() > most_in_cache) too_many("frames", frames.count());
 }
 
 glm::vec3 turned(const glm::vec3& p, CacheAxes axes) {

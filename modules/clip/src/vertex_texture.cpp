@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float most = 65535;  // of a channel
+constexpr float last_step = 65535;  // of a channel
 
 /// The files of a texture: NAME.json and those beside it.
 struct Names {
@@ -50,7 +50,7 @@ struct Names {
 
 /// Numbers of a channel, and what a shader makes of them.
 glm::vec3 steps_of(const glm::dvec3& share) {
-    return {glm::round(glm::clamp(share, 0.0, 1.0) * static_cast<double>(most))};
+    return {glm::round(glm::clamp(share, 0.0, 1.0) * static_cast<double>(last_step))};
 }
 
 /// Positions and normals of one frame at a time, in the space that is written.
@@ -89,7 +89,7 @@ void find_bounds(Reader& reader, std::size_t frames, VertexTexture& result, cons
     const glm::vec3 size = result.high - result.low;
     const float longest = std::max({size.x, size.y, size.z});
     if (!std::isfinite(longest)) fail(file, std::string("the clip is too large; ") + use_smaller_numbers);
-    result.half_step = static_cast<double>(longest) / (2.0 * static_cast<double>(most));
+    result.half_step = static_cast<double>(longest) / (2.0 * static_cast<double>(last_step));
 }
 
 /// Encodes frames, and measures what is lost.
@@ -102,7 +102,7 @@ public:
         const glm::dvec3 from_low = glm::dvec3(p) - glm::dvec3(result_.low);
         const glm::vec3 steps =
             steps_of(glm::mix(from_low / size_, glm::dvec3(0.0), glm::equal(size_, glm::dvec3(0.0))));
-        const glm::vec3 decoded = result_.low + steps / most * (result_.high - result_.low);
+        const glm::vec3 decoded = result_.low + steps / last_step * (result_.high - result_.low);
         result_.position_error =
             std::max(result_.position_error, glm::distance(glm::dvec3(decoded), glm::dvec3(p)));
         return steps;
@@ -110,7 +110,7 @@ public:
 
     glm::vec3 normal(const glm::vec3& n) {
         const glm::vec3 steps = steps_of(glm::dvec3(n) * 0.5 + 0.5);
-        const glm::dvec3 decoded = glm::normalize(glm::dvec3(steps / most * 2.0f - 1.0f));
+        const glm::dvec3 decoded = glm::normalize(glm::dvec3(steps / last_step * 2.0f - 1.0f));
         const glm::dvec3 exact = glm::normalize(glm::dvec3(n));
         // atan2 rather than acos, which knows no small angles. A normal that is none has no error.
         const double angle = std::atan2(glm::length(glm::cross(decoded, exact)), glm::dot(decoded, exact));

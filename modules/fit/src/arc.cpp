@@ -11,7 +11,8 @@
 namespace goffer::fit {
 namespace {
 
-using Row = Eigen::Matrix<double, 6, 1>;
+/// Where the centers of sections lie across the line: constant, linear and square terms, of x and y each.
+using CenterParabola = Eigen::Matrix<double, 6, 1>;
 
 /// A cloud of vertices, seen along a direction through its centroid.
 struct Chord {
@@ -93,7 +94,7 @@ struct Sums {
 /// Solves rho^2 = c + 2 (a + m z + n z^2) x + 2 (b + ..) y in least squares for (a, b, m, .., n, ..), with a
 /// c of its own in each slice: the circle of each section (Kasa 1976) with its center on a parabola. Exact on
 /// a cylinder.
-Row regress(const Body& body, const Line& line) {
+CenterParabola regress(const Body& body, const Line& line) {
     const View view(body, line);
     Eigen::Matrix<double, 7, 7> products = decltype(products)::Zero();
     std::array<Sums<7>, Slices::count> slices{};
@@ -119,7 +120,7 @@ Line settle(const Body& body, const Line& start, int steps) {
     constexpr double settled = 1e-6;
     Line line = start;
     for (int step = 0; step < steps; ++step) {
-        const Row by = regress(body, line);
+        const CenterParabola by = regress(body, line);
         const Matrix3d change = line.frame.leftCols<2>() * by.reshaped(2, 3);
         line = line_through(line.point + change.col(0), (line.axis() + change.col(1)).normalized(),
                             line.bow + 2 * change.col(2));

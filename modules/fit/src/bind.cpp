@@ -26,18 +26,18 @@
 namespace goffer::fit {
 namespace {
 
-void check(const WrinkleRange& range) {
+void check_range(const WrinkleRange& range) {
     if (range.first >= 0 && range.first < range.last && range.last <= 1) return;
     throw Error("wrinkle range: " + text(range.first) + " to " + text(range.last) +
                 " is not a stretch of the body; give two shares of its length, such as 0 and 0.8");
 }
 
-void check(const BindOptions& options, const Cylinder& cylinder, double onset) {
-    if (!options.regions.empty()) fit::check(options.regions);
+void check_options(const BindOptions& options, const Cylinder& cylinder, double onset) {
+    if (!options.regions.empty()) check(options.regions);
     if (!(onset >= 0 && onset <= 1))
         throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
-    check(options.wrinkle_range);
-    fit::check(options.profile);
+    check_range(options.wrinkle_range);
+    check(options.profile);
     const bool whole = options.wrinkle_range.whole();
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +
@@ -354,7 +354,7 @@ std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cyli
                                             const WrinkleRange& range) {
     check(geometry);
     check(cylinder);
-    check(range);
+    check_range(range);
     const Straightening straightening(cylinder);
     std::vector<std::uint32_t> within;
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
@@ -383,7 +383,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     const Cylinder cylinder = base_of(geometry, given, options);
     const double gentle = cylinder.rest_angle != 0 ? BindOptions::gentle_onset : 0;
     const double onset = options.onset.value_or(gentle);
-    check(options, cylinder, onset);
+    check_options(options, cylinder, onset);
 
     std::vector<RestRegion> places;
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);

@@ -38,7 +38,7 @@ struct Piece {
 };
 
 /// Where a vertex lies across and along the straightened body.
-struct Place {
+struct Spot {
     glm::dvec2 across;
     double z;
 };
@@ -53,15 +53,15 @@ public:
                   cylinder.radii.empty() ? std::vector<double>(2, cylinder.radius) : cylinder.radii),
           positions_(refined_positions(geometry.positions, rows)),
           rows_(rows) {
-        places_.reserve(positions_.size());
-        for (const glm::vec3& position : positions_) add_place(position);
+        spots_.reserve(positions_.size());
+        for (const glm::vec3& position : positions_) add_spot(position);
     }
 
     /// Returns nothing if there would be more triangles than allowed, or more vertices than 32 bits number.
     std::optional<Refinement> run(const RefineOptions& options) &&;
 
 private:
-    void add_place(const glm::vec3& position);
+    void add_spot(const glm::vec3& position);
     [[nodiscard]] double off(Edge edge) const;
     [[nodiscard]] Edge named_alike(Edge edge) const;
     [[nodiscard]] glm::vec3 half_way(Edge edge) const;
@@ -74,16 +74,16 @@ private:
     const RowScale& scale_;
     const paper::Spline radius_;
     std::vector<glm::vec3> positions_;  // this and the next: of the mesh's vertices, then of the new ones
-    std::vector<Place> places_;
+    std::vector<Spot> spots_;
     std::unordered_map<std::uint64_t, std::uint32_t> middles_;
     std::vector<Piece> open_;  // pieces of a triangle that may have to be cut
     const Refinement& rows_;
     Refinement out_;
 };
 
-void ColumnCutter::add_place(const glm::vec3& position) {
+void ColumnCutter::add_spot(const glm::vec3& position) {
     const paper::Cylindrical at = straightening_.vertex(position);
-    places_.push_back({at.rho * glm::dvec2(std::cos(at.beta), std::sin(at.beta)), at.z});
+    spots_.push_back({at.rho * glm::dvec2(std::cos(at.beta), std::sin(at.beta)), at.z});
 }
 
 /// The ends of an edge, in the order that both sides of a seam name them in.
@@ -95,8 +95,8 @@ Edge ColumnCutter::named_alike(Edge edge) const {
 /// What the wrinkle lacks in the middle of an edge, in its depth there: its ends are moved away from the axis
 /// in two directions, and the middle by the mean of both. Next to nothing near the axis, where it fades.
 double ColumnCutter::off(Edge edge) const {
-    const auto& [a, z_a] = places_[edge.a];
-    const auto& [b, z_b] = places_[edge.b];
+    const auto& [a, z_a] = spots_[edge.a];
+    const auto& [b, z_b] = spots_[edge.b];
     const double rho_a = glm::length(a), rho_b = glm::length(b);
     const double product = rho_a * rho_b;
     if (!(product > 0)) return 0;
@@ -128,7 +128,7 @@ std::uint32_t ColumnCutter::middle(Edge edge) {
     if (!is_new) return entry->second;
     out_.vertices.push_back({edge.a, edge.b, 0.5});
     positions_.push_back(half_way(edge));
-    add_place(positions_.back());
+    add_spot(positions_.back());
     return next;
 }
 

@@ -208,8 +208,8 @@ struct Slice {
     double next;  // share of the slice behind `first`; the rest is that of `first`
 };
 
-/// Areas of slices, each a sum over triangles.
-using Slices = std::vector<double>;
+/// SliceAreas of slices, each a sum over triangles.
+using SliceAreas = std::vector<double>;
 
 /// Factors along z, in what they change.
 class SliceSolver {
@@ -225,7 +225,7 @@ public:
     }
 
     /// Adds the areas of the slices with the wrinkle times `factors`.
-    void add_areas(const Surface& surface, std::span<const double> factors, Slices& areas) const {
+    void add_areas(const Surface& surface, std::span<const double> factors, SliceAreas& areas) const {
         std::vector<glm::vec3> at(surface.bare.size());
         for (std::size_t i = 0; i < at.size(); ++i) {
             const Slice& place = places_[i];
@@ -299,7 +299,7 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     std::vector<Surface> surfaces;
     const std::vector<double> none(knots, 0);
     std::vector<double> factors(knots, 1);
-    Slices wanted(knots), bare(knots);
+    SliceAreas wanted(knots), bare(knots);
     const Surface at_rest = Poser(body).rest();
     const std::vector<bend::Pose> poses = slice_poses(body, region);
     for (const bend::Pose& pose : poses) {
@@ -309,7 +309,7 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
         share.step(0, 2).tell(surfaces.size(), poses.size());
     }
     for (std::size_t step = 0; step < steps; ++step) {
-        Slices now(knots);
+        SliceAreas now(knots);
         for (const Surface& surface : surfaces) solver.add_areas(surface, factors, now);
         for (std::size_t i = 0; i < knots; ++i)
             factors[i] = next_factor(factors[i], now[i] - bare[i], wanted[i] - bare[i], wanted[i]);

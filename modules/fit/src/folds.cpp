@@ -2,6 +2,7 @@
 #include "rest.hpp"
 
 #include <goffer/fit/cylinder.hpp>
+#include <goffer/fit/refine.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -13,8 +14,6 @@
 
 namespace goffer::fit {
 namespace {
-
-constexpr int max_folds = 1 << 20;  // far beyond any use, well inside int
 
 constexpr std::size_t slices = 64;  // in which rows are looked at
 constexpr double rounding = 1e-3;   // a mesh of just enough rows has enough
@@ -95,7 +94,7 @@ double Rows::even_folds(double low, double high) const {
 int Rows::folds(paper::Profile profile, double low, double high) const {
     const bool even = profile.kind == paper::Profile::Kind::even;
     const double folds = even ? even_folds(low, high) : (high - low) / (2 * rows_of_fold * reach_);
-    return static_cast<int>(std::min<double>(folds * (1 + rounding), max_folds));
+    return static_cast<int>(std::min<double>(folds * (1 + rounding), Stretch::max_folds));
 }
 
 int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
@@ -104,7 +103,7 @@ int folds_capacity(const Geometry& geometry, const Cylinder& cylinder) {
 
 int sensible_folds(const Cylinder& cylinder, int capacity, std::optional<double> fold_length) {
     const double long_folds = std::round(cylinder.length / (2 * cylinder.radius * fold_length.value_or(1)));
-    const double folds = std::min<double>(long_folds, max_folds);
+    const double folds = std::min<double>(long_folds, Stretch::max_folds);
     const int wanted = static_cast<int>(folds);
     return 2 * std::int64_t{capacity} < wanted ? 0 : std::min(wanted, std::max(capacity, 0));
 }

@@ -20,8 +20,7 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int max_folds = 1 << 20;    // as folds_capacity
-constexpr double longest = 1 + 5e-4;  // rows that an edge may reach over: half the slack of folds_capacity
+constexpr double longest_edge = 1 + 5e-4;  // in rows: half the slack of folds_capacity
 
 /// The corners of a triangle from bottom to top (by rows), and whether this order winds as the triangle does.
 struct Upright {
@@ -58,7 +57,7 @@ public:
 
 private:
     [[nodiscard]] double pieces(Edge edge) const {
-        return std::max(1.0, std::ceil(std::abs(rows_[edge.a] - rows_[edge.b]) / longest));
+        return std::max(1.0, std::ceil(std::abs(rows_[edge.a] - rows_[edge.b]) / longest_edge));
     }
 
     [[nodiscard]] std::array<Edge, 3> edges(std::size_t triangle) const {
@@ -175,8 +174,8 @@ bool Refiner::left_next(std::size_t i, std::size_t j) const {
     const auto reach = [&](std::uint32_t a, std::uint32_t b) { return std::abs(rows_[a] - rows_[b]); };
     const std::uint32_t left = left_[i], right = right_[j], left_up = left_[i + 1], right_up = right_[j + 1];
     const bool left_lags = rows_[left] <= rows_[right];
-    if (!left_lags && reach(left_up, right) > longest) return false;
-    if (left_lags && reach(left, right_up) > longest) return true;
+    if (!left_lags && reach(left_up, right) > longest_edge) return false;
+    if (left_lags && reach(left, right_up) > longest_edge) return true;
     const double by_left = glm::distance(points_[left_up], points_[right]);
     const double by_right = glm::distance(points_[left], points_[right_up]);
     return by_left == by_right ? left_lags : by_left < by_right;
@@ -216,8 +215,9 @@ void check_stretches(std::span<const Stretch> stretches) {
         const auto [length, folds] = stretches[i];
         if (!(length > 0) || !std::isfinite(length))
             throw Error("length" + which + " is " + text(length) + "; give a finite length above 0");
-        if (!(folds >= 0 && folds <= max_folds))
-            throw Error("folds" + which + ": " + text(folds) + "; give 0 to " + std::to_string(max_folds));
+        if (!(folds >= 0 && folds <= Stretch::max_folds))
+            throw Error("folds" + which + ": " + text(folds) + "; give 0 to " +
+                        std::to_string(Stretch::max_folds));
     }
 }
 

@@ -137,7 +137,7 @@ private:
 };
 
 template <class T, class F>
-void append(std::vector<T>& values, const Cut& cut, F between) {
+void append_cuts(std::vector<T>& values, const Cut& cut, F between) {
     if (values.empty()) return;
     values.reserve(values.size() + cut.pieces().vertices.size());
     for (const auto& [a, b, t] : cut.pieces().vertices) values.push_back(between(values[a], values[b], t));
@@ -146,7 +146,7 @@ void append(std::vector<T>& values, const Cut& cut, F between) {
 template <class T, class F>
 void refine(Attribute<T>& attribute, const Cut& cut, F between) {
     if (attribute.per_vertex()) {
-        append(attribute.values, cut, between);
+        append_cuts(attribute.values, cut, between);
     } else {
         attribute = CornerMaker(cut, attribute, between).finish();
     }
@@ -260,8 +260,8 @@ Mesh refined_alone(const Cut& cut, Share share) {
     share = share.part(0, 1, 4);
     const FaceMaker faces(cut, out);
     share.at(1);
-    append(out.positions, cut, linear<3>);
-    append(out.colors, cut, linear<4>);
+    append_cuts(out.positions, cut, linear<3>);
+    append_cuts(out.colors, cut, linear<4>);
     share.at(2);
     refine(out.normals, cut, direction);
     refine(out.tangents, cut, tangent_between);

@@ -17,7 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_frames = 1'000'000;
 constexpr std::size_t usual_targets = 12;  // whose folds still look right, in files of a handy size
 
 /// Degrees as JSON has them: "max" for an infinity.
@@ -127,7 +126,7 @@ void add_motion_words(CLI::App& command, AnimateOptions& options) {
         .add_option("--frames", options.frames,
                     "Make this many frames (default: as many as the keys last; 48 of a swing, 96 of a walk, "
                     "which last as long as their frames)")
-        ->check(CLI::Range(std::size_t{1}, most_frames));
+        ->check(CLI::Range(std::uint64_t{1}, most_frames));
     command.add_option("--fps", options.fps, "Play so many frames a second [24]")
         ->check(number_within(0.01, 1000, "a number"));
     command.add_option("--regions", options.pose.regions,

@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "memory.hpp"
 #include "model.hpp"
+#include "motion/motion.hpp"
 #include "threads.hpp"
 
 #include <CLI/CLI.hpp>

@@ -105,7 +105,7 @@ void deform(const Block& block, const BoundModel& model, Isa isa, mesh::VertexAr
 }
 
 /// The model as the block has it. Positions alone say nothing of normals, which are then left out.
-mesh::Mesh mesh_of(const Block& block, const BoundModel& model, const Plan& plan) {
+mesh::Mesh mesh_of_block(const Block& block, const BoundModel& model, const Plan& plan) {
     mesh::VertexArrays records = model.rest;
     records.normals.resize(records.positions.size());
     switch (plan.format) {
@@ -145,7 +145,7 @@ void extract(const ExtractRequest& request) {
     if (model.rest.positions.size() != body.vertices)
         throw InputError(io::about(request.folder / body.file(), "has not the vertices that the plan says"));
     io::AtomicFiles outputs;
-    mesh::save(mesh_of(block, model, plan), request.output, outputs);
+    mesh::save(mesh_of_block(block, model, plan), request.output, outputs);
     report.json["body"] = body.name;
     report.json["frame"] = request.frame;
     report.json["instance"] = request.instance;

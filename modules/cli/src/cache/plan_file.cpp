@@ -2,6 +2,7 @@
 #include "arguments.hpp"
 #include "cache/members.hpp"
 #include "cache/plan.hpp"
+#include "motion/motion.hpp"
 
 #include <goffer/bend/region.hpp>
 #include <goffer/io/error.hpp>
@@ -15,7 +16,7 @@ namespace {
 constexpr const char* kind = "goffer cache";
 constexpr std::uint64_t any = std::numeric_limits<std::int64_t>::max();
 
-PlanBody read_body(const Members& fields) {
+PlanBody read_plan_body(const Members& fields) {
     PlanBody body;
     body.name = fields.text("name");
     // It becomes the name of a file.
@@ -108,7 +109,7 @@ Plan plan_of(const Members& fields) {
     plan.fps = fields.number("fps", 0, std::numeric_limits<double>::max());
     plan.frames = fields.whole("frames", 1, most_frames);
     plan.instances = fields.whole("instances", 1, most_instances);
-    plan.bodies = read_list<PlanBody>(fields, "bodies", read_body);
+    plan.bodies = read_list<PlanBody>(fields, "bodies", read_plan_body);
     plan.shape = {fields.whole("shard_size", 1, most_shard_bytes), fields.whole("shard_frames", 0, any),
                   fields.whole("shard_instances", 0, any)};
     plan.frames_per_shard = fields.whole("frames_per_shard", 1, plan.frames);

@@ -5,6 +5,7 @@
 #include "body_file.hpp"
 #include "cache/group.hpp"
 #include "motion/document.hpp"
+#include "motion/motion.hpp"
 
 #include <goffer/io/error.hpp>
 

@@ -17,8 +17,8 @@
 
 namespace goffer::cli {
 
-/// The most of these that a scene may have.
-inline constexpr std::uint64_t most_frames = 1'000'000, most_instances = 10'000'000;
+/// The most instances that a scene may have.
+inline constexpr std::uint64_t most_instances = 10'000'000;
 
 struct SceneBody {
     std::string name;

@@ -88,7 +88,7 @@ std::string words(const Table& t, const std::string& name, bool by_area) {
                     : " There is no amplitude that keeps the area of the base where a body is bent at rest.");
 }
 
-constexpr const char* script = R"gp(set xlabel "angle, degrees"
+constexpr const char* area_script = R"gp(set xlabel "angle, degrees"
 set ylabel "change of area, per cent"
 set xzeroaxis lw 1 lc rgb "#333333"
 set key bottom left Left reverse maxcols 1 samplen 2.5
@@ -136,7 +136,7 @@ Figure area_figure(Workshop& workshop, const BoundModel& model) {
                           double{many_bones}, static_cast<double>(model.rest.positions.size())});
     }
     figure.paragraphs.push_back(words(figure.table, model.file.filename().string(), by_area));
-    figure.script = script;
+    figure.script = area_script;
     return figure;
 }
 

@@ -13,7 +13,7 @@
 namespace goffer::cli {
 namespace {
 
-constexpr int warm_up = 10;
+constexpr int warm_up_draws = 10;
 
 draw::OrbitCamera camera_on(const bend::Body& body) {
     const glm::dmat3 axes = body.axes();
@@ -57,7 +57,7 @@ std::optional<std::vector<double>> drawing_times(const bend::Body& body,
         }
         return 1e-6 * sum / count;
     };
-    (void)frames_take(warm_up);
+    (void)frames_take(warm_up_draws);
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(runs));
     for (int run = 0; run < runs; ++run) times.push_back(frames_take(frames));

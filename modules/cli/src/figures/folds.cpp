@@ -58,7 +58,7 @@ Table::Cell worst(const std::vector<double>& values) {
     return most;
 }
 
-constexpr const char* script = R"gp(set xlabel "fold, from base to tip"
+constexpr const char* folds_script = R"gp(set xlabel "fold, from base to tip"
 set ylabel "change of length, per cent"
 set xrange [0.5:12.5]
 set xtics 1
@@ -102,7 +102,7 @@ Figure fold_figure() {
         "they are off by " +
         both(0) + ", those of the smooth profile by " + both(1) +
         ". Even folds, goffer&rsquo;s default, are off by " + both(2) + ".");
-    figure.script = script;
+    figure.script = folds_script;
     return figure;
 }
 

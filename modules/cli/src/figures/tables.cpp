@@ -17,7 +17,7 @@ std::string formatted(const char* format, double value) {
     return text;
 }
 
-std::string text_of(const Table::Cell& cell) {
+std::string cell_text(const Table::Cell& cell) {
     if (const double* const value = std::get_if<double>(&cell)) return formatted("%.9g", *value);
     const std::string* const words = std::get_if<std::string>(&cell);
     return words != nullptr ? *words : "";
@@ -78,7 +78,7 @@ std::string Table::csv() const {
         text += '\n';
     };
     line(columns_, [](const std::string& name) { return name; });
-    for (const std::vector<Cell>& row : rows_) line(row, text_of);
+    for (const std::vector<Cell>& row : rows_) line(row, cell_text);
     return text;
 }
 
@@ -91,7 +91,7 @@ nlohmann::ordered_json Table::json() const {
             const bool none = std::holds_alternative<std::monostate>(cell);
             row.push_back(none               ? nlohmann::ordered_json(nullptr)
                           : value != nullptr ? nlohmann::ordered_json(*value)
-                                             : nlohmann::ordered_json(text_of(cell)));
+                                             : nlohmann::ordered_json(cell_text(cell)));
         }
         rows.push_back(row);
     }
@@ -125,8 +125,8 @@ std::string html(const Table& table, std::size_t row, std::string_view column, S
     const Table::Cell& cell = table.at(row, column);
     if (std::holds_alternative<std::monostate>(cell)) return "&ndash;";
     const double* const value = std::get_if<double>(&cell);
-    if (value == nullptr) return html_text(text_of(cell));
-    return "<data value=\"" + text_of(cell) + "\">" + for_people(*value, shown) + "</data>";
+    if (value == nullptr) return html_text(cell_text(cell));
+    return "<data value=\"" + cell_text(cell) + "\">" + for_people(*value, shown) + "</data>";
 }
 
 std::string html(const Table& table) {

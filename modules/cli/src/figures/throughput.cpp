@@ -69,11 +69,8 @@ Cost cost_of(const Workshop& workshop, const bend::Body& body, std::size_t insta
     return cost;
 }
 
-constexpr std::array columns{"vertices",       "instances", "one_thread_ns",
-                             "all_threads_ns", "fill_ns",   "threads"};
-
 Table cost_table() {
-    return Table({columns.begin(), columns.end()});
+    return Table({"vertices", "instances", "one_thread_ns", "all_threads_ns", "fill_ns", "threads"});
 }
 
 void add_row(Table& table, const Workshop& workshop, const bend::Body& body, std::size_t instances) {

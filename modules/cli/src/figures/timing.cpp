@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t vertices = 10'000;
 constexpr std::uint32_t grid_columns = 64, grid_rows = 161;
 constexpr double papers_milliseconds = 30;
-constexpr std::size_t warm_up = 3;
+constexpr std::size_t warm_up_frames = 3;
 
 /// What each run took: milliseconds per frame.
 using Times = std::vector<double>;
@@ -34,7 +34,7 @@ Times operator-(Times all, const Times& less) {
 
 /// The mean of `frames` frames, milliseconds on the calling thread.
 double mean_of(int frames, const std::function<void(std::size_t)>& frame) {
-    for (std::size_t i = 0; i < warm_up; ++i) frame(i);
+    for (std::size_t i = 0; i < warm_up_frames; ++i) frame(i);
     const double all = measure::nanoseconds_of(1, [&] {
         for (std::size_t i = 0; i < static_cast<std::size_t>(frames); ++i) frame(i);
     });
@@ -190,7 +190,7 @@ std::vector<std::string> words(const Figure& figure, bool drawn, const std::stri
     return text;
 }
 
-constexpr const char* script = R"gp(set logscale y
+constexpr const char* timing_script = R"gp(set logscale y
 set yrange [0.0003:100]
 set ylabel "ms per frame"
 set boxwidth 0.75
@@ -240,7 +240,7 @@ Figure timing_figure(Workshop& workshop, std::string& device) {
         figure.summary->add({std::string(method), milliseconds, slow / milliseconds, double{grid_columns},
                              double{grid_rows}, double{drawn_width}, double{drawn_height}});
     figure.paragraphs = words(figure, drawing.has_value(), device);
-    figure.script = script;
+    figure.script = timing_script;
     return figure;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/mat4x3.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 /// How a body bends over time.
 
 namespace goffer::cli {
+
+/// The most frames that a motion is written in.
+inline constexpr std::uint64_t most_frames = 1'000'000;
 
 /// What a body does at one moment.
 struct Moment {

@@ -35,16 +35,6 @@ constexpr float text_size = 15;
                      "; 'goffer bend' and 'goffer crowd' write pictures without a display, by --png FILE");
 }
 
-/// GLFW, from its start to its end. It does not count: there may be one at a time.
-struct Library {
-    Library() {
-        if (glfwInit() == GLFW_FALSE) refuse();
-    }
-    Library(const Library&) = delete;
-    Library& operator=(const Library&) = delete;
-    ~Library() { glfwTerminate(); }
-};
-
 /// Loads a font that reads well, where one is in the usual places; else Dear ImGui's own.
 void load_font(float scale) {
     constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -66,6 +56,16 @@ void load_font(float scale) {
 }  // namespace
 
 struct Window::Data {
+    /// GLFW, from its start to its end. It does not count: there may be one at a time.
+    struct Library {
+        Library() {
+            if (glfwInit() == GLFW_FALSE) refuse();
+        }
+        Library(const Library&) = delete;
+        Library& operator=(const Library&) = delete;
+        ~Library() { glfwTerminate(); }
+    };
+
     Library library;
     GLFWwindow* window = nullptr;
     float scale = 1;
@@ -126,7 +126,7 @@ void set_callbacks(GLFWwindow* window) {
 }  // namespace
 
 void Window::check_display() {
-    const Library library;
+    const Data::Library library;
 }
 
 Window::Window(const std::string& title, const glm::ivec2& size, bool vsync)

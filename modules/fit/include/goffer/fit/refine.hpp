@@ -56,8 +56,10 @@ struct Refinement {
 /// half length of the stretch, as those of Profile::damped do, and need not be whole. In a stretch without
 /// folds nothing is cut.
 struct Stretch {
+    static constexpr int max_folds = 1 << 20;  ///< far beyond any use, well inside int
+
     double length = 0;  ///< along z, model units, > 0
-    double folds = 0;   ///< 0..2^20
+    double folds = 0;   ///< 0..max_folds
 };
 
 /// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
