@@ -8,15 +8,15 @@
 namespace goffer::bench {
 namespace {
 
-constexpr std::size_t vertices = 10'000;
+constexpr std::size_t naive_vertices = 10'000;
 constexpr double direction = 0.3;
 
 void naive(benchmark::State& state, bool with_normals) {
-    NaiveBody body = make_naive(vertices);
+    NaiveBody body = make_naive(naive_vertices);
     double angle = 0.5;
     set_amplitudes(body, angle, direction);
-    std::vector<NaivePoint> positions(vertices);
-    std::vector<NaivePoint> normals(vertices);
+    std::vector<NaivePoint> positions(naive_vertices);
+    std::vector<NaivePoint> normals(naive_vertices);
     Task task;
     task.prepare = [&] { angle = angle > 1.5 ? 0.5 : angle + 0.01; };
     task.work = [&](std::size_t count) {
@@ -29,7 +29,7 @@ void naive(benchmark::State& state, bool with_normals) {
             benchmark::ClobberMemory();
         }
     };
-    report(state, measure(state, task), vertices);
+    report(state, measure(state, task), naive_vertices);
 }
 
 }  // namespace

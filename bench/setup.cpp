@@ -16,7 +16,7 @@
 namespace goffer::bench {
 namespace {
 
-constexpr std::size_t vertices = 10'000;
+constexpr std::size_t setup_vertices = 10'000;
 constexpr std::size_t instances = 1000;
 
 /// Of instance `index`: each has its own.
@@ -40,12 +40,13 @@ void time_each(benchmark::State& state, std::size_t count, const Call& call) {
 /// Instances in poses of their own.
 std::vector<bend::DeformJob> make_jobs(Fixture& fixture) {
     const measure::StreamLayout& layout = measure::stream_layout("positions+normals");
-    const std::span<float> memory = fixture.memory(layout.memory_floats(vertices));
+    const std::span<float> memory = fixture.memory(layout.memory_floats(setup_vertices));
     std::vector<bend::DeformJob> jobs(instances);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        jobs[i].body = &fixture.body(vertices);
+        jobs[i].body = &fixture.body(setup_vertices);
         jobs[i].pose = pose_of(i);
-        measure::set_streams(jobs[i], layout, memory, 0, vertices);  // the same for all: nothing is written
+        measure::set_streams(jobs[i], layout, memory, 0,
+                             setup_vertices);  // the same for all: nothing is written
     }
     return jobs;
 }
@@ -66,7 +67,7 @@ void time_batch(benchmark::State& state, Fixture& fixture, const Call& call) {
     std::vector<bend::Pose> poses(instances);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i);
     std::vector<Result> result(instances);
-    bend::Batch batch{.body = &fixture.body(vertices), .count = instances};
+    bend::Batch batch{.body = &fixture.body(setup_vertices), .count = instances};
     batch.poses = strided(std::span(poses));
     const Task task{.batch = 4, .work = [&](std::size_t times) {
                         for (std::size_t i = 0; i < times; ++i) {
@@ -129,7 +130,7 @@ void path(benchmark::State& state, Fixture& fixture) {
         const auto at = static_cast<float>(i), along = static_cast<float>(i % 4);
         points[i] = {std::sin(2 * at), std::cos(3 * at), 3.5f * along};
     }
-    const bend::Body& body = fixture.body(vertices, Shape::regions16);
+    const bend::Body& body = fixture.body(setup_vertices, Shape::regions16);
     bend::Pose poses[regions];
     time_each(state, curves, [&](std::size_t i) {
         const glm::vec3* const p = &points[4 * i];

@@ -13,7 +13,7 @@ namespace {
 /// `area` only with folds of at most two radii: the area of folds that reach past the axis means nothing. And
 /// not with even folds or fewer than three of the smooth profile, whose factor has a corner near rest that
 /// the table rounds off.
-fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
+fit::BindOptions random_accurate_options(Random& random, const fit::Cylinder& cylinder) {
     fit::BindOptions options;
     options.folds = static_cast<int>(random() % 13);
     options.profile = random_profile(random);
@@ -27,7 +27,7 @@ fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
     return options;
 }
 
-bend::Pose random_pose(Random& random, double max_angle) {
+bend::Pose random_pose_within(Random& random, double max_angle) {
     const double kind = uniform(random, 0, 1);
     const double angle = kind < 0.2   ? std::pow(10, uniform(random, -7, 0)) * std::min(max_angle, 1.0)
                          : kind < 0.3 ? max_angle * (1 - 1e-6)
@@ -45,11 +45,11 @@ TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
         const double scale = std::pow(10, uniform(random, -4, 4));
         TestMesh test_mesh = random_mesh(random, uniform(random, 3, 40), scale);
         if (trial % 3 == 0) add_radii(test_mesh, random);
-        const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+        const fit::BindOptions options = random_accurate_options(random, test_mesh.cylinder);
         const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
         Output out(test_mesh.positions.size());
         for (int k = 0; k < 5; ++k) {
-            const bend::Pose pose = random_pose(random, static_cast<double>(binding.body.max_angle()));
+            const bend::Pose pose = random_pose_within(random, static_cast<double>(binding.body.max_angle()));
             INFO("trial ", trial, " angle ", pose.angle, " of ", binding.body.max_angle(), " direction ",
                  pose.direction, " folds ", binding.folds(), " L/r ",
                  test_mesh.cylinder.length / test_mesh.cylinder.radius);
@@ -87,7 +87,7 @@ TEST_CASE("P1: the straight pose returns the rest mesh") {
                 random_mesh(random, uniform(random, 3, 40), std::pow(10, uniform(random, -4, 4)));
             if (trial % 3 == 0) add_radii(test_mesh, random);
             const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder,
-                                                   random_options(random, test_mesh.cylinder));
+                                                   random_accurate_options(random, test_mesh.cylinder));
             Output out(test_mesh.positions.size());
             bend::run(make_job(binding.body, {0, static_cast<float>(uniform(random, -9, 9))}, isa, out));
             for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "not_finite.hpp"
 #include "support/rounds.hpp"
 #include "support/test_batch.hpp"
 
@@ -11,7 +12,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,10 +20,6 @@
 
 namespace goffer::test {
 namespace {
-
-constexpr std::string_view planes = "x y z u v w a b c d p q r 123";
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Any of 2^32; often one of the kinds that arithmetic treats specially.
 float any_float(Random& random) {
@@ -45,14 +41,10 @@ float any_float(Random& random) {
     }
 }
 
-bool finite(std::span<const bend::Pose> poses) {
+bool finite_poses(std::span<const bend::Pose> poses) {
     return std::ranges::all_of(poses, [](const bend::Pose& pose) {
         return std::isfinite(pose.angle) && std::isfinite(pose.direction);
     });
-}
-
-bool finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// A body of 1 to 32 regions, some of them without vertices, with at least one vertex in all.
@@ -84,7 +76,7 @@ struct Results {
     std::vector<bend::SocketFrame> frames;
 
     Results(bend::DeformJob job, const bend::Sockets& sockets)
-        : out(planes, job.body->vertex_count()),
+        : out(OutputBuffer::all_planes, job.body->vertex_count()),
           capsules(bend::capsule_count(*job.body, 2)),
           frames(2 * sockets.count()) {
         out.attach(job);
@@ -156,16 +148,16 @@ TEST_CASE("P11: poses of any bits, through every function that takes them") {
             INFO("round ", round, ", trial ", trial, ", ", body.region_count(), " regions, ", name(isa));
             REQUIRE(results.oddity() == "");
             // The same, said plainly.
-            const bool current_rests = !finite(poses);
+            const bool current_rests = !finite_poses(poses);
             if (current_rests) job.poses = rest;
-            if (!finite(previous)) job.previous_poses = rest;
+            if (!finite_poses(previous)) job.previous_poses = rest;
             job.wrinkle_weight = job.wrinkle_weight > 0 ? std::min(job.wrinkle_weight, 1.0f) : 0;
             REQUIRE(results.fault(Results(job, sockets)) == "");
             if (current_rests) {
                 CHECK(results.result.at_rest);
                 CHECK_FALSE(results.result.clamped);
                 ++at_rest;
-            } else if (finite(previous)) {
+            } else if (finite_poses(previous)) {
                 CHECK_FALSE(results.result.at_rest);
                 ++bent;
             }
@@ -186,7 +178,7 @@ TEST_CASE("P11: crowds of poses and weights of any bits give the bits of single 
         for (const bend::Body& body : bodies) {
             BatchStyle style{.storage = all_storages[random() % 4], .hostile = true};
             style.indices = random() % 2 == 0;
-            style.picture = random() % 2 == 0 ? planes : "xyzuvw.pqr";
+            style.picture = random() % 2 == 0 ? OutputBuffer::all_planes : "xyzuvw.pqr";
             tested.add(random, body, 30, style);
         }
         const bend::CrowdResult expected = tested.expect(isa);
@@ -206,7 +198,7 @@ TEST_CASE("P11: a crowd that validated is safe with other transforms, whatever t
     std::vector<bend::Pose> poses(6, {1, 2});
     std::vector<glm::mat4x3> transforms(6, glm::mat4x3(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0));
     for (const std::string_view picture :
-         {planes, std::string_view("xyz.uvw.123."), std::string_view("xyzuvw")}) {
+         {OutputBuffer::all_planes, std::string_view("xyz.uvw.123."), std::string_view("xyzuvw")}) {
         OutputBuffer out(picture, 6 * 40);
         bend::Batch batch{.body = &body, .count = 6};
         batch.poses = batch.previous_poses = strided(std::span(poses));

@@ -39,11 +39,11 @@ Chain random_chain(Random& random, std::size_t regions, bool bent) {
     return {std::move(test_mesh), std::move(binding), std::move(poses)};
 }
 
-std::uint32_t place_of(const Chain& chain, std::size_t vertex) {
+std::uint32_t vertex_of_mesh(const Chain& chain, std::size_t vertex) {
     return chain.binding.order.empty() ? static_cast<std::uint32_t>(vertex) : chain.binding.order[vertex];
 }
 
-double distance(const glm::dvec3& p, const bend::Capsule& capsule) {
+double distance_to_capsule(const glm::dvec3& p, const bend::Capsule& capsule) {
     const glm::dvec3 a(capsule.from), step = glm::dvec3(capsule.to) - a;
     const double squared = glm::dot(step, step);
     const double t = squared > 0 ? std::clamp(glm::dot(p - a, step) / squared, 0.0, 1.0) : 0;
@@ -64,7 +64,8 @@ TEST_CASE("a socket goes where the vertex at its place goes") {
         for (int i = 0; i < 100; ++i) {  // in any order of the regions
             const std::size_t vertex = random() % count;
             const paper::Cylindrical at = paper::to_cylindrical(
-                glm::transpose(axes) * (glm::dvec3(s.positions[place_of(chain, vertex)]) - s.cylinder.origin),
+                glm::transpose(axes) *
+                    (glm::dvec3(s.positions[vertex_of_mesh(chain, vertex)]) - s.cylinder.origin),
                 s.cylinder.length, s.cylinder.radius, {s.cylinder.rest_angle, s.cylinder.rest_direction});
             sockets.push_back(
                 fit::socket_at(chain.binding, std::clamp(at.z, 0.0, s.cylinder.length), at.beta, at.rho));
@@ -159,8 +160,8 @@ TEST_CASE("capsules hold every vertex, and more of them fit closer") {
             for (std::size_t i = 0; i < count; ++i) {
                 double inside = std::numeric_limits<double>::infinity();
                 for (const bend::Capsule& capsule : chain_of)
-                    inside = std::min(
-                        inside, distance(out.position(i), capsule) - static_cast<double>(capsule.radius));
+                    inside = std::min(inside, distance_to_capsule(out.position(i), capsule) -
+                                                  static_cast<double>(capsule.radius));
                 REQUIRE(inside <= 0);
             }
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "pieces.hpp"
 #include "support/arena.hpp"
 #include "support/faults.hpp"
 #include "support/test_batch.hpp"
@@ -7,7 +8,6 @@
 
 #include <array>
 #include <cstring>
-#include <thread>
 #include <vector>
 
 /// P5 of columns: however a batch's instances are kept, and wherever they are deformed to, each has the bits
@@ -18,26 +18,27 @@ namespace {
 
 constexpr std::array both_stores = {bend::Stores::cached, bend::Stores::non_temporal};
 
-constexpr std::string_view pictures[] = {"x y z u v w a b c d p q r 123",
-                                         "xyz",
-                                         "xyzuvw",
-                                         "xyzuvwabcd",
-                                         "xyzuvwpqr",
-                                         "xyzpqr",
-                                         "123",
-                                         "x y z 123",
-                                         "xyz.uvw.",
-                                         "..123...pqr.",
-                                         "xyz uvw abcd pqr",
-                                         "zyx wvu",
-                                         "xyzuvw......",
-                                         "x y z"};
+constexpr std::string_view batch_pictures[] = {"x y z u v w a b c d p q r 123",
+                                               "xyz",
+                                               "xyzuvw",
+                                               "xyzuvwabcd",
+                                               "xyzuvwpqr",
+                                               "xyzpqr",
+                                               "123",
+                                               "x y z 123",
+                                               "xyz.uvw.",
+                                               "..123...pqr.",
+                                               "xyz uvw abcd pqr",
+                                               "zyx wvu",
+                                               "xyzuvw......",
+                                               "x y z"};
 
 using Matrix = bend::TransformColumn::MatrixLayout;
 
 /// Runs `crowd` by `run` on cleared batches, which must then hold what `expected` counts.
 template <class Run>
-void check(TestBatches& tested, const bend::CrowdJob& crowd, const bend::CrowdResult& expected, Run run) {
+void check_batches(TestBatches& tested, const bend::CrowdJob& crowd, const bend::CrowdResult& expected,
+                   Run run) {
     tested.clear();
     const bend::CrowdResult result = run(crowd);
     REQUIRE(tested.fault(crowd.frame) == "");
@@ -50,31 +51,7 @@ bend::CrowdResult run_one(const bend::CrowdJob& crowd) {
     return bend::run(crowd);
 }
 
-void add(bend::CrowdResult& sum, const bend::CrowdResult& part) {
-    sum.deformed += part.deformed;
-    sum.clamped += part.clamped;
-    sum.at_rest += part.at_rest;
-}
-
-/// In pieces that are dealt out to threads of the caller.
-bend::CrowdResult run_on_threads(const bend::CrowdJob& crowd, std::size_t threads, std::size_t pieces) {
-    std::vector<bend::CrowdResult> results(threads);
-    std::vector<std::thread> workers;
-    for (std::size_t i = 0; i < threads; ++i) {
-        workers.emplace_back([&, i] {
-            for (std::size_t piece = i; piece < pieces; piece += threads)
-                add(results[i], bend::run_piece(crowd, piece, pieces));
-        });
-    }
-    bend::CrowdResult sum;
-    for (std::size_t i = 0; i < threads; ++i) {
-        workers[i].join();
-        add(sum, results[i]);
-    }
-    return sum;
-}
-
-std::vector<bend::Body> bodies(Random& random) {
+std::vector<bend::Body> bodies_of_all_sizes(Random& random) {
     constexpr std::size_t few[] = {37}, many[] = {3000}, chain[] = {40, 1, 0, 7, 130}, pair[] = {300, 290};
     std::vector<bend::Body> result;
     result.push_back(loose_chain(random, few));
@@ -89,7 +66,7 @@ std::vector<bend::Body> bodies(Random& random) {
 
 TEST_CASE("P5: columns in every storage give the bits of single jobs") {
     Random random(101);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     std::size_t picture = 0;
     for (const Isa isa : isas_here()) {
         for (const Storage storage : all_storages) {
@@ -98,7 +75,7 @@ TEST_CASE("P5: columns in every storage give the bits of single jobs") {
                     BatchStyle style{.storage = storage, .transforms = matrix};
                     style.indices = (ways & 1) != 0;
                     style.places = (ways & 2) != 0;
-                    style.picture = pictures[picture++ % std::size(pictures)];
+                    style.picture = batch_pictures[picture++ % std::size(batch_pictures)];
                     INFO(name(isa), ", storage ", static_cast<int>(storage), ", matrices ",
                          static_cast<int>(matrix), ", ways ", ways, ", ", style.picture);
                     TestBatches tested;
@@ -110,7 +87,7 @@ TEST_CASE("P5: columns in every storage give the bits of single jobs") {
                     for (const bend::Stores stores : both_stores) {
                         const bend::CrowdJob crowd{.batches = tested.batches, .stores = stores, .isa = isa};
                         REQUIRE(told(bend::validate(crowd)) == "none");
-                        check(tested, crowd, expected, run_one);
+                        check_batches(tested, crowd, expected, run_one);
                     }
                 }
             }
@@ -120,7 +97,7 @@ TEST_CASE("P5: columns in every storage give the bits of single jobs") {
 
 TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of single jobs") {
     Random random(102);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     for (const Isa isa : isas_here()) {
         for (int trial = 0; trial < 6; ++trial) {
             INFO(name(isa), ", trial ", trial);
@@ -135,7 +112,7 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
                 style.defaults = random() % 4 == 0;
                 style.hostile = trial == 5;
                 style.scratch_gaps = random() % 2 == 0;
-                style.picture = pictures[random() % std::size(pictures)];
+                style.picture = batch_pictures[random() % std::size(batch_pictures)];
                 tested.add(random, all[i], random() % 12, style);
             }
             bend::CrowdJob crowd{.batches = tested.batches, .frame = static_cast<std::uint32_t>(trial)};
@@ -143,9 +120,9 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
             crowd.isa = isa;
             if (trial != 5) REQUIRE(told(bend::validate(crowd)) == "none");
             const bend::CrowdResult expected = tested.expect(isa, crowd.frame);
-            check(tested, crowd, expected, run_one);
+            check_batches(tested, crowd, expected, run_one);
             for (const int threads : {1, 3}) {
-                check(tested, crowd, expected, [&](const bend::CrowdJob& job) {
+                check_batches(tested, crowd, expected, [&](const bend::CrowdJob& job) {
                     bend::CrowdResult result;
                     in_arena(threads, [&] { result = bend::run_parallel(job); });
                     return result;
@@ -153,8 +130,9 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
             }
             for (const std::size_t pieces : {1u, 2u, 7u, 100u}) {
                 for (const std::size_t threads : {1u, 3u}) {
-                    check(tested, crowd, expected,
-                          [&](const bend::CrowdJob& job) { return run_on_threads(job, threads, pieces); });
+                    check_batches(tested, crowd, expected, [&](const bend::CrowdJob& job) {
+                        return run_on_threads(job, threads, pieces);
+                    });
                 }
             }
         }
@@ -163,7 +141,7 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
 
 TEST_CASE("masks and intervals are read from columns, and what has no turn is not touched") {
     Random random(103);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     for (const Storage storage : all_storages) {
         for (const bool indices : {false, true}) {
             TestBatches tested;
@@ -178,11 +156,11 @@ TEST_CASE("masks and intervals are read from columns, and what has no turn is no
                 const bend::CrowdJob crowd{.batches = tested.batches, .frame = frame};
                 const bend::CrowdResult expected = tested.expect(Isa::automatic, frame);
                 turns += expected.deformed;
-                check(tested, crowd, expected, run_one);
-                check(tested, crowd, expected,
-                      [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
-                check(tested, crowd, expected,
-                      [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 9); });
+                check_batches(tested, crowd, expected, run_one);
+                check_batches(tested, crowd, expected,
+                              [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
+                check_batches(tested, crowd, expected,
+                              [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 9); });
             }
             CHECK((turns > 100 && turns < 500));
         }
@@ -219,16 +197,16 @@ TEST_CASE("every n-th frame: each instance has its turn, and the turns are sprea
 
 TEST_CASE("columns that are not given stand for the identity, full wrinkles and every turn") {
     Random random(104);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     TestBatches tested;
-    for (const std::string_view picture : pictures) {
+    for (const std::string_view picture : batch_pictures) {
         BatchStyle style{.places = true, .defaults = true, .picture = picture};
         style.transforms = static_cast<Matrix>(tested.batches.size() % 3);
         tested.add(random, all[1], 7, style);
     }
     const bend::CrowdJob crowd{.batches = tested.batches, .frame = 3};
     REQUIRE(told(bend::validate(crowd)) == "none");
-    check(tested, crowd, tested.expect(Isa::automatic), run_one);
+    check_batches(tested, crowd, tested.expect(Isa::automatic), run_one);
 }
 
 TEST_CASE("instances may share the elements of columns") {
@@ -257,7 +235,7 @@ TEST_CASE("instances may share the elements of columns") {
 
 TEST_CASE("bounds of a batch are those of its instances' jobs, whatever its masks say") {
     Random random(106);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     for (const Isa isa : isas_here()) {
         for (const Storage storage : all_storages) {
             for (const bool hostile : {false, true}) {
@@ -281,7 +259,7 @@ TEST_CASE("bounds of a batch are those of its instances' jobs, whatever its mask
 
 TEST_CASE("a batch of nobody is no fault and no work") {
     Random random(107);
-    const std::vector<bend::Body> all = bodies(random);
+    const std::vector<bend::Body> all = bodies_of_all_sizes(random);
     TestBatches tested;
     tested.add(random, all[0], 0, {});
     tested.add(random, all[1], 4, {});
@@ -289,9 +267,10 @@ TEST_CASE("a batch of nobody is no fault and no work") {
     const bend::CrowdJob crowd{.batches = tested.batches};
     CHECK(bend::validate(crowd).none());
     const bend::CrowdResult expected = tested.expect(Isa::automatic);
-    check(tested, crowd, expected, run_one);
-    check(tested, crowd, expected, [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 5); });
-    check(tested, crowd, expected, [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
+    check_batches(tested, crowd, expected, run_one);
+    check_batches(tested, crowd, expected,
+                  [](const bend::CrowdJob& job) { return run_on_threads(job, 2, 5); });
+    check_batches(tested, crowd, expected, [](const bend::CrowdJob& job) { return bend::run_parallel(job); });
     const bend::CrowdJob nobody{.batches = std::span(tested.batches).first(1)};
     CHECK(bend::run(nobody).deformed == 0);
     CHECK(bend::run_parallel(nobody).deformed == 0);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "not_finite.hpp"
 #include "support/bodies.hpp"
 
 #include <goffer/bend/body_input.hpp>
@@ -7,7 +8,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -80,8 +80,6 @@ std::string text_of(const BodyFault& fault) {
 }
 
 constexpr std::size_t nowhere = BodyFault::nowhere;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -116,7 +114,7 @@ TEST_CASE("a region's faults are named, with its index") {
     CHECK(region_fault([](RegionInput& r) { r.onset = -1; }).field == BodyField::onset);
     CHECK(region_fault([](RegionInput& r) { r.table.rows.resize(1); }) ==
           BodyFault{BodyField::table, Reason::count, 0});
-    CHECK(region_fault([](RegionInput& r) { r.table.rows[1][3] = static_cast<float>(nan); }) ==
+    CHECK(region_fault([](RegionInput& r) { r.table.rows[1][3] = nan; }) ==
           BodyFault{BodyField::table, Reason::not_finite, 0});
     CHECK(region_fault([](RegionInput& r) { r.table.max_angle = 0; }).field == BodyField::table);
     CHECK(region_fault([](RegionInput& r) { r.factors.rows.resize(1); }) ==
@@ -159,7 +157,7 @@ TEST_CASE("a vertex's faults are named, with its index") {
           }) == BodyFault{BodyField::tangents, Reason::out_of_range, 1});
     CHECK(fault_of([](BodyInput& i, Parts&) { i.tangent_signs = {}; }) ==
           BodyFault{BodyField::tangent_signs, Reason::count, nowhere});
-    CHECK(fault_of([](BodyInput&, Parts& p) { p.signs[1] = static_cast<float>(nan); }) ==
+    CHECK(fault_of([](BodyInput&, Parts& p) { p.signs[1] = nan; }) ==
           BodyFault{BodyField::tangent_signs, Reason::not_finite, 1});
 }
 
@@ -332,7 +330,7 @@ TEST_CASE("tables survive any angle and any direction") {
         for (std::size_t d = 0; d < bend::FactorTable::directions; ++d)
             factors.rows[i][d] = static_cast<float>(1 + d);
     }
-    const auto not_a_number = static_cast<float>(nan), infinite = static_cast<float>(infinity);
+    const float not_a_number = nan, infinite = infinity;
     for (const float bad : {not_a_number, infinite, -infinite}) {
         CHECK(wrinkles.at(bad)[0] == 0.0f);
         CHECK(factors.at(bad, 0) == 1.0f);

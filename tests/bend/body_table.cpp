@@ -14,7 +14,7 @@
 namespace goffer::test {
 namespace {
 
-bend::Body body_of(Random& random, std::size_t vertices) {
+bend::Body body_of_vertices(Random& random, std::size_t vertices) {
     const LooseVertices loose(random, vertices, 0.1);
     bend::RegionInput region;
     region.length = 1;
@@ -30,14 +30,15 @@ TEST_CASE("body table: a handle names its body until that is removed") {
     bend::BodyTable table;
     CHECK(table.find({}) == nullptr);
     CHECK(table.find({7, 1}) == nullptr);
-    const bend::BodyHandle worm = table.add(body_of(random, 3)), fish = table.add(body_of(random, 4));
+    const bend::BodyHandle worm = table.add(body_of_vertices(random, 3)),
+                           fish = table.add(body_of_vertices(random, 4));
     const bend::Body* const address = table.find(worm);
     REQUIRE(address != nullptr);
     CHECK(address->vertex_count() == 3);
     CHECK(table.find(fish)->vertex_count() == 4);
     CHECK(table.revision(worm) == 1);
 
-    bend::Body reloaded = body_of(random, 5);
+    bend::Body reloaded = body_of_vertices(random, 5);
     CHECK(table.replace(worm, std::move(reloaded)));
     CHECK(table.find(worm) == address);
     CHECK(address->vertex_count() == 5);
@@ -48,7 +49,7 @@ TEST_CASE("body table: a handle names its body until that is removed") {
     CHECK(table.find(worm) == nullptr);
     CHECK(table.revision(worm) == 0);
     CHECK(!table.remove(worm));
-    bend::Body left = body_of(random, 6);
+    bend::Body left = body_of_vertices(random, 6);
     CHECK(!table.replace(worm, std::move(left)));
     CHECK(left.vertex_count() == 6);
     CHECK(table.size() == 1);
@@ -65,7 +66,7 @@ TEST_CASE("body table: a handle names its body until that is removed") {
     CHECK(moved.find(fish)->vertex_count() == 4);
     CHECK(table.size() == 0);
     CHECK(table.find(fish) == nullptr);
-    const bend::BodyHandle again = table.add(body_of(random, 7));
+    const bend::BodyHandle again = table.add(body_of_vertices(random, 7));
     CHECK(table.find(again)->vertex_count() == 7);
     table = std::move(moved);
     CHECK(table.find(fish)->vertex_count() == 4);
@@ -79,12 +80,12 @@ TEST_CASE("body table: like a map of numbers that are never used twice, whatever
     for (int step = 0; step < 600; ++step) {
         const std::size_t vertices = 1 + random() % 9, kind = random() % 4;
         if (alive.empty() || kind <= 1) {
-            alive.emplace_back(table.add(body_of(random, vertices)), vertices);
+            alive.emplace_back(table.add(body_of_vertices(random, vertices)), vertices);
         } else {
             const std::size_t which = random() % alive.size();
             const bend::BodyHandle handle = alive[which].first;
             if (kind == 2) {
-                CHECK(table.replace(handle, body_of(random, vertices)));
+                CHECK(table.replace(handle, body_of_vertices(random, vertices)));
                 alive[which].second = vertices;
             } else {
                 CHECK(table.remove(handle));

@@ -37,12 +37,12 @@ bool holds(const bend::Bounds& outer, const bend::Bounds& inner) {
     return true;
 }
 
-bool same(const bend::Bounds& a, const bend::Bounds& b) {
+bool same_box(const bend::Bounds& a, const bend::Bounds& b) {
     return a.low == b.low && a.high == b.high;
 }
 
 /// Any angle: tiny ones, the largest, and beyond it.
-bend::Pose random_pose(Random& random, const bend::Body& body) {
+bend::Pose random_pose_of(Random& random, const bend::Body& body) {
     const auto limit = static_cast<double>(body.max_angle());
     const double kind = uniform(random, 0, 1);
     const double angle = kind < 0.15  ? std::pow(10, uniform(random, -9, 0))
@@ -53,7 +53,7 @@ bend::Pose random_pose(Random& random, const bend::Body& body) {
 }
 
 /// `area` only where folds are shallow, as in accuracy.cpp.
-fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
+fit::BindOptions random_coarse_options(Random& random, const fit::Cylinder& cylinder) {
     fit::BindOptions options;
     options.folds = static_cast<int>(random() % 13);
     options.profile = random_profile(random);
@@ -67,7 +67,7 @@ fit::BindOptions random_options(Random& random, const fit::Cylinder& cylinder) {
 void check_held(Random& random, const bend::Body& body, int poses) {
     Output out(body.vertex_count());
     for (int k = 0; k < poses; ++k) {
-        const bend::Pose pose = random_pose(random, body);
+        const bend::Pose pose = random_pose_of(random, body);
         bend::DeformJob job = make_job(body, pose, Isa::automatic, out);
         job.normals = {};
         job.tangents = {};
@@ -141,7 +141,7 @@ TEST_CASE("P10: bounds hold every vertex") {
         TestMesh test_mesh =
             random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)), 12, 49, 150);
         if (trial % 3 == 0) add_radii(test_mesh, random);
-        const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+        const fit::BindOptions options = random_coarse_options(random, test_mesh.cylinder);
         const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
         INFO("trial ", trial, " folds ", binding.folds());
         check_held(random, binding.body, 50);
@@ -172,7 +172,8 @@ TEST_CASE("P10: bounds hold every vertex under transforms of any size") {
             for (std::size_t r = 0; r < counts.size(); ++r)
                 poses.push_back(
                     {static_cast<float>(uniform(random, -5, 5)), static_cast<float>(uniform(random, -4, 4))});
-            bend::DeformJob job = make_job(body, {}, isas_here()[random() % isas_here().size()], out);
+            bend::DeformJob job =
+                make_job(body, bend::Pose{}, isas_here()[random() % isas_here().size()], out);
             job.poses = poses;
             job.normals = {};
             job.tangents = {};
@@ -198,12 +199,12 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
                 trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 2.5)) : uniform(random, 3, 40);
             const glm::dmat3 axes = trial % 3 == 0 ? glm::dmat3(1) : random_rotation(random);
             const TestMesh test_mesh = round_mesh(round, slenderness, axes);
-            const fit::BindOptions options = random_options(random, test_mesh.cylinder);
+            const fit::BindOptions options = random_coarse_options(random, test_mesh.cylinder);
             const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
             const bool deep = *options.folds > 0 && *options.folds * 4 < slenderness;
             Output out(test_mesh.positions.size());
             for (int k = 0; k < 30; ++k) {
-                bend::Pose pose = random_pose(random, binding.body);
+                bend::Pose pose = random_pose_of(random, binding.body);
                 // Beyond, the vertices are too few for a tight box.
                 pose.angle = std::clamp(pose.angle, -40.0f, 40.0f);
                 bend::DeformJob job = make_job(binding.body, pose, Isa::automatic, out);
@@ -243,21 +244,21 @@ TEST_CASE("every way to run a job leaves the same bounds") {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const bend::Body& body = bodies[i / 3 % 2];
         Columns& out = outputs.emplace_back(3, body.vertex_count());
-        bend::DeformJob job{.body = &body, .pose = random_pose(random, body)};
+        bend::DeformJob job{.body = &body, .pose = random_pose_of(random, body)};
         job.transform = random_transform(random, 3);
         job.positions = planar(out[0], out[1], out[2]);
         if (i % 5 != 0) job.bounds = &boxes[i];
         jobs.push_back(job);
         expected[i] = bend::bounds(body, job.pose, job.transform);
-        CHECK(same(expected[i], bend::bounds(job)));
+        CHECK(same_box(expected[i], bend::bounds(job)));
     }
     bend::bounds(jobs, boxes);
-    for (std::size_t i = 0; i < boxes.size(); ++i) CHECK(same(boxes[i], expected[i]));
+    for (std::size_t i = 0; i < boxes.size(); ++i) CHECK(same_box(boxes[i], expected[i]));
     const auto check = [&](auto run) {
         boxes.assign(boxes.size(), {glm::vec3(7), glm::vec3(-7)});
         run();
         for (std::size_t i = 0; i < boxes.size(); ++i)
-            CHECK(same(boxes[i], i % 5 == 0 ? bend::Bounds{glm::vec3(7), glm::vec3(-7)} : expected[i]));
+            CHECK(same_box(boxes[i], i % 5 == 0 ? bend::Bounds{glm::vec3(7), glm::vec3(-7)} : expected[i]));
     };
     std::vector<bend::Batch> batches;
     for (const bend::DeformJob& job : jobs) batches.push_back(bend::batch_of(job));
@@ -275,7 +276,7 @@ TEST_CASE("every way to run a job leaves the same bounds") {
             const bend::Bounds left = *job.bounds;
             *job.bounds = {};
             bend::run_range(job, 7, job.body->vertex_count());
-            CHECK(same(*job.bounds, {}));
+            CHECK(same_box(*job.bounds, {}));
             *job.bounds = left;
         }
     });

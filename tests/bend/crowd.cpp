@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "pieces.hpp"
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
 #include "support/output_buffer.hpp"
@@ -9,7 +10,6 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <thread>
 #include <vector>
 
 /// The crowd's contract: the bits of single jobs, whatever the arena, the split, the stores and the
@@ -19,9 +19,9 @@ namespace goffer::test {
 namespace {
 
 /// Instances of bodies of very different sizes, in runs and alone, each with streams of its own kind.
-class Crowd {
+class MixedCrowd {
 public:
-    Crowd(Random& random, std::size_t instances) : boxes_(instances) {
+    MixedCrowd(Random& random, std::size_t instances) : boxes_(instances) {
         constexpr std::string_view pictures[] = {"x y z",
                                                  "x y z u v w",
                                                  "xyzuvw",
@@ -109,7 +109,7 @@ private:
 
 /// Runs `run`, which returns a CrowdResult, on a cleared crowd.
 template <class Run>
-void check(Crowd& crowd, const Crowd::Expected& expected, Run run) {
+void check_crowd(MixedCrowd& crowd, const MixedCrowd::Expected& expected, Run run) {
     crowd.clear();
     const bend::CrowdResult result = run();
     CHECK(result.deformed == expected.result.deformed);
@@ -118,52 +118,24 @@ void check(Crowd& crowd, const Crowd::Expected& expected, Run run) {
     CHECK(crowd.hash() == expected.hash);
 }
 
-bend::CrowdResult run_pieces(const bend::CrowdJob& job, std::size_t first, std::size_t step,
-                             std::size_t pieces) {
-    bend::CrowdResult sum;
-    for (std::size_t piece = first; piece < pieces; piece += step) {
-        const bend::CrowdResult result = bend::run_piece(job, piece, pieces);
-        sum.deformed += result.deformed;
-        sum.clamped += result.clamped;
-        sum.at_rest += result.at_rest;
-    }
-    return sum;
-}
-
-/// Pieces dealt out to threads of the caller.
-bend::CrowdResult run_on_threads(const bend::CrowdJob& job, std::size_t threads, std::size_t pieces) {
-    std::vector<bend::CrowdResult> results(threads);
-    std::vector<std::thread> workers;
-    for (std::size_t i = 0; i < threads; ++i)
-        workers.emplace_back([&, i] { results[i] = run_pieces(job, i, threads, pieces); });
-    bend::CrowdResult sum;
-    for (std::size_t i = 0; i < threads; ++i) {
-        workers[i].join();
-        sum.deformed += results[i].deformed;
-        sum.clamped += results[i].clamped;
-        sum.at_rest += results[i].at_rest;
-    }
-    return sum;
-}
-
 constexpr std::array all_stores = {bend::Stores::automatic, bend::Stores::cached, bend::Stores::non_temporal};
 
 }  // namespace
 
 TEST_CASE("P5: a crowd gives the bits of its single jobs, in any arena, by any stores") {
     Random random(31);
-    Crowd crowd(random, 150);
+    MixedCrowd crowd(random, 150);
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
-        const Crowd::Expected expected = crowd.expected(isa);
+        const MixedCrowd::Expected expected = crowd.expected(isa);
         CHECK(expected.result.deformed == 150);
         CHECK(expected.result.clamped > 10);
         for (const bend::Stores stores : all_stores) {
             const bend::CrowdJob job{.batches = crowd.batches, .stores = stores, .isa = isa};
             REQUIRE(bend::validate(job).none());
-            check(crowd, expected, [&] { return bend::run(job); });
+            check_crowd(crowd, expected, [&] { return bend::run(job); });
             for (const int threads : {1, 2, 4, 7}) {
-                check(crowd, expected, [&] {
+                check_crowd(crowd, expected, [&] {
                     bend::CrowdResult result;
                     in_arena(threads, [&] { result = bend::run_parallel(job); });
                     return result;
@@ -175,25 +147,25 @@ TEST_CASE("P5: a crowd gives the bits of its single jobs, in any arena, by any s
 
 TEST_CASE("P5: pieces on the caller's threads give the same bits, in any number") {
     Random random(32);
-    Crowd crowd(random, 120);
+    MixedCrowd crowd(random, 120);
     for (const Isa isa : isas_here()) {
         CAPTURE(name(isa));
-        const Crowd::Expected expected = crowd.expected(isa);
+        const MixedCrowd::Expected expected = crowd.expected(isa);
         const bend::CrowdJob job{.batches = crowd.batches, .stores = bend::Stores::non_temporal, .isa = isa};
         for (const std::size_t pieces : {1u, 2u, 3u, 7u, 64u, 1000u}) {
             CAPTURE(pieces);
-            check(crowd, expected, [&] { return run_pieces(job, 0, 1, pieces); });
+            check_crowd(crowd, expected, [&] { return run_pieces(job, 0, 1, pieces); });
         }
         for (const std::size_t threads : {1u, 2u, 4u, 7u}) {
             CAPTURE(threads);
-            check(crowd, expected, [&] { return run_on_threads(job, threads, 3 * threads + 1); });
+            check_crowd(crowd, expected, [&] { return run_on_threads(job, threads, 3 * threads + 1); });
         }
     }
 }
 
 TEST_CASE("pieces share the work out by vertices") {
     Random random(33);
-    Crowd crowd(random, 120);
+    MixedCrowd crowd(random, 120);
     std::size_t all = 0;
     for (const bend::DeformJob& job : crowd.jobs) all += job.body->vertex_count();
     crowd.clear();
@@ -212,7 +184,7 @@ TEST_CASE("pieces share the work out by vertices") {
 
 TEST_CASE("instances that are not seen, or not changed, are not touched") {
     Random random(34);
-    Crowd crowd(random, 90);
+    MixedCrowd crowd(random, 90);
     std::vector<std::uint8_t> visible(90), changed(90), both(90);
     for (std::size_t i = 0; i < both.size(); ++i) {
         visible[i] = i % 3 == 1 ? 0 : static_cast<std::uint8_t>(1 + random() % 255);
@@ -229,10 +201,10 @@ TEST_CASE("instances that are not seen, or not changed, are not touched") {
         }
         const bend::CrowdJob job{.batches = crowd.batches};
         REQUIRE(bend::validate(job).none());
-        const Crowd::Expected expected = crowd.expected(Isa::automatic, active);
-        check(crowd, expected, [&] { return bend::run(job); });
-        check(crowd, expected, [&] { return bend::run_parallel(job); });
-        check(crowd, expected, [&] { return run_pieces(job, 0, 1, 13); });
+        const MixedCrowd::Expected expected = crowd.expected(Isa::automatic, active);
+        check_crowd(crowd, expected, [&] { return bend::run(job); });
+        check_crowd(crowd, expected, [&] { return bend::run_parallel(job); });
+        check_crowd(crowd, expected, [&] { return run_pieces(job, 0, 1, 13); });
     };
     check_masks(visible, visible, {});
     check_masks(changed, {}, changed);
@@ -242,7 +214,7 @@ TEST_CASE("instances that are not seen, or not changed, are not touched") {
 
 TEST_CASE("a batch of one reads from its job, which may change from frame to frame") {
     Random random(35);
-    Crowd crowd(random, 20);
+    MixedCrowd crowd(random, 20);
     for (bend::DeformJob& job : crowd.jobs) {
         job.pose = {static_cast<float>(uniform(random, -4, 4)), 1.0f};
         job.previous_pose = {0.5f, static_cast<float>(uniform(random, -4, 4))};
@@ -250,8 +222,8 @@ TEST_CASE("a batch of one reads from its job, which may change from frame to fra
         job.transform[3] += glm::vec3(1, 2, 3);
         job.previous_transform[3] -= glm::vec3(1, 2, 3);
     }
-    const Crowd::Expected expected = crowd.expected(Isa::automatic);
-    check(crowd, expected, [&] { return bend::run(bend::CrowdJob{.batches = crowd.batches}); });
+    const MixedCrowd::Expected expected = crowd.expected(Isa::automatic);
+    check_crowd(crowd, expected, [&] { return bend::run(bend::CrowdJob{.batches = crowd.batches}); });
 }
 
 TEST_CASE("a batch of no instances is no fault and no work, and needs no buffer") {

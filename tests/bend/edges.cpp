@@ -35,9 +35,9 @@ constexpr Layout layouts[] = {
     {4, false, false, false, false}, {0, false, false, false, true}};
 
 /// A batch's outputs in guarded memory.
-class Outputs {
+class GuardedOutputs {
 public:
-    Outputs(const Layout& layout, std::size_t vertices, Edge edge, bend::Batch& batch) : edge_(edge) {
+    GuardedOutputs(const Layout& layout, std::size_t vertices, Edge edge, bend::Batch& batch) : edge_(edge) {
         if (layout.record != 0) {
             std::size_t used = 3;
             if (layout.normals) used += 3;
@@ -147,7 +147,7 @@ TEST_CASE("edges: no column is read and no stream is written beyond its memory")
         batch.scratch_gaps = random() % 2 == 0;
         if (layout.previous)
             batch.previous_poses = {.data = previous.data(), .count = instances, .stride = pose_bytes};
-        const Outputs outputs(layout, vertices, edge, batch);
+        const GuardedOutputs outputs(layout, vertices, edge, batch);
         bend::CrowdJob crowd{.batches = {&batch, 1}, .isa = isa};
         INFO(std::string_view(bend::describe(bend::validate(crowd))));
         REQUIRE(bend::validate(crowd).none());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/faults.hpp"
 
+#include "not_finite.hpp"
 #include "support/bodies.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
@@ -8,7 +9,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,18 +23,16 @@ using bend::DeformJob;
 using bend::Field;
 using bend::Reason;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t count = 20;
 
 /// What validate() tells of `job` after `change`.
 template <class Change>
-std::string after(DeformJob job, Change change) {
+std::string told_after(DeformJob job, Change change) {
     change(job);
     return told(bend::validate(job));
 }
 
-float* one_byte_on(float* pointer) {
+float* pointer_one_byte_on(float* pointer) {
     return reinterpret_cast<float*>(reinterpret_cast<std::byte*>(pointer) + 1);
 }
 
@@ -46,39 +44,41 @@ TEST_CASE("P7: validate names the field of a job at fault") {
     Output out(count);
     const DeformJob good = make_job(body, {1.1f, 0.7f}, Isa::automatic, out);
     CHECK(told(bend::validate(good)) == "none");
-    CHECK(after(good, [](DeformJob& j) { j.body = nullptr; }) == "body null");
-    CHECK(after(good, [](DeformJob& j) { j.isa = static_cast<Isa>(99); }) == "isa not_supported");
-    CHECK(after(good, [](DeformJob& j) { j.positions = {}, j.normals = {}, j.tangents = {}; }) ==
+    CHECK(told_after(good, [](DeformJob& j) { j.body = nullptr; }) == "body null");
+    CHECK(told_after(good, [](DeformJob& j) { j.isa = static_cast<Isa>(99); }) == "isa not_supported");
+    CHECK(told_after(good, [](DeformJob& j) { j.positions = {}, j.normals = {}, j.tangents = {}; }) ==
           "outputs empty");
-    CHECK(after(good, [](DeformJob& j) { --j.positions.count; }) == "positions too_short");
-    CHECK(after(good, [](DeformJob& j) { j.normals.count = 0; }) == "normals too_short");
-    CHECK(after(good, [](DeformJob& j) { --j.tangents.count; }) == "tangents too_short");
-    CHECK(after(good, [](DeformJob& j) { j.positions.stride = 0; }) == "positions stride");
-    CHECK(after(good, [](DeformJob& j) { j.normals.stride = 6; }) == "normals stride");
-    CHECK(after(good, [](DeformJob& j) { j.tangents.stride = 3; }) == "tangents stride");
-    CHECK(after(good, [&](DeformJob& j) { j.positions = interleaved<3>(out.columns[0].data(), count, 8); }) ==
-          "positions stride");
+    CHECK(told_after(good, [](DeformJob& j) { --j.positions.count; }) == "positions too_short");
+    CHECK(told_after(good, [](DeformJob& j) { j.normals.count = 0; }) == "normals too_short");
+    CHECK(told_after(good, [](DeformJob& j) { --j.tangents.count; }) == "tangents too_short");
+    CHECK(told_after(good, [](DeformJob& j) { j.positions.stride = 0; }) == "positions stride");
+    CHECK(told_after(good, [](DeformJob& j) { j.normals.stride = 6; }) == "normals stride");
+    CHECK(told_after(good, [](DeformJob& j) { j.tangents.stride = 3; }) == "tangents stride");
+    CHECK(told_after(good, [&](DeformJob& j) {
+              j.positions = interleaved<3>(out.columns[0].data(), count, 8);
+          }) == "positions stride");
     for (std::size_t c = 0; c < 3; ++c) {
-        CHECK(after(good, [&](DeformJob& j) { j.positions.component[c] = nullptr; }) == "positions null");
-        CHECK(after(good, [&](DeformJob& j) { j.normals.component[c] = nullptr; }) == "normals null");
-        CHECK(after(good, [&](DeformJob& j) {
-                  j.normals.component[c] = one_byte_on(j.normals.component[c]);
+        CHECK(told_after(good, [&](DeformJob& j) { j.positions.component[c] = nullptr; }) ==
+              "positions null");
+        CHECK(told_after(good, [&](DeformJob& j) { j.normals.component[c] = nullptr; }) == "normals null");
+        CHECK(told_after(good, [&](DeformJob& j) {
+                  j.normals.component[c] = pointer_one_byte_on(j.normals.component[c]);
               }) == "normals alignment");
     }
     for (std::size_t c = 0; c < 4; ++c)
-        CHECK(after(good, [&](DeformJob& j) { j.tangents.component[c] = nullptr; }) == "tangents null");
+        CHECK(told_after(good, [&](DeformJob& j) { j.tangents.component[c] = nullptr; }) == "tangents null");
 
     const bend::Body moved(std::move(body));
     CHECK(told(bend::validate(good)) == "body empty");
     const bend::Body never_made;
-    CHECK(after(good, [&](DeformJob& j) { j.body = &never_made; }) == "body empty");
-    CHECK(after(good, [&](DeformJob& j) { j.body = &moved; }) == "none");
+    CHECK(told_after(good, [&](DeformJob& j) { j.body = &never_made; }) == "body empty");
+    CHECK(told_after(good, [&](DeformJob& j) { j.body = &moved; }) == "none");
 
     const std::vector<bend::RestVertex> vertices(count, {0.1, 0.5, 0.1, 0, 0});
     const std::vector<bend::RestVector> normals(count, {1, 0, 0});
     const bend::Body without = bare_body(vertices, normals);
-    CHECK(after(good, [&](DeformJob& j) { j.body = &without; }) == "tangents not_supported");
-    CHECK(after(good, [&](DeformJob& j) { j.body = &without, j.tangents = {}; }) == "none");
+    CHECK(told_after(good, [&](DeformJob& j) { j.body = &without; }) == "tangents not_supported");
+    CHECK(told_after(good, [&](DeformJob& j) { j.body = &without, j.tangents = {}; }) == "none");
 }
 
 TEST_CASE("P7: validate names the number of a job at fault") {
@@ -86,22 +86,24 @@ TEST_CASE("P7: validate names the number of a job at fault") {
     const bend::Body body = loose_body(random, count);
     Output out(count);
     const DeformJob good = make_job(body, {1.1f, 0.7f}, Isa::automatic, out);
-    CHECK(after(good, [](DeformJob& j) { j.pose.angle = nan; }) == "poses not_finite, region 0");
-    CHECK(after(good, [](DeformJob& j) { j.pose.angle = -infinity; }) == "poses not_finite, region 0");
-    CHECK(after(good, [](DeformJob& j) { j.pose.direction = nan; }) == "poses not_finite, region 0");
-    CHECK(after(good, [](DeformJob& j) { j.pose.direction = infinity; }) == "poses not_finite, region 0");
+    CHECK(told_after(good, [](DeformJob& j) { j.pose.angle = nan; }) == "poses not_finite, region 0");
+    CHECK(told_after(good, [](DeformJob& j) { j.pose.angle = -infinity; }) == "poses not_finite, region 0");
+    CHECK(told_after(good, [](DeformJob& j) { j.pose.direction = nan; }) == "poses not_finite, region 0");
+    CHECK(told_after(good, [](DeformJob& j) { j.pose.direction = infinity; }) ==
+          "poses not_finite, region 0");
 
     for (const float bad : {nan, infinity, -infinity})
-        CHECK(after(good, [&](DeformJob& j) { j.wrinkle_weight = bad; }) == "wrinkle_weight not_finite");
+        CHECK(told_after(good, [&](DeformJob& j) { j.wrinkle_weight = bad; }) == "wrinkle_weight not_finite");
     for (const float bad : {-1e-6f, 1.0001f, -3e38f, 3e38f})
-        CHECK(after(good, [&](DeformJob& j) { j.wrinkle_weight = bad; }) == "wrinkle_weight out_of_range");
+        CHECK(told_after(good, [&](DeformJob& j) { j.wrinkle_weight = bad; }) ==
+              "wrinkle_weight out_of_range");
     for (const float fine : {0.0f, -0.0f, 1e-45f, 0.5f, 1.0f})
-        CHECK(after(good, [&](DeformJob& j) { j.wrinkle_weight = fine; }) == "none");
+        CHECK(told_after(good, [&](DeformJob& j) { j.wrinkle_weight = fine; }) == "none");
 
     for (int c = 0; c < 4; ++c) {
         for (int row = 0; row < 3; ++row) {
             const auto with = [&](float number) {
-                return after(good, [&](DeformJob& j) { j.transform[c][row] = number; });
+                return told_after(good, [&](DeformJob& j) { j.transform[c][row] = number; });
             };
             CHECK(with(nan) == "transform not_finite");
             CHECK(with(-infinity) == "transform not_finite");
@@ -120,38 +122,38 @@ TEST_CASE("P7: validate names what is at fault with packed vertices and with pre
     DeformJob packed{.body = &body};
     packed.packed = {vertices.data(), sizeof(bend::PackedVertex), count};
     CHECK(told(bend::validate(packed)) == "none");
-    CHECK(after(packed, [](DeformJob& j) { --j.packed.count; }) == "packed too_short");
+    CHECK(told_after(packed, [](DeformJob& j) { --j.packed.count; }) == "packed too_short");
     for (const std::size_t stride : {0u, 8u, 14u})
-        CHECK(after(packed, [&](DeformJob& j) { j.packed.stride = stride; }) == "packed stride");
-    CHECK(after(packed, [](DeformJob& j) { j.packed.stride = 16; }) == "none");
-    CHECK(after(packed, [&](DeformJob& j) {
+        CHECK(told_after(packed, [&](DeformJob& j) { j.packed.stride = stride; }) == "packed stride");
+    CHECK(told_after(packed, [](DeformJob& j) { j.packed.stride = 16; }) == "none");
+    CHECK(told_after(packed, [&](DeformJob& j) {
               j.packed.first = reinterpret_cast<bend::PackedVertex*>(&vertices[0].position[1]);
           }) == "packed alignment");
     bend::Bounds box;
-    CHECK(after(packed, [&](DeformJob& j) { j.packed = {}, j.bounds = &box; }) == "outputs empty");
+    CHECK(told_after(packed, [&](DeformJob& j) { j.packed = {}, j.bounds = &box; }) == "outputs empty");
 
     DeformJob previous{.body = &body};
     previous.previous_positions = planar(out.columns[0], out.columns[1], out.columns[2]);
     CHECK(told(bend::validate(previous)) == "none");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_pose.angle = nan; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_pose.angle = nan; }) ==
           "previous_poses not_finite, region 0");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_pose.direction = -infinity; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_pose.direction = -infinity; }) ==
           "previous_poses not_finite, region 0");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_transform[3][1] = nan; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_transform[3][1] = nan; }) ==
           "previous_transform not_finite");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_transform[0][2] = 1.1e18f; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_transform[0][2] = 1.1e18f; }) ==
           "previous_transform too_large");
-    CHECK(after(previous, [](DeformJob& j) { --j.previous_positions.count; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { --j.previous_positions.count; }) ==
           "previous_positions too_short");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_positions.stride = 10; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_positions.stride = 10; }) ==
           "previous_positions stride");
-    CHECK(after(previous, [&](DeformJob& j) {
+    CHECK(told_after(previous, [&](DeformJob& j) {
               j.previous_positions = interleaved<3>(out.columns[0].data(), count, 8);
           }) == "previous_positions stride");
-    CHECK(after(previous, [](DeformJob& j) { j.previous_positions.component[1] = nullptr; }) ==
+    CHECK(told_after(previous, [](DeformJob& j) { j.previous_positions.component[1] = nullptr; }) ==
           "previous_positions null");
     // What is not asked for need not make sense.
-    CHECK(after(packed, [](DeformJob& j) {
+    CHECK(told_after(packed, [](DeformJob& j) {
               j.previous_pose.angle = nan, j.previous_transform[0][0] = nan;
           }) == "none");
 }
@@ -162,18 +164,18 @@ TEST_CASE("P7: validate names the region whose pose is at fault") {
     const bend::Body body = loose_chain(random, counts);
     Output out(count), before(count);
     const std::vector<bend::Pose> poses{{0.5f, 1}, {-1, 2}, {2, -3}};
-    DeformJob good = make_job(body, {}, Isa::automatic, out);
+    DeformJob good = make_job(body, bend::Pose{}, Isa::automatic, out);
     good.poses = poses;
     CHECK(told(bend::validate(good)) == "none");
-    CHECK(after(good, [&](DeformJob& j) { j.poses = std::span(poses).first(2); }) == "poses count");
-    CHECK(after(good, [&](DeformJob& j) { j.poses = {}; }) == "poses count");
+    CHECK(told_after(good, [&](DeformJob& j) { j.poses = std::span(poses).first(2); }) == "poses count");
+    CHECK(told_after(good, [&](DeformJob& j) { j.poses = {}; }) == "poses count");
     for (std::size_t region = 0; region < 3; ++region) {
         std::vector<bend::Pose> bad = poses;
         const std::string where = ", region " + std::to_string(region);
         bad[region].angle = nan;
-        CHECK(after(good, [&](DeformJob& j) { j.poses = bad; }) == "poses not_finite" + where);
+        CHECK(told_after(good, [&](DeformJob& j) { j.poses = bad; }) == "poses not_finite" + where);
         bad[region] = {1, infinity};
-        CHECK(after(good, [&](DeformJob& j) { j.poses = bad; }) == "poses not_finite" + where);
+        CHECK(told_after(good, [&](DeformJob& j) { j.poses = bad; }) == "poses not_finite" + where);
     }
     good.previous_positions = planar(before.columns[0], before.columns[1], before.columns[2]);
     CHECK(told(bend::validate(good)) == "previous_poses count");

@@ -28,18 +28,16 @@
 namespace goffer::test {
 namespace {
 
-constexpr std::string_view planes = "x y z u v w a b c d p q r 123";
-
 /// What every function makes of a pose.
-struct Outputs {
+struct PoseOutputs {
     OutputBuffer out;
     bend::Bounds box;
     std::vector<bend::Capsule> capsules;
     std::vector<bend::SocketFrame> frames;
     bend::PathFit path;
 
-    Outputs(bend::DeformJob job, const bend::Sockets& sockets)
-        : out(planes, job.body->vertex_count()),
+    PoseOutputs(bend::DeformJob job, const bend::Sockets& sockets)
+        : out(OutputBuffer::all_planes, job.body->vertex_count()),
           capsules(bend::capsule_count(*job.body, 2)),
           frames(sockets.count()) {
         out.attach(job);
@@ -54,7 +52,7 @@ struct Outputs {
     }
 
     /// The largest difference between numbers of `streams`, bounds and frames; infinite where one is NaN.
-    [[nodiscard]] float from(const Outputs& other, std::string_view streams = "xyzuvwabcdpqr") const {
+    [[nodiscard]] float from(const PoseOutputs& other, std::string_view streams = "xyzuvwabcdpqr") const {
         float largest = 0;
         const auto take = [&](float a, float b) {
             const float off = std::fabs(a - b);
@@ -99,7 +97,7 @@ private:
 std::string raised_by(const bend::DeformJob& job, const bend::Sockets& sockets) {
     leave_signaling_nans(0);
     std::feclearexcept(FE_ALL_EXCEPT);
-    const Outputs outputs(job, sockets);
+    const PoseOutputs outputs(job, sockets);
     std::string names;
     if (std::fetestexcept(FE_DIVBYZERO) != 0) names += "divide by zero, ";
     if (std::fetestexcept(FE_INVALID) != 0) names += "invalid, ";
@@ -108,7 +106,7 @@ std::string raised_by(const bend::DeformJob& job, const bend::Sockets& sockets) 
 }
 
 /// Bodies of every kind: straight, bent at rest, of several regions, with a shape.
-std::vector<bend::Body> bodies() {
+std::vector<bend::Body> bodies_of_every_kind() {
     Random random(3);
     const std::vector<std::size_t> counts{30, 7, 40};
     std::vector<bend::Body> made;
@@ -132,7 +130,7 @@ std::vector<std::vector<bend::Pose>> poses_of(const bend::Body& body) {
 
 template <class Visit>
 void each_case(const Visit& visit) {
-    for (const bend::Body& body : bodies()) {
+    for (const bend::Body& body : bodies_of_every_kind()) {
         std::vector<bend::Socket> socket(3);
         for (std::size_t i = 0; i < socket.size(); ++i)
             socket[i] = {.region = i, .vertex = {0.3 * static_cast<double>(i), 0.5, 0.1, 0, 0}};
@@ -172,11 +170,11 @@ TEST_CASE("floating point: nor with transforms as large and as small as the work
 
 TEST_CASE("floating point: with other rounding modes results are less exact, and no worse") {
     each_case([](const bend::DeformJob& job, const bend::Sockets& sockets) {
-        const Outputs usual(job, sockets);
+        const PoseOutputs usual(job, sockets);
         for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
             const auto rounded = [&] {
                 const Rounding rounding(mode);
-                return Outputs(job, sockets);
+                return PoseOutputs(job, sockets);
             }();
             CHECK(rounded.from(usual, "xyzpqr") < 1e-4f);
             // Some of these vertices have slopes that all but cancel their normal, which rounding then turns.
@@ -189,10 +187,10 @@ TEST_CASE("floating point: with other rounding modes results are less exact, and
 TEST_CASE("floating point: subnormal numbers may be flushed to zero") {
     constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
     each_case([&](const bend::DeformJob& job, const bend::Sockets& sockets) {
-        const Outputs usual(job, sockets);
+        const PoseOutputs usual(job, sockets);
         const unsigned before = _mm_getcsr();
         _mm_setcsr(before | flush_to_zero | denormals_are_zero);
-        const Outputs flushed(job, sockets);
+        const PoseOutputs flushed(job, sockets);
         _mm_setcsr(before);
         CHECK(flushed.from(usual) < 1e-6f);
     });

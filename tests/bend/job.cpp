@@ -24,7 +24,7 @@ fit::Binding bound_body(Random& random, int extra = 100) {
     return fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
 }
 
-bool same_bits(const Output& a, const Output& b) {
+bool same_output_bits(const Output& a, const Output& b) {
     for (std::size_t c = 0; c < 10; ++c) {
         if (std::memcmp(a.columns[c].data(), b.columns[c].data(), a.columns[c].size_bytes()) != 0)
             return false;
@@ -51,12 +51,12 @@ TEST_CASE("P5: any split, any thread count, the same bits") {
             for (std::size_t first = 0; first < count; first += step) {
                 bend::run_range(job, first, std::min(first + step, count));
             }
-            CHECK(same_bits(whole, parts));
+            CHECK(same_output_bits(whole, parts));
         }
         for (const std::size_t grain : {0u, 1u, 50u, 100000u}) {
             Output parallel(count);
             bend::run_parallel(make_job(binding.body, pose, isa, parallel), grain);
-            CHECK(same_bits(whole, parallel));
+            CHECK(same_output_bits(whole, parallel));
         }
     }
 }
@@ -76,7 +76,7 @@ TEST_CASE("P5: threads of the caller share a body and a job, the same bits") {
         std::thread second([&] { bend::run_range(job, count / 3, count); });
         first.join();
         second.join();
-        CHECK(same_bits(whole, threads));
+        CHECK(same_output_bits(whole, threads));
     }
 }
 

@@ -15,7 +15,7 @@
 namespace goffer::test {
 namespace {
 
-constexpr std::string_view pictures[] = {
+constexpr std::string_view layout_pictures[] = {
     // tight records
     "xyz",
     "xyzuvw",
@@ -68,7 +68,7 @@ void check_layouts(LayoutCase& test_mesh, std::span<const std::size_t> shifts,
                    std::span<const std::size_t> skews) {
     for (const Isa isa : isas_here()) {
         test_mesh.make_planes(isa);
-        for (const std::string_view picture : pictures) {
+        for (const std::string_view picture : layout_pictures) {
             for (const std::size_t shift : shifts) {
                 for (const std::size_t skew : skews) {
                     INFO(picture, ", ", test_mesh.count(), " vertices, shift ", shift, ", skew ", skew, ", ",
@@ -119,7 +119,7 @@ TEST_CASE("a range writes its own vertices alone, in every layout") {
     for (const Isa isa : isas_here()) {
         small.make_planes(isa);
         large.make_planes(isa);
-        for (const std::string_view picture : pictures) {
+        for (const std::string_view picture : layout_pictures) {
             const auto check = [&](LayoutCase& test_mesh, std::size_t first, std::size_t last) {
                 INFO(picture, ", [", first, ", ", last, "), ", name(isa));
                 OutputBuffer out(picture, test_mesh.count(), random() % 16, random() % 16);
@@ -143,7 +143,7 @@ TEST_CASE("non-temporal pieces write their own vertices alone, in every layout")
     LayoutCase test_mesh(random, loose_body(random, 700));
     for (const Isa isa : isas_here()) {
         test_mesh.make_planes(isa);
-        for (const std::string_view picture : pictures) {
+        for (const std::string_view picture : layout_pictures) {
             for (const std::size_t pieces : {2u, 5u, 60u}) {
                 INFO(picture, ", ", pieces, " pieces, ", name(isa));
                 OutputBuffer out(picture, test_mesh.count(), random() % 16,

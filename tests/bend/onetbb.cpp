@@ -47,9 +47,9 @@ private:
 };
 
 /// 200 instances of a body of 2000 vertices.
-class Crowd {
+class LargeCrowd {
 public:
-    Crowd() : random_(7), body_(loose_body(random_, 2000)), poses_(200), vertices_(3 * 200 * 2000) {
+    LargeCrowd() : random_(7), body_(loose_body(random_, 2000)), poses_(200), vertices_(3 * 200 * 2000) {
         for (bend::Pose& pose : poses_) pose = {static_cast<float>(uniform(random_, -1, 1)), 0};
         batch_ = {.body = &body_, .count = poses_.size()};
         batch_.poses = strided(std::span(poses_));
@@ -89,7 +89,7 @@ std::vector<std::size_t> globals() {
 }  // namespace
 
 TEST_CASE("oneTBB: a crowd changes nothing that the process shares") {
-    const Crowd crowd;
+    const LargeCrowd crowd;
     const std::vector<std::size_t> before = globals();
     crowd.run();
     CHECK(globals() == before);
@@ -101,7 +101,7 @@ TEST_CASE("oneTBB: a crowd changes nothing that the process shares") {
 }
 
 TEST_CASE("oneTBB: a crowd uses the threads of the arena that it is run from, and no more") {
-    const Crowd crowd;
+    const LargeCrowd crowd;
     for (const int threads : {1, 2}) {
         tbb::task_arena mine(threads), other(2);
         Visitors in_mine(mine), in_other(other);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/accuracy.hpp"
 #include "support/bodies.hpp"
 #include "support/output_buffer.hpp"
 #include "support/unpacked.hpp"
@@ -35,21 +36,10 @@ glm::vec2 snorm(const std::int16_t (&steps)[2]) {
     return glm::max(glm::vec2(steps[0], steps[1]) / 32767.0f, -1.0f);
 }
 
-/// The largest differences between what is decoded and what the planes hold; NaN counts as the largest.
-struct Worst {
-    double position = 0;  // beyond half a step of the bounds, of the size of the output
-    double normal = 0;    // degrees
-
-    void add(double& worst, double value) { worst = !(value <= worst) ? value : worst; }
-    void add(const Worst& other) {
-        add(position, other.position);
-        add(normal, other.normal);
-    }
-};
-
-/// `size`: of the output's numbers, which is what floats round by.
-Worst compare(std::span<const bend::PackedVertex> packed, const bend::Bounds& box, const Output& planes,
-              double size) {
+/// Between what is decoded and what the planes hold: positions beyond half a step of the bounds, of `size`,
+/// the output's numbers, which is what floats round by.
+Worst compare_decoded(std::span<const bend::PackedVertex> packed, const bend::Bounds& box,
+                      const Output& planes, double size) {
     Worst worst;
     std::size_t different = 0;  // by the way on which a shader gets them
     for (std::size_t i = 0; i < packed.size(); ++i) {
@@ -64,10 +54,10 @@ Worst compare(std::span<const bend::PackedVertex> packed, const bend::Bounds& bo
         const glm::dvec3 decoded(position);
         for (int axis = 0; axis < 3; ++axis) {
             const double half_step = static_cast<double>(box.high[axis] - box.low[axis]) / 131070;
-            worst.add(worst.position,
-                      (std::fabs(decoded[axis] - planes.position(i)[axis]) - half_step) / size);
+            take_worst(worst.position,
+                       (std::fabs(decoded[axis] - planes.position(i)[axis]) - half_step) / size);
         }
-        worst.add(worst.normal, angle_between(glm::dvec3(normal), planes.normal(i)));
+        take_worst(worst.normal, angle_between(glm::dvec3(normal), planes.normal(i)));
     }
     CHECK(different == 0);
     return worst;
@@ -95,7 +85,7 @@ Worst run(bend::DeformJob job, Output& planes, bend::Stores stores) {
     REQUIRE(bend::validate(crowd).none());
     bend::run(crowd);
     for (const bend::PackedVertex& vertex : packed) REQUIRE(vertex.unused == 0);
-    return compare(packed, box, planes, size_of(*job.body, job.transform));
+    return compare_decoded(packed, box, planes, size_of(*job.body, job.transform));
 }
 
 }  // namespace
@@ -142,7 +132,7 @@ TEST_CASE("normals along axes and edges of the octahedron are packed as well") {
     const bend::Body body = bare_body(vertices, normals);
     Output out(vertices.size());
     for (const Isa isa : isas_here()) {
-        const Worst worst = run(make_job(body, {}, isa, out), out, bend::Stores::cached);
+        const Worst worst = run(make_job(body, bend::Pose{}, isa, out), out, bend::Stores::cached);
         CHECK(worst.position <= 1e-6);
         CHECK(worst.normal <= 0.004);
         for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -163,7 +153,7 @@ TEST_CASE("bodies that are flat, or flattened, keep their places") {
     for (const Isa isa : isas_here()) {
         for (const float depth : {1.0f, 1e-3f, 1e-7f, 0.0f}) {
             const glm::mat4x3 transform(1, 0, 0, 0, depth, 0, 0, 0, 1, 0, 0, 0);
-            bend::DeformJob job = make_job(flat, {}, isa, out);
+            bend::DeformJob job = make_job(flat, bend::Pose{}, isa, out);
             job.transform = transform;
             CHECK(run(job, out, bend::Stores::cached).position <= 1e-6);
             job = make_job(round, {1.5f, 0.5f}, isa, out);

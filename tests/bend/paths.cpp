@@ -15,7 +15,7 @@ namespace {
 
 using Control = glm::vec3[4];
 
-bend::Body body_of(Random& random, std::size_t regions) {
+bend::Body body_of_regions(Random& random, std::size_t regions) {
     const TestMesh test_mesh = random_mesh(random, 30, 10, 12, 65, 0);
     fit::BindOptions options;
     options.folds = 0;
@@ -57,7 +57,7 @@ std::vector<glm::dvec3> line_of(const Control& control, int pieces) {
     return points;
 }
 
-double distance(const glm::dvec3& p, std::span<const glm::dvec3> points) {
+double distance_to_polyline(const glm::dvec3& p, std::span<const glm::dvec3> points) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const glm::dvec3 step = points[i + 1] - points[i];
@@ -112,11 +112,11 @@ double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<cons
                 std::span<const glm::dvec3> path) {
     double worst = 0;
     for (const glm::dvec3& place : center_line(body, fit, poses))
-        worst = std::max(worst, distance(place, path));
+        worst = std::max(worst, distance_to_polyline(place, path));
     return worst;
 }
 
-bool same(std::span<const bend::Pose> a, std::span<const bend::Pose> b) {
+bool same_poses(std::span<const bend::Pose> a, std::span<const bend::Pose> b) {
     return std::ranges::equal(a, b, [](const bend::Pose& p, const bend::Pose& q) {
         return p.angle == q.angle && p.direction == q.direction;
     });
@@ -139,7 +139,7 @@ bool is_sane(const bend::PathFit& fit, std::span<const bend::Pose> poses) {
 TEST_CASE("the error of a path's poses is what it is said to be") {
     Random random(91);
     for (const std::size_t regions : {1u, 3u, 8u, 16u}) {
-        const bend::Body body = body_of(random, regions);
+        const bend::Body body = body_of_regions(random, regions);
         std::vector<bend::Pose> poses(regions);
         for (int trial = 0; trial < 20; ++trial) {
             CAPTURE(regions);
@@ -161,35 +161,35 @@ TEST_CASE("the error of a path's poses is what it is said to be") {
 
 TEST_CASE("a body of which few poses are asked for lies as the whole does") {
     Random random(92);
-    const bend::Body body = body_of(random, 8);
+    const bend::Body body = body_of_regions(random, 8);
     Control control;
     set_smooth(random, body.length(), control);
     std::vector<bend::Pose> all(8), few(3), many(11, {7, 7});
     bend::poses_along_bezier(body, control, all);
     bend::poses_along_bezier(body, control, few);
     bend::poses_along_bezier(body, control, many);
-    CHECK(same(few, std::span(all).first(3)));
-    CHECK(same(std::span(many).first(8), all));
+    CHECK(same_poses(few, std::span(all).first(3)));
+    CHECK(same_poses(std::span(many).first(8), all));
     CHECK(many[8].angle == 7);
     CHECK(bend::poses_along_bezier(body, control, {}).error == 0);
 }
 
 TEST_CASE("repeated points are passed over") {
     Random random(93);
-    const bend::Body body = body_of(random, 4);
+    const bend::Body body = body_of_regions(random, 4);
     const glm::vec3 a(1, 2, 3), b(3, 3, 3), c(6, 2, 4);
     const glm::vec3 once[] = {a, b, c}, again[] = {a, a, b, b, b, c, c};
     std::vector<bend::Pose> poses(4), repeated(4);
     const bend::PathFit fit = bend::poses_along(body, once, poses);
     CHECK(bend::poses_along(body, again, repeated).error == fit.error);
-    CHECK(same(repeated, poses));
+    CHECK(same_poses(repeated, poses));
     const glm::vec3 point[] = {a, a, a};
     const glm::vec3 control[] = {a, a, a, a};
     for (const bend::PathFit& still :
          {bend::poses_along(body, point, poses), bend::poses_along_bezier(body, control, poses)}) {
         CHECK(still.error == 0);
         CHECK(glm::distance(glm::dvec3(still.transform[3]), glm::dvec3(a) - body.origin()) < 1e-6);
-        CHECK(same(poses, std::vector<bend::Pose>(4)));
+        CHECK(same_poses(poses, std::vector<bend::Pose>(4)));
     }
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("a path may hold any bits") {
     Random random(94);
     const float some[] = {0, 1, 2, 1e-45f, -1e20f, 3e38f, -3e38f, std::numeric_limits<float>::quiet_NaN()};
     for (int trial = 0; trial < 6; ++trial) {
-        const bend::Body body = body_of(random, 1 + random() % 32);
+        const bend::Body body = body_of_regions(random, 1 + random() % 32);
         std::vector<bend::Pose> poses(body.region_count());
         for (int i = 0; i < 2000; ++i) {
             Control control;
@@ -224,7 +224,7 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
     double worst = 0, sum = 0;
     int trials = 0;
     for (const std::size_t regions : {1u, 2u, 3u, 5u, 8u}) {
-        const bend::Body body = body_of(random, regions);
+        const bend::Body body = body_of_regions(random, regions);
         std::vector<bend::Pose> poses(regions);
         for (int trial = 0; trial < 100; ++trial, ++trials) {
             Control control;
@@ -246,7 +246,7 @@ TEST_CASE("the first region ends in the direction that the path has there") {
     double worst = 0, sum = 0;
     int trials = 0;
     for (const std::size_t regions : {1u, 2u, 4u}) {
-        const bend::Body body = body_of(random, regions);
+        const bend::Body body = body_of_regions(random, regions);
         std::vector<bend::Pose> poses(regions);
         for (int trial = 0; trial < 100; ++trial) {
             Control control;
@@ -270,7 +270,7 @@ TEST_CASE("the first region ends in the direction that the path has there") {
 TEST_CASE("beyond its end a polyline goes straight on") {
     Random random(97);
     for (const std::size_t regions : {1u, 3u, 8u}) {
-        const bend::Body body = body_of(random, regions);
+        const bend::Body body = body_of_regions(random, regions);
         std::vector<bend::Pose> poses(regions), longer(regions);
         for (int trial = 0; trial < 20; ++trial) {
             std::vector<glm::vec3> points;
@@ -293,7 +293,7 @@ TEST_CASE("beyond its end a polyline goes straight on") {
 
 TEST_CASE("a path that turns more sharply than the body can clamps it") {
     Random random(98);
-    const bend::Body body = body_of(random, 8);
+    const bend::Body body = body_of_regions(random, 8);
     std::vector<bend::Pose> poses(8);
     const float half = 0.5f * static_cast<float>(body.length());
     const glm::vec3 straight[] = {{0, 0, 0}, {0, 0, half}, {0, 0, 2 * half}};

@@ -14,7 +14,7 @@
 namespace goffer::test {
 namespace {
 
-bend::Pose random_pose(Random& random) {
+bend::Pose any_pose(Random& random) {
     return {static_cast<float>(uniform(random, -6, 6)), static_cast<float>(uniform(random, -9, 9))};
 }
 
@@ -26,13 +26,13 @@ TEST_CASE("previous positions have the bits that positions had at that pose and 
         const bend::Body body = loose_body(random, count);
         for (const Isa isa : isas_here()) {
             for (int trial = 0; trial < 20; ++trial) {
-                bend::DeformJob then{.body = &body, .pose = random_pose(random), .isa = isa};
+                bend::DeformJob then{.body = &body, .pose = any_pose(random), .isa = isa};
                 then.transform = random_transform(random, 3);
                 OutputBuffer positions("x y z", count);
                 positions.attach(then);
                 bend::run(then);
 
-                bend::DeformJob now{.body = &body, .pose = random_pose(random), .isa = isa};
+                bend::DeformJob now{.body = &body, .pose = any_pose(random), .isa = isa};
                 now.transform = random_transform(random, 3);
                 now.previous_pose = then.pose;
                 now.previous_transform = then.transform;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "not_finite.hpp"
 #include "support/bodies.hpp"
 
 #include <goffer/bend/body_input.hpp>
@@ -25,7 +26,7 @@ double power(Random& random, double low, double high) {
     return std::pow(10, uniform(random, low, high));
 }
 
-double sign(Random& random) {
+double random_sign(Random& random) {
     return random() % 2 == 0 ? -1 : 1;
 }
 
@@ -87,8 +88,8 @@ private:
         v.beta = random() % 5 == 0 ? region.rest_direction : uniform(random, -4, 4);
         v.z = region.length * uniform(random, 0, 1);
         v.rho = random() % 9 == 0 ? 0 : std::min(radius * power(random, -2, 3), WorkingRange::max_length);
-        v.wrinkle = sign(random) * power(random, -3, 1) / radius;
-        v.slope = sign(random) * power(random, -3, 2) / region.length;
+        v.wrinkle = random_sign(random) * power(random, -3, 1) / radius;
+        v.slope = random_sign(random) * power(random, -3, 2) / region.length;
         vertices.push_back(v);
         const glm::dmat3 frame = random_rotation(random);
         normals.push_back({frame[0].x, frame[0].y, frame[0].z});
@@ -96,10 +97,6 @@ private:
         signs.push_back(1);
     }
 };
-
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// How many outputs of `job` are not finite, or, of directions, longer than 1.
 std::size_t bad_outputs(const bend::DeformJob& job, const Output& out) {

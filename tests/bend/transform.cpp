@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/accuracy.hpp"
 #include "support/bodies.hpp"
 #include "support/output_buffer.hpp"
 
@@ -35,22 +36,9 @@ std::vector<Named> transforms(Random& random) {
             {"point mirror", scale(-1, -1, -1)}};
 }
 
-/// The largest differences; NaN counts as the largest.
-struct Worst {
-    double position = 0;             // of the output's size
-    double normal = 0, tangent = 0;  // degrees
-    double unit = 0;
-
-    static void add(double& worst, double value) { worst = !(value <= worst) ? value : worst; }
-    void add(const Worst& other) {
-        add(position, other.position);
-        add(normal, other.normal);
-        add(tangent, other.tangent);
-        add(unit, other.unit);
-    }
-};
-
-Worst compare(const Output& moved, const Output& still, const glm::mat4x3& transform, std::size_t count) {
+/// Positions: of the output's size.
+Worst compare_moved(const Output& moved, const Output& still, const glm::mat4x3& transform,
+                    std::size_t count) {
     const glm::dmat3 linear{glm::dvec3(transform[0]), glm::dvec3(transform[1]), glm::dvec3(transform[2])};
     const glm::dvec3 offset(transform[3]);
     const glm::dmat3 of_normals = glm::transpose(glm::inverse(linear));
@@ -60,11 +48,11 @@ Worst compare(const Output& moved, const Output& still, const glm::mat4x3& trans
     Worst worst;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 expected = linear * still.position(i) + offset;
-        Worst::add(worst.position, glm::length(moved.position(i) - expected) / size);
-        Worst::add(worst.normal, angle_between(moved.normal(i), of_normals * still.normal(i)));
-        Worst::add(worst.tangent, angle_between(moved.tangent(i), linear * still.tangent(i)));
-        Worst::add(worst.unit, std::fabs(glm::length(moved.normal(i)) - 1));
-        Worst::add(worst.unit, std::fabs(glm::length(moved.tangent(i)) - 1));
+        take_worst(worst.position, glm::length(moved.position(i) - expected) / size);
+        take_worst(worst.normal, angle_between(moved.normal(i), of_normals * still.normal(i)));
+        take_worst(worst.tangent, angle_between(moved.tangent(i), linear * still.tangent(i)));
+        take_worst(worst.unit, std::fabs(glm::length(moved.normal(i)) - 1));
+        take_worst(worst.unit, std::fabs(glm::length(moved.tangent(i)) - 1));
     }
     return worst;
 }
@@ -96,7 +84,7 @@ TEST_CASE("a transform does to every stream what it would do to the surface") {
                                  glm::vec3(offset)};
                 REQUIRE(bend::validate(job).none());
                 bend::run(job);
-                const Worst one = compare(moved, still, job.transform, count);
+                const Worst one = compare_moved(moved, still, job.transform, count);
                 CHECK(one.position <= 2e-6);
                 CHECK(one.normal <= 1e-3);
                 CHECK(one.tangent <= 6e-4);
@@ -142,7 +130,7 @@ TEST_CASE("outward stays outward") {
         for (const Named& transform : transforms(random)) {
             const glm::dmat3& linear = transform.linear;
             CAPTURE(transform.name);
-            bend::DeformJob job = make_job(body, {}, isa, out);
+            bend::DeformJob job = make_job(body, bend::Pose{}, isa, out);
             job.transform = {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(0)};
             bend::run(job);
             for (std::size_t i = 0; i < 64; ++i) {

@@ -73,7 +73,8 @@ bend::Body cut_body(Random& random, std::size_t count, std::size_t most) {
 }
 
 /// By any stores, with gaps kept and with gaps that are scratch.
-void check(LayoutCase& test_mesh, std::string_view picture, std::size_t shift, std::size_t skew, Isa isa) {
+void check_any_stores(LayoutCase& test_mesh, std::string_view picture, std::size_t shift, std::size_t skew,
+                      Isa isa) {
     OutputBuffer out(picture, test_mesh.count(), shift, skew);
     for (const OutputBuffer::Gaps gaps : {OutputBuffer::Gaps::kept, OutputBuffer::Gaps::scratch}) {
         for (const bend::Stores stores : {bend::Stores::cached, bend::Stores::non_temporal}) {
@@ -104,7 +105,7 @@ TEST_CASE("wide records hold the bits of planes: every alignment") {
                 test_mesh.make_planes(isa);
                 for (const std::string_view picture : named) {
                     for (std::size_t shift = 0; shift < 16; ++shift)
-                        check(test_mesh, picture, shift, random() % 16, isa);
+                        check_any_stores(test_mesh, picture, shift, random() % 16, isa);
                 }
             }
         }
@@ -121,7 +122,8 @@ TEST_CASE("wide records hold the bits of planes: any records, every vertex count
         for (const Isa isa : isas_here()) {
             test_mesh.make_planes(isa);
             for (int trial = 0; trial < rounds(24, 4); ++trial)
-                check(test_mesh, any_picture(random, trial % 2 == 0), random() % 16, random() % 16, isa);
+                check_any_stores(test_mesh, any_picture(random, trial % 2 == 0), random() % 16, random() % 16,
+                                 isa);
         }
     }
 }

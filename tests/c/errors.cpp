@@ -30,7 +30,7 @@ int code_of(const Call& call) {
     return error.code;
 }
 
-std::vector<std::byte> bytes_of(const Twice& twice) {
+std::vector<std::byte> baked_bytes(const Twice& twice) {
     const fit::BakeLevel level{&twice.binding, {twice.mesh.triangles, {}, {}, {}}};
     return fit::bake({{&level, 1}});
 }
@@ -70,7 +70,7 @@ TEST_CASE("C: an error has a code for programs") {
 TEST_CASE("C: the code of a body file says whether to look for it, to bake it again, or to call otherwise") {
     Random random(81);
     const Twice twice(random, 1);
-    const AlignedBytes file(bytes_of(twice));
+    const AlignedBytes file(baked_bytes(twice));
     const auto code_of_load = [](std::span<const std::byte> bytes, int verify, int copy) {
         return code_of([&](goffer_error* error) {
             goffer_file* const loaded = goffer_file_load(bytes.data(), bytes.size(), verify, copy, error);
@@ -108,7 +108,7 @@ TEST_CASE("C: the code of a body file says whether to look for it, to bake it ag
 TEST_CASE("C: handles that are null, and indices of what is not there, give zeros or do nothing") {
     Random random(82);
     const Twice twice(random, 1);
-    const std::vector<std::byte> bytes = bytes_of(twice);
+    const std::vector<std::byte> bytes = baked_bytes(twice);
     goffer_file* const file = goffer_file_load(bytes.data(), bytes.size(), GOFFER_VERIFY_LAYOUT, 1, nullptr);
     REQUIRE(file != nullptr);
     for (const goffer_file* of :

@@ -27,7 +27,7 @@ using nlohmann::json;
 namespace {
 
 /// What `goffer bend` writes of base.ply.
-std::string bent(const Folder& folder, const Words& words) {
+std::string bent_base(const Folder& folder, const Words& words) {
     well(folder, Words{"bend", "base.ply", "-o", "bent.ply"} + words);
     return bytes_of(folder / "bent.ply");
 }
@@ -64,10 +64,10 @@ TEST_CASE("animate: frames of keys are those of bend in the same poses, bit for 
     CHECK(all["clamped_frames"] == 0);
     CHECK(std::abs(all["worst_area_change"].get<double>()) < 1e-3);
     CHECK(files_of(folder, "f").size() == 9);
-    CHECK(bytes_of(folder / "f1.ply") == bent(folder, {"--angle", "0"}));
-    CHECK(bytes_of(folder / "f3.ply") == bent(folder, {"--angle", "30", "--direction", "30"}));
-    CHECK(bytes_of(folder / "f5.ply") == bent(folder, {"--angle", "60", "--direction", "30"}));
-    CHECK(bytes_of(folder / "f9.ply") == bent(folder, {"--angle", "-20", "--direction", "30"}));
+    CHECK(bytes_of(folder / "f1.ply") == bent_base(folder, {"--angle", "0"}));
+    CHECK(bytes_of(folder / "f3.ply") == bent_base(folder, {"--angle", "30", "--direction", "30"}));
+    CHECK(bytes_of(folder / "f5.ply") == bent_base(folder, {"--angle", "60", "--direction", "30"}));
+    CHECK(bytes_of(folder / "f9.ply") == bent_base(folder, {"--angle", "-20", "--direction", "30"}));
     std::uint64_t bytes = 0;
     for (const std::string& name : files_of(folder, "f")) bytes += bytes_of(folder / name).size();
     CHECK(all["bytes"] == bytes);
@@ -102,7 +102,7 @@ TEST_CASE("animate: the keys of README.md, as JSON and as a table, make the same
     for (const std::string number : {"1", "2", "3", "4", "5"})
         CHECK(bytes_of(folder / ("json" + number + ".ply")) == bytes_of(folder / ("csv" + number + ".ply")));
     CHECK(bytes_of(folder / "json3.ply") ==
-          bent(folder, {"--regions", "0.5,0.5", "--angles", "60,-40", "--directions", "0,90"}));
+          bent_base(folder, {"--regions", "0.5,0.5", "--angles", "60,-40", "--directions", "0,90"}));
     well(folder, {"bend", "base.ply", "-o", "laid.ply", "--path", GOFFER_SOURCE_DIR "/tests/data/track.txt"});
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("animate: a swing goes there and back") {
     CHECK(all["repeats"] == true);
     CHECK(all["seconds"] == 2.0);
     const auto at = [&](const std::string& angle) {
-        return bent(folder, {"--angle", angle, "--direction", "10", "--regions", "0.5,0.5"});
+        return bent_base(folder, {"--angle", angle, "--direction", "10", "--regions", "0.5,0.5"});
     };
     CHECK(bytes_of(folder / "s1.ply") == at("-40"));
     CHECK(bytes_of(folder / "s3.ply") == at("80"));
@@ -138,7 +138,7 @@ TEST_CASE("animate: frames of a walk are those of bend along the path from there
     const auto from = [&](double start) {
         char text[64];
         std::snprintf(text, sizeof text, "%.17g", start);
-        return bent(folder, {"--path", "path.txt", "--path-start", text});
+        return bent_base(folder, {"--path", "path.txt", "--path-start", text});
     };
     CHECK(bytes_of(folder / "w2.ply") == from(way / 2));
     CHECK(bytes_of(folder / "w3.ply") == from(way));

@@ -27,7 +27,6 @@ Words damped(const char* amplitude) {
     return {"--profile", "damped", "--shape", "cylinder", "--onset", "0", "--amplitude", amplitude};
 }
 
-constexpr double length = 10;
 constexpr std::array<int, 3> angles{30, 90, 180};
 
 /// Of the angles, by their places: all, or the one in the middle.
@@ -61,7 +60,7 @@ public:
         for (std::size_t i = columns_; i < mesh.positions.size(); ++i)
             lengths[i % columns_] +=
                 glm::length(glm::dvec3(mesh.positions[i]) - glm::dvec3(mesh.positions[i - columns_])) /
-                length;
+                base_length;
         return lengths;
     }
 
@@ -86,7 +85,7 @@ void check_table(int folds, const std::array<double, 3>& known) {
 /// A model, straightened, refined and bent by 30 and by 60 degrees. Its own area changes by as many per cent
 /// as are known of the method's amplitude, and with `--amplitude mesh` by none, with the paper's wrinkles or
 /// without a word about them.
-void check_model(const char* name, const std::array<double, 2>& known) {
+void check_area_of_model(const char* name, const std::array<double, 2>& known) {
     const std::filesystem::path file = model(name);
     if (file.empty()) return;
     const Folder folder;
@@ -140,7 +139,7 @@ TEST_CASE("columns: of the bare bend as long as eq 9 and 10 say, the outer one a
     const Cylinder cylinder(64, 0, 256);
     (void)cylinder.area_change(90);
     const std::vector<double> lengths = cylinder.column_lengths();
-    const double kappa = std::numbers::pi / 2 / length;
+    const double kappa = std::numbers::pi / 2 / base_length;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
         const double squeeze = kappa * (1 + std::cos(2 * std::numbers::pi * static_cast<double>(i) / 64));
         CHECK(std::abs(lengths[i] - (1 - squeeze)) < 1e-6);
@@ -163,21 +162,21 @@ TEST_CASE("columns: of the wrinkled base keep their lengths (P3)") {
 }
 
 TEST_CASE("area: wine_bottle.glb") {
-    check_model("wine_bottle.glb", {0.3596, 0.7427});
+    check_area_of_model("wine_bottle.glb", {0.3596, 0.7427});
 }
 
 TEST_CASE("area: log_01.glb") {
-    check_model("log_01.glb", {-0.2297, -0.409});
+    check_area_of_model("log_01.glb", {-0.2297, -0.409});
 }
 
 TEST_CASE("area: insect_leg.glb") {
-    check_model("insect_leg.glb", {-1.7391, -3.4923});
+    check_area_of_model("insect_leg.glb", {-1.7391, -3.4923});
 }
 
 TEST_CASE("area: fuze.ply") {
-    check_model("fuze.ply", {-0.1138, -0.0398});
+    check_area_of_model("fuze.ply", {-0.1138, -0.0398});
 }
 
 TEST_CASE("area: blub_open.obj") {
-    check_model("blub_open.obj", {-3.5213, -6.1285});
+    check_area_of_model("blub_open.obj", {-3.5213, -6.1285});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "key.hpp"
 #include "motion/motion.hpp"
 
 #include <doctest/doctest.h>
@@ -27,10 +28,6 @@ void check_refused(const json& document, const std::string& piece, std::size_t r
     CHECK(said.starts_with("keys.json: "));
     CHECK(said.find(piece) != said.npos);
     CHECK(said.find('\n') == said.npos);
-}
-
-json key(double time, double angle, double direction = 0) {
-    return {{"time", time}, {"angle", angle}, {"direction", direction}};
 }
 
 }  // namespace

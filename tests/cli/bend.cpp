@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "support/angles.hpp"
 #include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
@@ -15,8 +16,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double length = 10, radius = 1, degree = std::numbers::pi / 180;
-
 /// Where the center of the capped base cylinder's tip goes: it is the mesh's last vertex.
 glm::dvec3 tip(const Folder& folder, const Words& words) {
     well(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words);
@@ -25,10 +24,10 @@ glm::dvec3 tip(const Folder& folder, const Words& words) {
 
 /// Eq 2-5 for the end of the center line: the wrinkle is 0 there.
 glm::dvec3 tip_of(double angle, double direction) {
-    const double alpha = angle * degree, kappa = alpha * radius / length;
-    const double x = (1 - kappa) * length * (1 - std::cos(alpha)) / alpha;
+    const double alpha = angle * degree, kappa = alpha * base_radius / base_length;
+    const double x = (1 - kappa) * base_length * (1 - std::cos(alpha)) / alpha;
     return {x * std::cos(direction * degree), x * std::sin(direction * degree),
-            (1 - kappa) * length * std::sin(alpha) / alpha};
+            (1 - kappa) * base_length * std::sin(alpha) / alpha};
 }
 
 }  // namespace
@@ -121,7 +120,7 @@ TEST_CASE("bend: a negative angle is the other way") {
     base(folder, "base.ply", {"--caps"});
     CHECK(glm::length(tip(folder, {"--angle", "-50", "--direction", "20"}) - tip_of(50, 200)) < 2e-6);
     well(folder, {"bend", "base.ply", "-o", "other.ply", "--angle", "50", "--direction", "200"});
-    CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "other.ply")) < 4e-7 * length);
+    CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "other.ply")) < 4e-7 * base_length);
 }
 
 TEST_CASE("bend: direction turns from e1 to e3 x e1 whichever way the axis points") {
@@ -134,8 +133,8 @@ TEST_CASE("bend: direction turns from e1 to e3 x e1 whichever way the axis point
         return glm::dvec3(positions[positions.size() - 2]);
     };
     const glm::dvec3 straight = tip_of(90, 0);
-    CHECK(glm::length(first("0") - glm::dvec3(straight.x, 0, length - straight.z)) < 1e-6);
-    CHECK(glm::length(first("90") - glm::dvec3(0, -straight.x, length - straight.z)) < 2e-6);
+    CHECK(glm::length(first("0") - glm::dvec3(straight.x, 0, base_length - straight.z)) < 1e-6);
+    CHECK(glm::length(first("90") - glm::dvec3(0, -straight.x, base_length - straight.z)) < 2e-6);
 }
 
 TEST_CASE("bend: at angle 0 the mesh comes back") {
@@ -143,7 +142,8 @@ TEST_CASE("bend: at angle 0 the mesh comes back") {
     base(folder, "base.ply", {"--caps"});
     for (const std::string angle : {"0", "-0", "1e-30"}) {
         well(folder, {"bend", "base.ply", "-o", "out.ply", "--angle", angle, "--direction", "33"});
-        CHECK(farthest(mesh::load(folder / "base.ply"), mesh::load(folder / "out.ply")) <= 1e-7 * length);
+        CHECK(farthest(mesh::load(folder / "base.ply"), mesh::load(folder / "out.ply")) <=
+              1e-7 * base_length);
     }
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("bend: instruction sets agree") {
         }
         CAPTURE(isa);
         CHECK(json::parse(bytes_of(folder / "report.json"))["isa"] == isa);
-        CHECK(farthest(mesh::load(folder / "out.ply"), scalar) < 5e-7 * length);
+        CHECK(farthest(mesh::load(folder / "out.ply"), scalar) < 5e-7 * base_length);
     }
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("bend: amplitudes and profiles") {
         CHECK(all["warnings"] == json::array());
         return all["base_area_change"].get<double>();
     };
-    const double kappa = std::numbers::pi / 2 * radius / length;
+    const double kappa = std::numbers::pi / 2 * base_radius / base_length;
     const Words damped{"--profile", "damped", "--amplitude"};
     CHECK(std::abs(change({"--amplitude", "none"}) + kappa) < 1e-6);
     const mesh::Mesh bare = mesh::load(folder / "out.ply");
@@ -198,9 +198,9 @@ TEST_CASE("bend: amplitudes and profiles") {
     const double creased = change(damped + Words{"paper"});
     CHECK(change({"--profile", "smooth", "--amplitude", "paper"}) != creased);
     const mesh::Mesh smooth = mesh::load(folder / "out.ply");
-    CHECK(farthest(bare, paper) > 0.1 * radius);
-    CHECK(farthest(area, paper) > 1e-3 * radius);
-    CHECK(farthest(smooth, paper) > 0.01 * radius);
+    CHECK(farthest(bare, paper) > 0.1 * base_radius);
+    CHECK(farthest(area, paper) > 1e-3 * base_radius);
+    CHECK(farthest(smooth, paper) > 0.01 * base_radius);
 }
 
 TEST_CASE("bend: no folds is the bare bend") {

@@ -40,7 +40,9 @@ using Snapshot = std::map<std::string, std::pair<std::string, std::filesystem::f
 /// all of `pieces`, and every file in the folder as it was.
 void refused(const Folder& folder, int code, const Words& words, const Words& pieces);
 
-/// A base cylinder of L = 10, r = 1 (64 columns, 161 rows) in `folder`; returns its name.
+inline constexpr double base_length = 10, base_radius = 1;
+
+/// A base cylinder of that length and radius (64 columns, 161 rows) in `folder`; returns its name.
 std::string base(const Folder& folder, const std::string& name = "base.ply", const Words& more = {});
 
 /// The largest distance between vertices of the same number; there must be as many of each.

@@ -243,7 +243,7 @@ void check_area(const Folder& folder, const mesh::Mesh& base) {
 }
 
 /// The numbers are those of `goffer bend`.
-void check_model(const Folder& folder) {
+void check_figure_of_model(const Folder& folder) {
     const Csv table = csv(folder, "page/figure_8.csv");
     REQUIRE(table.rows.size() == 2);
     for (std::size_t row = 0; row < 2; ++row) {
@@ -317,7 +317,7 @@ TEST_CASE("figures: a page of two models, its data, its pictures and its charts"
     check_base_grid(folder);
     check_folds(folder);
     check_area(folder, mesh::load(folder / "base.ply"));
-    check_model(folder);
+    check_figure_of_model(folder);
     check_times(folder, page);
 
     // The report has what the files have.

@@ -2,7 +2,9 @@
 #include "motion/motion.hpp"
 
 #include "command.hpp"
+#include "key.hpp"
 #include "motion/document.hpp"
+#include "support/angles.hpp"
 
 #include <goffer/fit/bind.hpp>
 
@@ -12,7 +14,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 /// Documents of motions, and what they say of a body: against closed forms.
 
@@ -21,8 +22,6 @@ using namespace goffer::test;
 using nlohmann::json;
 
 namespace {
-
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 /// A cylinder of L = 10, r = 1 along z, of equal regions, without folds.
 bend::Body body_of(int regions) {
@@ -46,13 +45,9 @@ glm::dvec2 vector_of(const bend::Pose& pose) {
     return {angle * std::cos(direction), angle * std::sin(direction)};
 }
 
-void check_vector(const bend::Pose& pose, double x, double y) {
+void check_bend(const bend::Pose& pose, double x, double y) {
     CHECK(std::abs(vector_of(pose).x - x) < 2e-5);
     CHECK(std::abs(vector_of(pose).y - y) < 2e-5);
-}
-
-json key(double time, double angle, double direction = 0) {
-    return {{"time", time}, {"angle", angle}, {"direction", direction}};
 }
 
 /// Where the body's axis begins and where it points at the base.
@@ -75,10 +70,10 @@ TEST_CASE("motion: linear keys, against the straight line between two vectors") 
     CHECK(motion->seconds() == 4);
     CHECK(!motion->repeats());
     for (const double share : {0.0, 0.25, 0.5, 0.9, 1.0})
-        check_vector(motion->at(1 + 2 * share, body).poses[0], 40 * (1 - share), 30 * share);
-    check_vector(motion->at(3.5, body).poses[0], 0, 15);
-    check_vector(motion->at(-5, body).poses[0], 40, 0);
-    check_vector(motion->at(50, body).poses[0], 0, 0);
+        check_bend(motion->at(1 + 2 * share, body).poses[0], 40 * (1 - share), 30 * share);
+    check_bend(motion->at(3.5, body).poses[0], 0, 15);
+    check_bend(motion->at(-5, body).poses[0], 40, 0);
+    check_bend(motion->at(50, body).poses[0], 0, 0);
 }
 
 TEST_CASE("motion: a region that bends in one plane keeps its direction, and passes through straight") {
@@ -108,9 +103,9 @@ TEST_CASE("motion: smooth keys, against the cubic with slopes worked out by hand
     const double slope = 70.0 / 3;
     for (const double u : {0.25, 0.5, 0.75}) {
         const double up = u * u * (3 - 2 * u) * 30 + u * u * (u - 1) * slope;
-        check_vector(motion->at(u, body).poses[0], up, 0);
+        check_bend(motion->at(u, body).poses[0], up, 0);
         const double on = 30 + u * u * (3 - 2 * u) * 20 + 2 * u * (1 - u) * (1 - u) * slope;
-        check_vector(motion->at(1 + 2 * u, body).poses[0], on, 0);
+        check_bend(motion->at(1 + 2 * u, body).poses[0], on, 0);
     }
 }
 
@@ -143,7 +138,7 @@ TEST_CASE("motion: smooth keys give the same bend in whichever direction they ar
     for (const double time : {0.3, 0.8, 1.7, 2.6}) {
         const glm::dvec2 a = vector_of(plain->at(time, body).poses[0]);
         const double c = std::cos(33 * degree), s = std::sin(33 * degree);
-        check_vector(turned->at(time, body).poses[0], c * a.x - s * a.y, s * a.x + c * a.y);
+        check_bend(turned->at(time, body).poses[0], c * a.x - s * a.y, s * a.x + c * a.y);
     }
 }
 

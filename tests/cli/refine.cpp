@@ -26,7 +26,7 @@ bool begins_with(const mesh::Mesh& now, const mesh::Mesh& was, float within) {
            std::equal(was.positions.begin(), was.positions.end(), now.positions.begin(), near);
 }
 
-void check_model(const char* name) {
+void check_refined_model(const char* name) {
     const std::filesystem::path file = model(name);
     if (file.empty()) return;
     const Folder folder;
@@ -213,35 +213,35 @@ TEST_CASE("refine: a mesh that stays coarse has fewer folds or none, and it is s
 }
 
 TEST_CASE("refine: wine_bottle.glb carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("wine_bottle.glb");
+    check_refined_model("wine_bottle.glb");
 }
 
 TEST_CASE("refine: WaterBottle.gltf carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("WaterBottle.gltf");
+    check_refined_model("WaterBottle.gltf");
 }
 
 TEST_CASE("refine: log_01.glb carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("log_01.glb");
+    check_refined_model("log_01.glb");
 }
 
 TEST_CASE("refine: cushion_02.glb carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("cushion_02.glb");
+    check_refined_model("cushion_02.glb");
 }
 
 TEST_CASE("refine: insect_leg.glb carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("insect_leg.glb");
+    check_refined_model("insect_leg.glb");
 }
 
 TEST_CASE("refine: fuze.ply carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("fuze.ply");
+    check_refined_model("fuze.ply");
 }
 
 TEST_CASE("refine: banana.obj carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("banana.obj");
+    check_refined_model("banana.obj");
 }
 
 TEST_CASE("refine: lh_trochanterfemur.stl carries six folds at 90 degrees, and what was closed is closed") {
-    check_model("lh_trochanterfemur.stl");
+    check_refined_model("lh_trochanterfemur.stl");
 }
 
 TEST_CASE("refine: bad words, bad files, and more than there is room for") {

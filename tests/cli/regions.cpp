@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-mesh::Mesh bent(const Folder& folder, const Words& words) {
+mesh::Mesh bent_mesh(const Folder& folder, const Words& words) {
     well(folder, Words{"bend", "base.ply", "-o", "out.ply"} + words);
     return mesh::load(folder / "out.ply");
 }
@@ -36,10 +36,11 @@ TEST_CASE("bend: regions report themselves, one by one") {
 TEST_CASE("bend: regions of one curvature and direction are one bend, if nothing wrinkles") {
     const Folder folder;
     base(folder);
-    const mesh::Mesh one = bent(folder, {"--angle", "80", "--folds", "0"});
-    const mesh::Mesh spread = bent(folder, {"--angle", "80", "--folds", "0", "--regions", "0.25,0.5,0.25"});
+    const mesh::Mesh one = bent_mesh(folder, {"--angle", "80", "--folds", "0"});
+    const mesh::Mesh spread =
+        bent_mesh(folder, {"--angle", "80", "--folds", "0", "--regions", "0.25,0.5,0.25"});
     const mesh::Mesh said =
-        bent(folder, {"--angles", "20,40,20", "--folds", "0", "--regions", "0.25,0.5,0.25"});
+        bent_mesh(folder, {"--angles", "20,40,20", "--folds", "0", "--regions", "0.25,0.5,0.25"});
     CHECK(farthest(one, spread) < 4e-6);
     CHECK(farthest(one, said) < 4e-6);
 }
@@ -47,7 +48,7 @@ TEST_CASE("bend: regions of one curvature and direction are one bend, if nothing
 TEST_CASE("bend: an S comes back to the direction that it began in") {
     const Folder folder;
     base(folder, "base.ply", {"--caps"});
-    const mesh::Mesh s = bent(folder, {"--regions", "0.5,0.5", "--angles", "60,-60", "--folds", "0"});
+    const mesh::Mesh s = bent_mesh(folder, {"--regions", "0.5,0.5", "--angles", "60,-60", "--folds", "0"});
     // The tip's center is the last vertex; each region moves it by the same step.
     const double alpha = std::acos(-1.0) / 3, kappa = alpha / 5;
     const double x = (1 - kappa) * 5 * (1 - std::cos(alpha)) / alpha;
@@ -121,9 +122,9 @@ TEST_CASE("bend: folds run on over joints, so that equal bends are one, or end a
     const Folder folder;
     base(folder);
     const Words parts{"--regions", "0.5,0.5", "--angles", "40,40", "--folds", "6,6", "--amplitude", "paper"};
-    const mesh::Mesh one = bent(folder, {"--angle", "80", "--folds", "12", "--amplitude", "paper"});
-    const mesh::Mesh over = bent(folder, parts);
-    const mesh::Mesh apart = bent(folder, parts + Words{"--joints", "apart"});
+    const mesh::Mesh one = bent_mesh(folder, {"--angle", "80", "--folds", "12", "--amplitude", "paper"});
+    const mesh::Mesh over = bent_mesh(folder, parts);
+    const mesh::Mesh apart = bent_mesh(folder, parts + Words{"--joints", "apart"});
     CHECK(farthest(one, over) < 2e-5);
     CHECK(farthest(one, apart) > 0.05);
     refused(folder, 2, {"bend", "base.ply", "-o", "x.ply", "--joints", "half"}, {"--joints"});

@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// The bytes that bending `file` writes.
-std::string bent(const Folder& folder, const std::string& file, const Words& words) {
+std::string bent_file(const Folder& folder, const std::string& file, const Words& words) {
     (void)report(folder, Words{"bend", file, "-o", "out.glb"} + words);
     return bytes_of(folder / "out.glb");
 }
@@ -42,9 +42,9 @@ TEST_CASE("wrinkles: --paper is what the words say that it stands for") {
     if (file.empty()) return;
     const Folder folder;
     const Words words{"--profile", "damped", "--shape", "cylinder", "--amplitude", "paper", "--onset", "0"};
-    const std::string paper = bent(folder, file.string(), {"--paper"});
-    CHECK((bent(folder, file.string(), words) == paper));
-    CHECK_FALSE((bent(folder, file.string(), {}) == paper));
+    const std::string paper = bent_file(folder, file.string(), {"--paper"});
+    CHECK((bent_file(folder, file.string(), words) == paper));
+    CHECK_FALSE((bent_file(folder, file.string(), {}) == paper));
     const json all = report(folder, {"bend", file.string(), "-o", "out.glb", "--paper"});
     CHECK(all["amplitude"] == "paper");
     CHECK(all["profile"] == "damped");
@@ -52,7 +52,7 @@ TEST_CASE("wrinkles: --paper is what the words say that it stands for") {
     CHECK(all["base_area_change"].is_number_float());
     // An onset of one's own is kept.
     const Words gentle{"--onset", "0.01"};
-    CHECK_FALSE((bent(folder, file.string(), gentle + Words{"--paper"}) == paper));
+    CHECK_FALSE((bent_file(folder, file.string(), gentle + Words{"--paper"}) == paper));
 }
 
 TEST_CASE("wrinkles: folds half as long are twice as many") {
@@ -69,10 +69,11 @@ TEST_CASE("wrinkles: folds half as long are twice as many") {
 TEST_CASE("wrinkles: round crests are others") {
     const Folder folder;
     base(folder);
-    const std::string usual = bent(folder, "base.ply", {});
-    CHECK((bent(folder, "base.ply", {"--profile", "even", "--roundness", "0.25"}) == usual));
+    const std::string usual = bent_file(folder, "base.ply", {});
+    CHECK((bent_file(folder, "base.ply", {"--profile", "even", "--roundness", "0.25"}) == usual));
     for (const std::string roundness : {"0", "0.5"})
-        CHECK_FALSE((bent(folder, "base.ply", {"--profile", "even", "--roundness", roundness}) == usual));
+        CHECK_FALSE(
+            (bent_file(folder, "base.ply", {"--profile", "even", "--roundness", roundness}) == usual));
 }
 
 TEST_CASE("wrinkles: a part of the body stays smooth, and the report says at what cost") {
@@ -81,10 +82,10 @@ TEST_CASE("wrinkles: a part of the body stays smooth, and the report says at wha
     const Words words{"bend", "base.ply", "-o", "out.ply"};
     const auto ends = [&](const Words& more) {
         well(folder, words + more);
-        const mesh::Mesh bent = mesh::load(folder / "out.ply"), rest = mesh::load(folder / "base.ply");
+        const mesh::Mesh bent_file = mesh::load(folder / "out.ply"), rest = mesh::load(folder / "base.ply");
         mesh::Mesh below;
         for (std::size_t i = 0; i < rest.positions.size(); ++i) {
-            if (rest.positions[i].z > 7) below.positions.push_back(bent.positions[i]);
+            if (rest.positions[i].z > 7) below.positions.push_back(bent_file.positions[i]);
         }
         return below;
     };
@@ -110,9 +111,9 @@ TEST_CASE("wrinkles: a color's channel says where, on refined meshes, and in bod
         mesh::save(painted, folder / name);
         const auto ends = [&](const Words& more) {
             well(folder, Words{"bend", name, "-o", "out.ply", "--amplitude", "paper"} + more);
-            mesh::Mesh bent = mesh::load(folder / "out.ply"), above;
+            mesh::Mesh bent_file = mesh::load(folder / "out.ply"), above;
             for (std::size_t i = 0; i < painted.positions.size(); ++i) {
-                if (painted.positions[i].z > 7) above.positions.push_back(bent.positions[i]);
+                if (painted.positions[i].z > 7) above.positions.push_back(bent_file.positions[i]);
             }
             return above;
         };
@@ -167,13 +168,13 @@ TEST_CASE("wrinkles: a body is as thick as it is, and its report can be read aga
     const auto [thinnest, thickest] = std::ranges::minmax(radii);
     CHECK(thickest > 2 * thinnest);  // than the neck
     CHECK(thickest > found["radius"].get<double>());
-    const std::string fitted = bent(folder, file.string(), {});
+    const std::string fitted = bent_file(folder, file.string(), {});
     for (const std::string command : {"inspect", "bend"}) {
         CAPTURE(command);
         Words words{command, file.string(), "--json", "fit.json"};
         if (command == "bend") words = words + Words{"-o", "out.glb"};
         well(folder, words);
-        CHECK((bent(folder, file.string(), {"--fit", "fit.json"}) == fitted));
+        CHECK((bent_file(folder, file.string(), {"--fit", "fit.json"}) == fitted));
     }
     CHECK_FALSE(fit({"--fit", "fit.json", "--shape", "cylinder"}).contains("radii"));
     const std::string said = well(folder, {"inspect", file.string()});

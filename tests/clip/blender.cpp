@@ -25,7 +25,7 @@ constexpr std::size_t frames_of_clip = 11;
 
 /// Writes the clip of a model, and where its vertices are in three frames; Blender is to land there, with the
 /// model imported from its own file or, with `by_ply`, from a PLY of it.
-void check_in_blender(const std::filesystem::path& file, clip::CacheAxes axes, bool by_ply = false) {
+void check_cache_in_blender(const std::filesystem::path& file, clip::CacheAxes axes, bool by_ply = false) {
     if (std::system("blender --version > /dev/null 2>&1") != 0) {
         MESSAGE("skipped: Blender is not installed: bash .ci/setup hosts installs it");
         return;
@@ -56,17 +56,17 @@ void check_in_blender(const std::filesystem::path& file, clip::CacheAxes axes, b
 }  // namespace
 
 TEST_CASE("blender: point caches of an OBJ land on its vertices") {
-    check_in_blender(model("blub_open.obj"), clip::CacheAxes::as_model);
+    check_cache_in_blender(model("blub_open.obj"), clip::CacheAxes::as_model);
 }
 
 TEST_CASE("blender: point caches of a PLY land on its vertices") {
-    check_in_blender(model("fuze.ply"), clip::CacheAxes::as_model);
+    check_cache_in_blender(model("fuze.ply"), clip::CacheAxes::as_model);
 }
 
 TEST_CASE("blender: point caches of a GLB land on its vertices, with z up") {
-    check_in_blender(model("log_01.glb"), clip::CacheAxes::z_up);
+    check_cache_in_blender(model("log_01.glb"), clip::CacheAxes::z_up);
 }
 
 TEST_CASE("blender: point caches of a GLB of several objects land on the vertices of a PLY of it") {
-    check_in_blender(model("insect_leg.glb"), clip::CacheAxes::as_model, true);
+    check_cache_in_blender(model("insect_leg.glb"), clip::CacheAxes::as_model, true);
 }

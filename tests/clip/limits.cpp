@@ -9,7 +9,8 @@ using clip::GltfLimit;
 
 namespace {
 
-clip::GltfReport saved(const mesh::Mesh& mesh, clip::Frames& frames, const clip::GltfOptions& options) {
+clip::GltfReport report_of_saved(const mesh::Mesh& mesh, clip::Frames& frames,
+                                 const clip::GltfOptions& options) {
     const Folder folder;
     return saved_clip(mesh, frames, folder / "clip.glb", options);
 }
@@ -35,30 +36,30 @@ TEST_CASE("clip: no more targets are taken of a short clip than its error asks f
     std::size_t before = 7;
     for (const double max_error : {1e-6, 1e-3, 6e-3, 1e-2, 2e-2, 0.5}) {
         CAPTURE(max_error);
-        const clip::GltfReport report = saved(mesh, frames, {.max_error = max_error});
+        const clip::GltfReport report = report_of_saved(mesh, frames, {.max_error = max_error});
         CHECK(report.within());
         CHECK(report.exact == (report.targets == 7));
         CHECK(report.targets <= before);
         before = report.targets;
         if (report.targets < 2) continue;
         const clip::GltfReport fewer =
-            saved(mesh, frames, {.max_error = max_error, .targets = report.targets - 1});
+            report_of_saved(mesh, frames, {.max_error = max_error, .targets = report.targets - 1});
         CHECK(fewer.max_error > 0.97 * max_error * report.size);
         CHECK(fewer.limit == (fewer.within() ? GltfLimit::none : GltfLimit::targets));
     }
     CHECK(before == 1);
-    CHECK(saved(mesh, frames, {.max_error = 2e-2}).targets == 2);
+    CHECK(report_of_saved(mesh, frames, {.max_error = 2e-2}).targets == 2);
 }
 
 TEST_CASE("clip: the report says what keeps frames from being as near as they were to be") {
     const mesh::Mesh mesh = bar(201);
     MadeFrames frames(mesh, 120, unlike), short_clip(mesh, 20, unlike);
-    CHECK(saved(mesh, frames, {.max_error = 1e-4}).limit == GltfLimit::none);
-    CHECK(saved(mesh, frames, {.max_error = 1e-4, .targets = 9}).limit == GltfLimit::targets);
-    CHECK(saved(mesh, frames, {.max_error = 1e-4, .memory = 1u << 20}).limit == GltfLimit::memory);
-    CHECK(saved(mesh, frames, {.max_error = 1e-4, .targets = 9, .memory = 1u << 20}).limit ==
+    CHECK(report_of_saved(mesh, frames, {.max_error = 1e-4}).limit == GltfLimit::none);
+    CHECK(report_of_saved(mesh, frames, {.max_error = 1e-4, .targets = 9}).limit == GltfLimit::targets);
+    CHECK(report_of_saved(mesh, frames, {.max_error = 1e-4, .memory = 1u << 20}).limit == GltfLimit::memory);
+    CHECK(report_of_saved(mesh, frames, {.max_error = 1e-4, .targets = 9, .memory = 1u << 20}).limit ==
           GltfLimit::targets);
-    CHECK(saved(mesh, short_clip, {.max_error = 0, .targets = 19}).limit == GltfLimit::targets);
+    CHECK(report_of_saved(mesh, short_clip, {.max_error = 0, .targets = 19}).limit == GltfLimit::targets);
 }
 
 TEST_CASE("clip: frames that are not sampled are what memory, or the number of samples, leaves out") {
@@ -66,8 +67,8 @@ TEST_CASE("clip: frames that are not sampled are what memory, or the number of s
     MadeFrames frames(mesh, 3000, [](std::size_t f, const glm::vec3& p, bool n, const glm::vec3& v) {
         return n ? v : bending(f, p, n, v) + (f == 2501 ? glm::vec3(0, std::sin(5 * p.z), 0) : glm::vec3(0));
     });
-    CHECK(saved(mesh, frames, {}).limit == GltfLimit::samples);
-    CHECK(saved(mesh, frames, {.memory = 1u << 22}).limit == GltfLimit::memory);
+    CHECK(report_of_saved(mesh, frames, {}).limit == GltfLimit::samples);
+    CHECK(report_of_saved(mesh, frames, {.memory = 1u << 22}).limit == GltfLimit::memory);
 }
 
 TEST_CASE("clip: components that rounding hides are made up for by the frames, where there may be so many") {
@@ -79,8 +80,8 @@ TEST_CASE("clip: components that rounding hides are made up for by the frames, w
                    : v + glm::vec3(0, 0, 1e-4f * static_cast<float>(f % 3));
     };
     MadeFrames frames(mesh, 6, move);
-    const clip::GltfReport all = saved(mesh, frames, {.max_error = 0}),
-                           few = saved(mesh, frames, {.max_error = 0, .targets = 5});
+    const clip::GltfReport all = report_of_saved(mesh, frames, {.max_error = 0}),
+                           few = report_of_saved(mesh, frames, {.max_error = 0, .targets = 5});
     CHECK(all.within());
     CHECK(all.exact);
     CHECK(few.limit == GltfLimit::rounding);
@@ -89,6 +90,6 @@ TEST_CASE("clip: components that rounding hides are made up for by the frames, w
 TEST_CASE("clip: a mesh without vertices is refused") {
     const mesh::Mesh none;
     MadeFrames frames(none, 3, unlike);
-    CHECK(error_of([&] { (void)saved(none, frames, {}); }).find("the mesh has no vertices") !=
+    CHECK(error_of([&] { (void)report_of_saved(none, frames, {}); }).find("the mesh has no vertices") !=
           std::string::npos);
 }

@@ -23,8 +23,8 @@ namespace {
 
 using Save = void (*)(clip::Frames&, std::size_t, const std::filesystem::path&, io::AtomicFiles&, CacheAxes);
 
-std::filesystem::path saved(Save save, clip::Frames& frames, std::size_t vertices,
-                            const std::filesystem::path& file, CacheAxes axes = CacheAxes::as_model) {
+std::filesystem::path saved_cache(Save save, clip::Frames& frames, std::size_t vertices,
+                                  const std::filesystem::path& file, CacheAxes axes = CacheAxes::as_model) {
     io::AtomicFiles files;
     save(frames, vertices, file, files, axes);
     files.commit();
@@ -33,7 +33,8 @@ std::filesystem::path saved(Save save, clip::Frames& frames, std::size_t vertice
 
 std::string save_error(Save save, clip::Frames& frames, std::size_t vertices) {
     const Folder folder;
-    std::string message = message_of<io::Error>([&] { saved(save, frames, vertices, folder / "clip"); });
+    std::string message =
+        message_of<io::Error>([&] { saved_cache(save, frames, vertices, folder / "clip"); });
     CHECK(folder.files() == 0);
     return message;
 }
@@ -103,7 +104,7 @@ std::string with(std::string bytes, std::size_t at, const std::string& other) {
 /// Whether a cache of `frames` gives back what they are, to the last bit of a float.
 void check_round_trip(Save save, Format format, clip::Frames& frames, std::size_t vertices) {
     const Folder folder;
-    clip::PointCache cache = clip::read_point_cache(saved(save, frames, vertices, folder / "clip"));
+    clip::PointCache cache = clip::read_point_cache(saved_cache(save, frames, vertices, folder / "clip"));
     CHECK(cache.header().format == format);
     CHECK(cache.header().frames == frames.count());
     REQUIRE(cache.header().points == vertices);
@@ -122,13 +123,13 @@ void check_round_trip(Save save, Format format, clip::Frames& frames, std::size_
 TEST_CASE("point cache: an MDD is these bytes") {
     const Folder folder;
     HandMade frames;
-    CHECK(bytes_of(saved(clip::save_mdd, frames, 1, folder / "clip.mdd")) == mdd_bytes);
+    CHECK(bytes_of(saved_cache(clip::save_mdd, frames, 1, folder / "clip.mdd")) == mdd_bytes);
 }
 
 TEST_CASE("point cache: a PC2 is these bytes") {
     const Folder folder;
     HandMade frames;
-    CHECK(bytes_of(saved(clip::save_pc2, frames, 1, folder / "clip.pc2")) == pc2_bytes);
+    CHECK(bytes_of(saved_cache(clip::save_pc2, frames, 1, folder / "clip.pc2")) == pc2_bytes);
 }
 
 TEST_CASE("point cache: with z up, y is what points back") {
@@ -136,7 +137,8 @@ TEST_CASE("point cache: with z up, y is what points back") {
     HandMade frames;
     std::vector<glm::vec3> positions(1);
     for (const Save save : {clip::save_mdd, clip::save_pc2}) {
-        clip::read_point_cache(saved(save, frames, 1, folder / "clip", CacheAxes::z_up)).read(0, positions);
+        clip::read_point_cache(saved_cache(save, frames, 1, folder / "clip", CacheAxes::z_up))
+            .read(0, positions);
         CHECK(positions[0] == glm::vec3(1, -4, 2));
     }
 }

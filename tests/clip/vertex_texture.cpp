@@ -20,15 +20,14 @@ using namespace goffer::test;
 using clip::TexturePlacement;
 using clip::vertex_texture_layout;
 using clip::VertexTexture;
-using Json = nlohmann::json;
 
 namespace {
 
-Json json_of(const std::filesystem::path& file) {
-    return Json::parse(bytes_of(file));
+nlohmann::json json_of(const std::filesystem::path& file) {
+    return nlohmann::json::parse(bytes_of(file));
 }
 
-glm::dvec3 vector_of(const Json& list) {
+glm::dvec3 vector_of(const nlohmann::json& list) {
     return {list[0].get<float>(), list[1].get<float>(), list[2].get<float>()};
 }
 
@@ -53,7 +52,7 @@ public:
         return glm::normalize(texel(normals_, vertex, frame) / 65535.0 * 2.0 - 1.0);
     }
 
-    const Json json;
+    const nlohmann::json json;
 
 private:
     [[nodiscard]] glm::dvec3 texel(const WideImage& image, std::size_t vertex, std::size_t frame) const {
@@ -186,7 +185,7 @@ TEST_CASE("vertex texture: placements that are listed are not in the texels") {
     saved_texture(still, model, mesh::vertex_arrays(model), folder / "b.json");
     CHECK(bytes_of(folder / "a.positions.png") == bytes_of(folder / "b.positions.png"));
     CHECK(bytes_of(folder / "a.normals.png") == bytes_of(folder / "b.normals.png"));
-    const Json json = json_of(folder / "a.json"), baked = json_of(folder / "b.json");
+    const nlohmann::json json = json_of(folder / "a.json"), baked = json_of(folder / "b.json");
     CHECK(json["placement"] == "listed");
     CHECK(baked["placement"] == "baked");
     CHECK(!baked.contains("placements"));
@@ -206,7 +205,7 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     MovingPoints points(300, 9, true);
     const VertexTexture texture =
         saved_texture(points, model, mesh::vertex_arrays(model), folder / "worm.vat.json");
-    const Json json = json_of(folder / "worm.vat.json");
+    const nlohmann::json json = json_of(folder / "worm.vat.json");
     CHECK(json["format"] == "goffer vertex-animation texture");
     CHECK(json["version"] == 1);
     CHECK(json["positions"] == "worm.vat.positions.png");

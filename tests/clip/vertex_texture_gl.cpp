@@ -106,10 +106,10 @@ std::vector<Vertex> drawn(std::size_t vertices) {
 }
 
 /// Plays the files of a texture. Its context must be current.
-class Player {
+class TexturePlayer {
 public:
-    Player(Api api, const clip::VertexTexture& texture, std::size_t vertices, std::size_t frames,
-           bool turned = false)
+    TexturePlayer(Api api, const clip::VertexTexture& texture, std::size_t vertices, std::size_t frames,
+                  bool turned = false)
         : program_(program_for(api, shader_text(api))), vertices_(vertices) {
         glUseProgram(program_);
         for (const GLenum image : {0u, 1u}) {
@@ -148,7 +148,7 @@ struct Moment {
 };
 
 /// How far what is played is from a blend of two frames in double.
-void check_moment(Player& player, clip::Frames& frames, const clip::VertexTexture& texture,
+void check_moment(TexturePlayer& player, clip::Frames& frames, const clip::VertexTexture& texture,
                   const Moment& moment) {
     INFO("frame ", moment.frame, std::string(moment.repeats ? ", repeated" : ""));
     const std::vector<Vertex> played = player.play(moment.frame, moment.repeats);
@@ -168,8 +168,8 @@ void check_moment(Player& player, clip::Frames& frames, const clip::VertexTextur
     CHECK(normal <= normal_half_step + 1e-4);
 }
 
-void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays,
-                  bool turned) {
+void check_played_by_gl(Api api, clip::Frames& frames, const mesh::Mesh& model,
+                        const mesh::VertexArrays& arrays, bool turned) {
     std::string why;
     const draw::OffscreenContext context(api, why);
     if (!context) {
@@ -178,7 +178,7 @@ void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const 
     }
     const Folder folder;
     const clip::VertexTexture texture = saved_texture(frames, model, arrays, folder / "clip.json");
-    Player player(api, texture, frames.vertices(), frames.count(), turned);
+    TexturePlayer player(api, texture, frames.vertices(), frames.count(), turned);
     const std::size_t last = frames.count() - 1;
     const auto end = static_cast<float>(last);
     for (const Moment& moment :
@@ -193,9 +193,9 @@ void check_played(Api api, clip::Frames& frames, const mesh::Mesh& model, const 
 void check_both(Api api, bool turned = false) {
     MovingPoints points(5000, 7, true);  // three rows a frame
     const mesh::Mesh model = strip(5000);
-    check_played(api, points, model, mesh::vertex_arrays(model), turned);
+    check_played_by_gl(api, points, model, mesh::vertex_arrays(model), turned);
     BendingModel bending(test::model("insect_leg.glb"), 12);
-    check_played(api, bending, bending.model, bending.arrays, turned);
+    check_played_by_gl(api, bending, bending.model, bending.arrays, turned);
 }
 
 }  // namespace
@@ -225,7 +225,7 @@ TEST_CASE("vertex texture: a clip of one frame stands still") {
     MovingPoints points(50, 1, true);
     const clip::VertexTexture texture =
         saved_texture(points, model, mesh::vertex_arrays(model), folder / "clip.json");
-    Player player(Api::core33, texture, 50, 1);
+    TexturePlayer player(Api::core33, texture, 50, 1);
     for (const bool repeats : {false, true})
         for (const float frame : {0.0f, 0.5f, 7.0f})
             check_moment(player, points, texture, {frame, repeats, 0, 0, 0});

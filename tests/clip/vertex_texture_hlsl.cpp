@@ -51,7 +51,7 @@ private:
 }  // namespace hlsl
 
 /// Plays a texture frame by frame, and in between: how far what is played is from a blend in double.
-void check_played(clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays) {
+void check_played_by_hlsl(clip::Frames& frames, const mesh::Mesh& model, const mesh::VertexArrays& arrays) {
     const Folder folder;
     const clip::VertexTexture texture = saved_texture(frames, model, arrays, folder / "clip.json");
     const WideImage stored = read_wide_image(texture.files[1]), turned = read_wide_image(texture.files[2]);
@@ -84,9 +84,9 @@ void check_played(clip::Frames& frames, const mesh::Mesh& model, const mesh::Ver
 TEST_CASE("vertex texture: the shader for HLSL, as C++, plays the clip within its error") {
     MovingPoints points(5000, 7, true);  // three rows a frame
     const mesh::Mesh flat = strip(5000);
-    check_played(points, flat, mesh::vertex_arrays(flat));
+    check_played_by_hlsl(points, flat, mesh::vertex_arrays(flat));
     BendingModel bending(model("insect_leg.glb"), 12);
-    check_played(bending, bending.model, bending.arrays);
+    check_played_by_hlsl(bending, bending.model, bending.arrays);
 }
 
 TEST_CASE("vertex texture: the shader for HLSL stands still before and after the clip, and turns images") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
 #include "support/rounds.hpp"
 #include "synthetic.hpp"
 
@@ -17,25 +18,17 @@
 
 using namespace goffer;
 using fit::Cylinder;
+using test::degree;
+using test::fit_to;
 using test::Placing;
 using test::Recipe;
 using test::Solid;
+using test::warped;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-Cylinder fit_to(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
-    return fit::fit_cylinder(solid.geometry(), axis, fit::RestPose::automatic);
-}
-
-Solid warped(Solid solid, const std::function<glm::dvec3(glm::dvec3)>& map) {
-    for (glm::vec3& p : solid.positions) p = map(p);
-    return solid;
-}
-
 /// A recipe's cylinder, bent by the closed form.
-Solid bent(const Recipe& recipe, const paper::Pose& rest, std::mt19937& random) {
+Solid bent_cylinder(const Recipe& recipe, const paper::Pose& rest, std::mt19937& random) {
     const paper::ClosedForm map({.length = recipe.length, .radius = 1}, rest);
     return warped(test::cylinder(recipe, random),
                   [&](glm::dvec3 p) { return map.position(paper::to_cylindrical(p)); });
@@ -46,13 +39,14 @@ double wrapped(double angle) {
 }
 
 /// How far a fit is from the truth: angles in radians, the line in radii, the others relative.
-struct Miss {
+struct ArcMiss {
     double angle, direction, axis, origin, length, radius;
 };
 
 /// The fit may have exchanged base and tip. Directions are therefore compared in space: as the direction that
 /// the body bends toward at the base that was found.
-Miss miss(const Cylinder& fitted, const Recipe& recipe, const paper::Pose& rest, const Placing& placing) {
+ArcMiss arc_miss(const Cylinder& fitted, const Recipe& recipe, const paper::Pose& rest,
+                 const Placing& placing) {
     const paper::ClosedForm map({.length = recipe.length, .radius = 1}, rest);
     const glm::dvec3 theta(std::cos(rest.direction), std::sin(rest.direction), 0), up(0, 0, 1);
     const glm::dvec3 tip_axis = -(std::cos(rest.angle) * up + std::sin(rest.angle) * theta);
@@ -100,7 +94,7 @@ void each_arc(const std::function<void(Recipe, double)>& visit) {
     }
 }
 
-std::string said(const Recipe& r, const paper::Pose& rest) {
+std::string said_of_arc(const Recipe& r, const paper::Pose& rest) {
     return std::to_string(rest.angle / degree) + " degrees to " + std::to_string(rest.direction / degree) +
            ", " + std::to_string(r.columns) + " x " + std::to_string(r.rows) +
            ", L = " + std::to_string(r.length) + (r.closed ? ", closed" : ", open") + ", dense " +
@@ -134,12 +128,12 @@ TEST_CASE("arcs: clean ones are found exactly, however tessellated, and the inve
     std::uniform_real_distribution<double> direction(-std::numbers::pi, std::numbers::pi);
     each_arc([&](const Recipe& recipe, double angle) {
         const paper::Pose rest{angle, direction(random)};
-        CAPTURE(said(recipe, rest));
+        CAPTURE(said_of_arc(recipe, rest));
         const Placing placing = test::random_placing(10 * recipe.length, random);
-        const Solid solid = test::placed(bent(recipe, rest, random), placing);
+        const Solid solid = test::placed(bent_cylinder(recipe, rest, random), placing);
         const Cylinder fitted = fit_to(solid);
         CHECK_NOTHROW(fit::check(fitted));
-        const Miss off = miss(fitted, recipe, rest, placing);
+        const ArcMiss off = arc_miss(fitted, recipe, rest, placing);
         CHECK(off.angle < 2e-5);
         CHECK(off.direction < 3e-6);
         CHECK(off.axis < 1.2e-5);
@@ -156,14 +150,14 @@ TEST_CASE("arcs: clean ones are found exactly, however tessellated, and the inve
 TEST_CASE("arcs: 1 % noise: angle within 1 degree, direction within 0.6, length within 0.5 %, radius 0.1 %") {
     std::mt19937 random(62);
     std::uniform_real_distribution<double> direction(-std::numbers::pi, std::numbers::pi);
-    Miss worst{};
+    ArcMiss worst{};
     each_arc([&](Recipe recipe, double angle) {
         recipe.noise = 0.01;
         const paper::Pose rest{angle, direction(random)};
-        CAPTURE(said(recipe, rest));
+        CAPTURE(said_of_arc(recipe, rest));
         const Placing placing = test::random_placing(10 * recipe.length, random);
-        const Miss off =
-            miss(fit_to(test::placed(bent(recipe, rest, random), placing)), recipe, rest, placing);
+        const ArcMiss off = arc_miss(fit_to(test::placed(bent_cylinder(recipe, rest, random), placing)),
+                                     recipe, rest, placing);
         CHECK(off.angle < 1 * degree);
         CHECK(off.direction < 0.6 * degree);
         CHECK(off.length < 0.005);
@@ -226,7 +220,7 @@ TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     const Cylinder fitted = fit_to(horn, glm::dvec3(map.center(14)));
     // The center line keeps its curvature and its length; the outer line is that of the mean radius.
     CHECK(std::abs(fitted.rest_angle - 1.2) < 1.6e-3);
-    CHECK(miss(fitted, recipe, rest, {}).direction < 1.6e-4);
+    CHECK(arc_miss(fitted, recipe, rest, {}).direction < 1.6e-4);
     CHECK(std::abs(fitted.length - fitted.rest_angle * fitted.radius - (14 - 1.2)) < 5e-4);
 }
 
@@ -234,7 +228,7 @@ TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body ro
     std::mt19937 random(65);
     const Recipe recipe{.columns = 32, .rows = 60, .length = 12};
     const paper::Pose rest{1.4, -0.5};
-    const Solid solid = bent(recipe, rest, random);
+    const Solid solid = bent_cylinder(recipe, rest, random);
     const paper::ClosedForm map({.length = 12, .radius = 1}, rest);
     const glm::dvec3 chord = map.center(12), aside(0.3, 0.2, 0);
     for (const glm::dvec3& axis : {chord, 5.0 * (glm::normalize(chord) + aside)}) {
@@ -260,7 +254,8 @@ TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body ro
 TEST_CASE("arcs: the result does not depend on duplicated or unused vertices, winding or order") {
     std::mt19937 random(66);
     const Recipe recipe{.columns = 24, .rows = 40, .length = 9, .jitter = 0.3, .noise = 0.01};
-    const Solid solid = test::placed(bent(recipe, {1.8, 2}, random), test::random_placing(5, random));
+    const Solid solid =
+        test::placed(bent_cylinder(recipe, {1.8, 2}, random), test::random_placing(5, random));
     const Cylinder expected = fit_to(solid);
     CHECK(expected.rest_angle > 1.5);
     const Cylinder fitted = fit_to(test::scrambled(solid));
@@ -301,7 +296,7 @@ TEST_CASE("arcs: folds are counted along the arc") {
     std::mt19937 random(68);
     const Recipe recipe{.columns = 24, .rows = 97, .length = 15};
     for (const double angle : {0.5, 1.5, 2.6}) {
-        const Solid solid = bent(recipe, {angle, 1}, random);
+        const Solid solid = bent_cylinder(recipe, {angle, 1}, random);
         CHECK(fit::folds_capacity(solid.geometry(), fit_to(solid)) == 6);
     }
 }
@@ -310,7 +305,7 @@ TEST_CASE("arcs: rows that refining adds lie evenly along the arc") {
     std::mt19937 random(70);
     const Recipe recipe{.columns = 24, .rows = 7, .length = 15};
     for (const double angle : {0.5, 1.5, 2.6}) {
-        const Solid solid = bent(recipe, {angle, 1}, random);
+        const Solid solid = bent_cylinder(recipe, {angle, 1}, random);
         const Cylinder base = fit_to(solid);
         REQUIRE(base.rest_angle > 0);
         const fit::Refinement refinement = fit::refine(solid.geometry(), base, 6);
@@ -323,7 +318,7 @@ TEST_CASE("arcs: the time a fit takes") {
     std::mt19937 random(69);
     for (const int rows : {100, 1000}) {
         const Recipe recipe{.columns = 100, .rows = rows, .length = 12, .noise = 0.01};
-        const Solid solid = bent(recipe, {1.5, 1}, random);
+        const Solid solid = bent_cylinder(recipe, {1.5, 1}, random);
         const auto start = std::chrono::steady_clock::now();
         CHECK(fit_to(solid).rest_angle > 1);
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;

@@ -27,7 +27,7 @@ struct Baked {
     [[nodiscard]] fit::BakeLevel level() const { return {&binding, {test_mesh.triangles, uvs, source, {}}}; }
 };
 
-Baked bound(TestMesh test_mesh, const fit::Binding* rig, const fit::BindOptions& options) {
+Baked bound_mesh(TestMesh test_mesh, const fit::Binding* rig, const fit::BindOptions& options) {
     const fit::Geometry geometry = test_mesh.geometry();
     Baked baked{
         {}, rig ? fit::bind_level(geometry, *rig) : fit::bind(geometry, test_mesh.cylinder, options), {}, {}};
@@ -39,7 +39,7 @@ Baked bound(TestMesh test_mesh, const fit::Binding* rig, const fit::BindOptions&
     return baked;
 }
 
-std::vector<glm::vec3> deformed(const bend::Body& body, std::span<const bend::Pose> poses) {
+std::vector<glm::vec3> deformed_as_stored(const bend::Body& body, std::span<const bend::Pose> poses) {
     std::vector<glm::vec3> positions(body.vertex_count());
     bend::DeformJob job{.body = &body, .poses = poses};
     job.positions = interleaved<3>(&positions[0].x, positions.size());
@@ -64,13 +64,15 @@ TEST_CASE("bake: a body of fit's comes out as it was, with its triangles in the 
     for (int round = 0; round < 12; ++round) {
         CAPTURE(round);
         const std::size_t regions = round % 3 == 0 ? 1 : 3;
-        const Baked fine = bound(random_mesh(random, 12, 2, 24, 65), nullptr, some_options(random, regions));
+        const Baked fine =
+            bound_mesh(random_mesh(random, 12, 2, 24, 65), nullptr, some_options(random, regions));
         const std::vector<fit::BakeLevel> levels{fine.level()};
         const bend::BodyFile file = bend::load_copy(fit::bake({levels})).value();
         const auto& [body, mesh, box] = file.levels.at(0);
 
         std::vector<bend::Pose> poses(regions, {0.7f, 1.0f});
-        const std::vector<glm::vec3> was = deformed(fine.binding.body, poses), is = deformed(body, poses);
+        const std::vector<glm::vec3> was = deformed_as_stored(fine.binding.body, poses),
+                                     is = deformed_as_stored(body, poses);
         CHECK(std::memcmp(was.data(), is.data(), was.size() * sizeof was[0]) == 0);
 
         const std::vector<std::uint32_t>& order = fine.binding.order;
@@ -106,16 +108,16 @@ TEST_CASE("bake: levels of one rig, and sockets") {
             fine_mesh.cylinder.origin + z * fine_mesh.cylinder.axis +
             fine_mesh.cylinder.radius * (std::cos(beta) * fine_mesh.cylinder.zero + std::sin(beta) * e2);
     }
-    const Baked fine = bound(fine_mesh, nullptr, some_options(random, 2));
-    const Baked coarse = bound(std::move(coarse_mesh), &fine.binding, {});
+    const Baked fine = bound_mesh(fine_mesh, nullptr, some_options(random, 2));
+    const Baked coarse = bound_mesh(std::move(coarse_mesh), &fine.binding, {});
     const std::vector<fit::BakeLevel> levels{fine.level(), coarse.level()};
     const std::vector<bend::NamedSocket> sockets{{"tip", fit::socket_at(fine.binding, 2, 0, 0)},
                                                  {"side", fit::socket_at(fine.binding, 0.5, 1, 0.1)}};
     const bend::BodyFile file = bend::load_copy(fit::bake({levels, {}, sockets})).value();
     REQUIRE(file.levels.size() == 2);
     const std::vector<bend::Pose> poses{{0.5f, 0.2f}, {-0.7f, 1.0f}};
-    const std::vector<glm::vec3> was = deformed(coarse.binding.body, poses),
-                                 is = deformed(file.levels[1].body, poses);
+    const std::vector<glm::vec3> was = deformed_as_stored(coarse.binding.body, poses),
+                                 is = deformed_as_stored(file.levels[1].body, poses);
     CHECK(std::memcmp(was.data(), is.data(), was.size() * sizeof was[0]) == 0);
 
     const auto tip_of = [&](const bend::Body& body, const bend::Socket& socket) {
@@ -129,8 +131,8 @@ TEST_CASE("bake: levels of one rig, and sockets") {
 
 TEST_CASE("bake: errors name the level and what is wrong with it") {
     Random random(63);
-    const Baked fine = bound(random_mesh(random, 12, 2), nullptr, some_options(random, 2));
-    const Baked other = bound(random_mesh(random, 9, 2), nullptr, some_options(random, 2));
+    const Baked fine = bound_mesh(random_mesh(random, 12, 2), nullptr, some_options(random, 2));
+    const Baked other = bound_mesh(random_mesh(random, 9, 2), nullptr, some_options(random, 2));
     const auto error_of = [](std::vector<fit::BakeLevel> levels) -> std::string {
         try {
             (void)fit::bake({levels});

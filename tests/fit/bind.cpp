@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "refusals.hpp"
 #include "support/bodies.hpp"
 
 #include <goffer/fit/bind.hpp>
@@ -25,16 +26,6 @@ double table_amplitude(const bend::WrinkleTable& table, double angle, double kap
     double sum = 0;
     for (std::size_t n = row.size(); n-- > 0;) sum = sum * t + static_cast<double>(row[n]);
     return std::sqrt(kappa * t) * sum;
-}
-
-template <class Call>
-std::string error_of(Call&& call) {
-    try {
-        call();
-    } catch (const fit::Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "refined.hpp"
+#include "support/angles.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/bind.hpp>
@@ -21,8 +22,6 @@ using namespace goffer::test;
 
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180;
-
 Solid prism(int sides, int rows = 1, bool closed = true) {
     std::mt19937 random(1);
     return cylinder({.columns = sides, .rows = rows, .closed = closed}, random);
@@ -34,7 +33,7 @@ Solid squashed(Solid solid, float across) {
 }
 
 /// A prism that is thinner at its tip, where it is `end` as thick.
-Solid tapered(int sides, float end) {
+Solid tapered_prism(int sides, float end) {
     Solid solid = prism(sides);
     for (glm::vec3& p : solid.positions) {
         const float scale = 1 + (end - 1) * p.z / 10;
@@ -47,7 +46,7 @@ Refinement rows_alone(const Solid& solid, const std::vector<fit::Stretch>& stret
     return fit::refine(solid.geometry(), fit::heights(solid.positions, upright()), stretches);
 }
 
-Refinement refined(const Solid& solid, const std::vector<fit::Stretch>& stretches = {{10, 6.5}}) {
+Refinement refined_upright(const Solid& solid, const std::vector<fit::Stretch>& stretches = {{10, 6.5}}) {
     return fit::refine(solid.geometry(), upright(), stretches);
 }
 
@@ -59,7 +58,7 @@ double widest(const Solid& solid, double low, double high) {
         const glm::dvec3 b = solid.positions[solid.triangles[t % 3 == 2 ? t - 2 : t + 1]];
         if (std::min(a.z, b.z) < low || std::max(a.z, b.z) > high) continue;
         const double turn = std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
-        most = std::max(most, std::abs(turn) / degrees);
+        most = std::max(most, std::abs(turn) / degree);
     }
     return most;
 }
@@ -77,7 +76,7 @@ void check_names(const Solid& after, const Refinement& refinement, bool seams) {
 }
 
 /// Deformed by 90 degrees, with wrinkles that do not depend on the mesh.
-std::vector<glm::vec3> bent(const Solid& solid) {
+std::vector<glm::vec3> bent_at_right_angle(const Solid& solid) {
     const fit::BindOptions options{.folds = 13, .amplitude = fit::Amplitude::paper};
     const fit::Binding binding = fit::bind(solid.geometry(), upright(), options);
     REQUIRE(binding.folds() == 13);
@@ -97,7 +96,7 @@ double chord_error(Solid solid) {
     const std::size_t vertices = solid.positions.size();
     for (const auto& [a, b] : edges)
         solid.positions.push_back((solid.positions[a] + solid.positions[b]) / 2.0f);
-    const std::vector<glm::vec3> now = bent(solid);
+    const std::vector<glm::vec3> now = bent_at_right_angle(solid);
     double squares = 0;
     std::size_t next = vertices;
     for (const auto& [a, b] : edges) {
@@ -111,7 +110,7 @@ double chord_error(Solid solid) {
 std::vector<double> area_changes(const Solid& solid) {
     const fit::PatchGrid grid;
     const std::vector<std::uint32_t> patches = fit::patches_of(solid.geometry(), upright(), grid);
-    const Solid now{bent(solid), solid.triangles};
+    const Solid now{bent_at_right_angle(solid), solid.triangles};
     const auto count = static_cast<std::size_t>(grid.slices * grid.sides);
     std::vector<double> before(count), after(count);
     for (std::size_t t = 0; t < patches.size(); ++t) {
@@ -139,7 +138,7 @@ TEST_CASE("columns: few sides are cut, closed where they were, the surface as it
                 CAPTURE(rows);
                 CAPTURE(seams);
                 const Solid solid = seams ? soup(prism(sides, rows)) : prism(sides, rows);
-                const Refinement refinement = refined(solid);
+                const Refinement refinement = refined_upright(solid);
                 check_refinement(solid, refinement, 1);
                 const Solid after = applied(solid, refinement);
                 check_names(after, refinement, seams);
@@ -147,8 +146,8 @@ TEST_CASE("columns: few sides are cut, closed where they were, the surface as it
                 CHECK(widest(after, 0.2, 9.8) < 34.01);
                 CHECK(widest(applied(solid, rows_alone(solid, {{10, 6.5}})), 0.2, 9.8) > 35);
                 CHECK(fit::folds_capacity(after.geometry(), upright()) >= 6);
-                CHECK(refined(after).vertices.empty());
-                CHECK(refined(after).triangles == after.triangles);
+                CHECK(refined_upright(after).vertices.empty());
+                CHECK(refined_upright(after).triangles == after.triangles);
             }
         }
     }
@@ -158,7 +157,7 @@ TEST_CASE("columns: a hose anywhere, of any size, tapered or bent at rest, is cl
     std::mt19937 random(42);
     for (const int sides : {4, 6, 8}) {
         for (const bool arc : {false, true}) {
-            Solid solid = tapered(sides, arc ? 1 : 0.4f);
+            Solid solid = tapered_prism(sides, arc ? 1 : 0.4f);
             if (arc) {
                 solid = prism(sides, 24);
                 for (glm::vec3& p : solid.positions) {
@@ -187,7 +186,7 @@ TEST_CASE("columns: a hose anywhere, of any size, tapered or bent at rest, is cl
 TEST_CASE("columns: 11 sides are enough") {
     for (const int sides : {11, 12, 24}) {
         const Solid solid = prism(sides);
-        const Refinement refinement = refined(solid), rows = rows_alone(solid, {{10, 6.5}});
+        const Refinement refinement = refined_upright(solid), rows = rows_alone(solid, {{10, 6.5}});
         CHECK(refinement.vertices.size() == rows.vertices.size());
         CHECK(refinement.triangles == rows.triangles);
     }
@@ -195,28 +194,28 @@ TEST_CASE("columns: 11 sides are enough") {
 
 TEST_CASE("columns: caps, what lies near the axis and stretches without folds stay as they are") {
     const Solid hose = prism(6);
-    const Solid after = applied(hose, refined(hose));
+    const Solid after = applied(hose, refined_upright(hose));
     for (std::size_t i = hose.positions.size(); i < after.positions.size(); ++i)
         REQUIRE(std::abs(after.positions[i].z - 5) < 4.95f);
 
     Solid rod = prism(4);
     for (glm::vec3& p : rod.positions) p.x *= 0.02f, p.y *= 0.02f;
-    CHECK(refined(rod).triangles == rows_alone(rod, {{10, 6.5}}).triangles);
+    CHECK(refined_upright(rod).triangles == rows_alone(rod, {{10, 6.5}}).triangles);
 
     const std::vector<fit::Stretch> stretches{{4, 3}, {2, 0}, {4, 3}};
     const Solid rows = prism(6, 20);
-    const Solid partly = applied(rows, refined(rows, stretches));
+    const Solid partly = applied(rows, refined_upright(rows, stretches));
     CHECK(widest(partly, 0.5, 3.99) < 34.01);
     CHECK(widest(partly, 6.01, 9.5) < 34.01);
     CHECK(widest(partly, 4.01, 5.99) > 59);
     CHECK(border(partly) == 0);
-    CHECK(refined(rows, {{10, 0}}).vertices.empty());
+    CHECK(refined_upright(rows, {{10, 0}}).vertices.empty());
 }
 
 TEST_CASE("columns: a flat body gets few") {
     for (const float across : {0.3f, 0.02f}) {
         const Solid flat = squashed(prism(4), across);
-        const Refinement refinement = refined(flat), rows = rows_alone(flat, {{10, 6.5}});
+        const Refinement refinement = refined_upright(flat), rows = rows_alone(flat, {{10, 6.5}});
         check_refinement(flat, refinement, 1);
         CHECK(border(applied(flat, refinement)) == 0);
         CHECK(refinement.parents.size() < 8 * rows.parents.size());
@@ -228,7 +227,7 @@ TEST_CASE("columns: bent by 90 degrees, a hose of few sides lies closer to its e
         CAPTURE(sides);
         const Solid solid = prism(sides);
         const Solid rows = applied(solid, rows_alone(solid, {{10, 6.5}})),
-                    all = applied(solid, refined(solid));
+                    all = applied(solid, refined_upright(solid));
         CHECK(chord_error(all) < (sides < 8 ? 0.65 : 0.8) * chord_error(rows));
         // The same sides, each of 12 columns.
         Solid fine = prism(12 * sides, 208);
@@ -253,7 +252,7 @@ TEST_CASE("columns: pieces are no slivers") {
     for (const int sides : {4, 6, 8, 10}) {
         const Solid solid = prism(sides);
         const Solid rows = applied(solid, rows_alone(solid, {{10, 6.5}})),
-                    all = applied(solid, refined(solid));
+                    all = applied(solid, refined_upright(solid));
         const auto mean = [](const Solid& of) {
             double sum = 0;
             for (std::size_t t = 0; t < of.triangles.size() / 3; ++t) sum += quality(of, t);
@@ -272,7 +271,8 @@ TEST_CASE("columns: pieces are no slivers") {
 TEST_CASE("columns: there are none where they would be too many") {
     const Solid solid = prism(6);
     const std::vector<fit::Stretch> stretches{{10, 6.5}};
-    const std::size_t rows = rows_alone(solid, stretches).parents.size(), all = refined(solid).parents.size();
+    const std::size_t rows = rows_alone(solid, stretches).parents.size(),
+                      all = refined_upright(solid).parents.size();
     REQUIRE(rows < all);
     const auto with = [&](std::size_t most) {
         return fit::refine(solid.geometry(), upright(), stretches, {.max_triangles = most}).parents.size();
@@ -335,7 +335,7 @@ TEST_CASE("columns: a triangle that leans on a stretch without folds is not cut 
     const Solid solid{{{1, -3, end}, {1, 3, end}, {1, 0.5f, 4}, {-1, 0, 0}, {-1, 0, 9}},
                       {0, 1, 2, 0, 2, 3, 0, 1, 4}};
     const std::vector<fit::Stretch> stretches{{static_cast<double>(end), 0.5}, {3, 0}, {3, 1}};
-    const Refinement refinement = refined(solid, stretches);
+    const Refinement refinement = refined_upright(solid, stretches);
     check_refinement(solid, refinement, 10);
     CHECK(refinement.parents.size() > rows_alone(solid, stretches).parents.size());
     CHECK(refinement.parents.size() < 1000);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
 #include "support/rounds.hpp"
+#include "support/says.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/cylinder.hpp>
@@ -13,24 +15,27 @@
 
 using namespace goffer;
 using fit::Cylinder;
+using test::degree;
+using test::fit_to;
+using test::near;
 using test::Placing;
 using test::Recipe;
+using test::says;
 using test::Solid;
+using test::warped;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// How far a fit is from the truth: axis in radians, line in radii, the others relative.
-struct Miss {
+struct CylinderMiss {
     double axis, line, length, radius;
 };
 
-Miss miss(const Cylinder& fitted, const Recipe& recipe, const Placing& placing) {
+CylinderMiss cylinder_miss(const Cylinder& fitted, const Recipe& recipe, const Placing& placing) {
     const glm::dvec3 axis = placing.turn[2];
     const glm::dvec3 middle = placing({0, 0, recipe.length / 2});
     const glm::dvec3 off = fitted.origin + fitted.axis * (fitted.length / 2) - middle;
-    return {test::angle_between(fitted.axis, axis),
+    return {test::angle_between_lines(fitted.axis, axis),
             glm::length(off - fitted.axis * glm::dot(off, fitted.axis)) / placing.scale,
             std::abs(fitted.length / (placing.scale * recipe.length) - 1),
             std::abs(fitted.radius / placing.scale - 1)};
@@ -57,17 +62,13 @@ void each_family(int vertices, const std::function<void(Recipe)>& visit) {
     }
 }
 
-std::string said(const Recipe& r) {
+std::string said_of_cylinder(const Recipe& r) {
     return std::to_string(r.columns) + " x " + std::to_string(r.rows) + ", L = " + std::to_string(r.length) +
            (r.closed ? ", closed" : ", open") + ", dense " + std::to_string(r.dense) + " / " +
            std::to_string(r.dense_beta) + ", jitter " + std::to_string(r.jitter);
 }
 
-Cylinder fit_to(const Solid& solid) {
-    return fit::fit_cylinder(solid.geometry());
-}
-
-std::string fault(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
+std::string cylinder_fault(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
     try {
         (void)fit::fit_cylinder(solid.geometry(), axis);
     } catch (const fit::Error& error) {
@@ -76,22 +77,9 @@ std::string fault(const Solid& solid, std::optional<glm::dvec3> axis = std::null
     return {};
 }
 
-bool has(const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
-}
-
-Solid warped(Solid solid, const std::function<glm::dvec3(glm::dvec3)>& map) {
-    for (glm::vec3& p : solid.positions) p = map(p);
-    return solid;
-}
-
 Solid some_cylinder() {
     std::mt19937 random(1);
     return test::cylinder({}, random);
-}
-
-bool near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
-    return glm::length(a - b) <= tolerance;
 }
 
 }  // namespace
@@ -101,10 +89,10 @@ TEST_CASE("clean cylinders: axis, length and radius within 4e-6 from 12 columns 
     for (const int vertices : {200, 1500}) {
         if (!test::all_rounds() && vertices > 200) continue;
         each_family(vertices, [&](const Recipe& recipe) {
-            CAPTURE(said(recipe));
+            CAPTURE(said_of_cylinder(recipe));
             const Placing placing = test::random_placing(10 * recipe.length, random);
             const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
-            const Miss off = miss(fitted, recipe, placing);
+            const CylinderMiss off = cylinder_miss(fitted, recipe, placing);
             CHECK(off.axis < 5e-7);
             CHECK(off.line < 3e-6);
             CHECK(off.length < 2e-6);
@@ -118,10 +106,10 @@ TEST_CASE("2 % radial noise: axis within 0.2 degrees, length within 0.25 %, radi
     std::mt19937 random(32);
     each_family(5000, [&](Recipe recipe) {
         recipe.noise = 0.02;
-        CAPTURE(said(recipe));
+        CAPTURE(said_of_cylinder(recipe));
         const Placing placing = test::random_placing(10 * recipe.length, random);
         const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
-        const Miss off = miss(fitted, recipe, placing);
+        const CylinderMiss off = cylinder_miss(fitted, recipe, placing);
         CHECK(off.axis < 0.2 * degree);
         CHECK(off.line < 0.003);
         CHECK(off.length < 0.0025);
@@ -141,7 +129,7 @@ TEST_CASE("on few vertices the axis is as exact as their noise allows") {
         for (int i = 0; i < rounds; ++i) {
             const Placing placing = test::random_placing(recipe.length, random);
             const Cylinder fitted = fit_to(test::placed(test::cylinder(recipe, random), placing));
-            sum += std::pow(miss(fitted, recipe, placing).axis, 2);
+            sum += std::pow(cylinder_miss(fitted, recipe, placing).axis, 2);
         }
         const double binding =
             recipe.noise * std::sqrt(48.0 / (recipe.columns * (recipe.rows + 1))) / recipe.length;
@@ -154,7 +142,8 @@ TEST_CASE("a thousand lengths away, the fit is as exact as the floats") {
     for (int i = 0; i < 20; ++i) {
         const Recipe recipe{.columns = 24, .rows = 40, .length = 10};
         const Placing placing = test::random_placing(1000 * recipe.length, random);
-        const Miss off = miss(fit_to(test::placed(test::cylinder(recipe, random), placing)), recipe, placing);
+        const CylinderMiss off =
+            cylinder_miss(fit_to(test::placed(test::cylinder(recipe, random), placing)), recipe, placing);
         CHECK(off.axis < 1.2e-5);
         CHECK(off.length < 1.6e-4);
         CHECK(off.radius < 5e-5);
@@ -226,7 +215,8 @@ TEST_CASE("along a given axis the line runs through the middle of the circles, n
         const Recipe recipe{.columns = 12, .rows = 9, .length = 5, .dense_beta = 10, .jitter = jitter};
         const Placing placing = test::random_placing(50, random);
         const Solid solid = test::placed(test::cylinder(recipe, random), placing);
-        const Miss off = miss(fit::fit_cylinder(solid.geometry(), placing.turn[2]), recipe, placing);
+        const CylinderMiss off =
+            cylinder_miss(fit::fit_cylinder(solid.geometry(), placing.turn[2]), recipe, placing);
         CHECK(off.line < 3e-7);
         CHECK(off.length < 1.3e-6);
         CHECK(off.radius < 3e-7);
@@ -243,7 +233,7 @@ TEST_CASE("half a pipe has the whole pipe's axis") {
         if (half.positions[*first].x > 0) kept.insert(kept.end(), first, first + 3);
     }
     half.triangles = kept;
-    const Miss off = miss(fit_to(half), recipe, {});
+    const CylinderMiss off = cylinder_miss(fit_to(half), recipe, {});
     CHECK(off.axis < 1e-14);
     CHECK(off.line < 2e-9);
     CHECK(off.radius < 2e-8);
@@ -266,7 +256,7 @@ TEST_CASE("a shallow trough keeps its line in its own box, not in the far middle
 TEST_CASE("an axis without a direction is refused") {
     const Solid solid = some_cylinder();
     for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
-        CHECK(has(fault(solid, glm::dvec3(0, 0, bad)), "has no direction"));
+        CHECK(says(cylinder_fault(solid, glm::dvec3(0, 0, bad)), "has no direction"));
     }
 }
 
@@ -280,12 +270,12 @@ TEST_CASE("bodies without a long axis are refused, with what was measured and th
     const auto disc = [](glm::dvec3 p) { return glm::dvec3(p.x, p.y, 0.01 * p.z); };
     for (const Solid& solid : {cube, warped(some_cylinder(), sphere), warped(some_cylinder(), disc)}) {
         const Placing placing = test::random_placing(20, random);
-        const std::string message = fault(test::placed(solid, placing));
-        CHECK(has(message, "no long axis"));
-        CHECK(has(message, "times as far"));
-        CHECK(has(message, "give an axis"));
+        const std::string message = cylinder_fault(test::placed(solid, placing));
+        CHECK(says(message, "no long axis"));
+        CHECK(says(message, "times as far"));
+        CHECK(says(message, "give an axis"));
         CHECK_THROWS_AS((void)fit_to(test::placed(solid, placing)), fit::AxisError);
-        CHECK(fault(test::placed(solid, placing), placing.turn[2]) == "");
+        CHECK(cylinder_fault(test::placed(solid, placing), placing.turn[2]) == "");
     }
 }
 
@@ -330,7 +320,7 @@ TEST_CASE("a body that is no cylinder follows rotation, translation and scale, a
             const Placing placing = test::random_placing(30, random);
             const Solid solid = test::placed(warped(test::cylinder(recipe, random), bowling_pin), placing);
             const Cylinder fitted = fit_to(solid);
-            CHECK(test::angle_between(fitted.axis, placing.turn * expected.axis) < 4e-5);
+            CHECK(test::angle_between_lines(fitted.axis, placing.turn * expected.axis) < 4e-5);
             CHECK(std::abs(fitted.length / (placing.scale * expected.length) - 1) < 1e-5);
             CHECK(std::abs(fitted.radius / (placing.scale * expected.radius) - 1) < 1.3e-3);
             CHECK(std::abs(fitted.residual / expected.residual - 1) < 5e-3);
@@ -373,27 +363,28 @@ TEST_CASE("the residual is the relief over the radius") {
 
 TEST_CASE("bodies that floats cannot carry are refused") {
     const Solid solid = some_cylinder();
-    CHECK(has(fault(warped(solid, [](glm::dvec3 p) { return p * 1e-40; })), "too small for floats"));
-    CHECK(has(fault(warped(solid, [](glm::dvec3 p) { return p * glm::dvec3(1e-12, 1e-12, 1); })),
-              "on one line"));
-    CHECK(has(fault(warped(solid, [](glm::dvec3 p) { return p + 1e9; })), "in one point"));
-    CHECK(fault(warped(solid, [](glm::dvec3 p) { return p * 1e30; })) == "");
-    CHECK(fault(warped(solid, [](glm::dvec3 p) { return p * 1e-30; })) == "");
+    CHECK(
+        says(cylinder_fault(warped(solid, [](glm::dvec3 p) { return p * 1e-40; })), "too small for floats"));
+    CHECK(says(cylinder_fault(warped(solid, [](glm::dvec3 p) { return p * glm::dvec3(1e-12, 1e-12, 1); })),
+               "on one line"));
+    CHECK(says(cylinder_fault(warped(solid, [](glm::dvec3 p) { return p + 1e9; })), "in one point"));
+    CHECK(cylinder_fault(warped(solid, [](glm::dvec3 p) { return p * 1e30; })) == "");
+    CHECK(cylinder_fault(warped(solid, [](glm::dvec3 p) { return p * 1e-30; })) == "");
 }
 
 TEST_CASE("triangles without area, and faults of the mesh, are refused") {
     Solid solid = some_cylinder();
     for (std::size_t t = 0; t < solid.triangles.size(); t += 3) solid.triangles[t + 1] = solid.triangles[t];
-    CHECK(has(fault(solid), "without area"));
-    CHECK(has(fault(solid, glm::dvec3(0, 0, 1)), "without area"));
+    CHECK(says(cylinder_fault(solid), "without area"));
+    CHECK(says(cylinder_fault(solid, glm::dvec3(0, 0, 1)), "without area"));
     solid.triangles[5] = 1'000'000;
-    CHECK(has(fault(solid), "triangle 1 uses vertex 1000000"));
+    CHECK(says(cylinder_fault(solid), "triangle 1 uses vertex 1000000"));
 }
 
 TEST_CASE("plates across the given axis have no surface around it") {
     const Solid plates{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}},
                        {0, 1, 2, 3, 4, 5}};
-    CHECK(has(fault(plates, glm::dvec3(0, 0, 1)), "no surface around the axis"));
+    CHECK(says(cylinder_fault(plates, glm::dvec3(0, 0, 1)), "no surface around the axis"));
     CHECK_THROWS_AS((void)fit::fit_cylinder(plates.geometry(), glm::dvec3(0, 0, 1)), fit::AxisError);
 }
 
@@ -438,27 +429,27 @@ TEST_CASE("check of a cylinder names the field at fault") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(said_of([](Cylinder&) {}) == "");
     CHECK(said_of([](Cylinder& c) { c.axis *= 1.0009; }) == "");
-    CHECK(has(said_of([&](Cylinder& c) { c.origin.y = nan; }), "origin"));
-    CHECK(has(said_of([&](Cylinder& c) { c.axis.z = HUGE_VAL; }), "axis"));
-    CHECK(has(said_of([&](Cylinder& c) { c.zero.x = nan; }), "zero"));
-    CHECK(has(said_of([&](Cylinder& c) { c.axis *= 1.01; }), "axis"));
-    CHECK(has(said_of([&](Cylinder& c) { c.zero *= 0.5; }), "zero"));
-    CHECK(has(said_of([&](Cylinder& c) { c.zero = {0, 0, 1}; }), "not orthogonal"));
+    CHECK(says(said_of([&](Cylinder& c) { c.origin.y = nan; }), "origin"));
+    CHECK(says(said_of([&](Cylinder& c) { c.axis.z = HUGE_VAL; }), "axis"));
+    CHECK(says(said_of([&](Cylinder& c) { c.zero.x = nan; }), "zero"));
+    CHECK(says(said_of([&](Cylinder& c) { c.axis *= 1.01; }), "axis"));
+    CHECK(says(said_of([&](Cylinder& c) { c.zero *= 0.5; }), "zero"));
+    CHECK(says(said_of([&](Cylinder& c) { c.zero = {0, 0, 1}; }), "not orthogonal"));
     for (const double bad : {0.0, -1.0, nan, HUGE_VAL}) {
-        CHECK(has(said_of([&](Cylinder& c) { c.length = bad; }), "length"));
-        CHECK(has(said_of([&](Cylinder& c) { c.radius = bad; }), "radius"));
+        CHECK(says(said_of([&](Cylinder& c) { c.length = bad; }), "length"));
+        CHECK(says(said_of([&](Cylinder& c) { c.radius = bad; }), "radius"));
     }
     for (const double bad : {1e-41, 1e41, 1e308}) {
-        CHECK(has(said_of([&](Cylinder& c) { c.length = c.radius = bad; }), "beyond what a mesh"));
-        CHECK(has(said_of([&](Cylinder& c) { c.radius = bad; }), "beyond what a mesh"));
-        CHECK(has(said_of([&](Cylinder& c) { c.radii = {bad, bad}; }), "beyond what a mesh"));
+        CHECK(says(said_of([&](Cylinder& c) { c.length = c.radius = bad; }), "beyond what a mesh"));
+        CHECK(says(said_of([&](Cylinder& c) { c.radius = bad; }), "beyond what a mesh"));
+        CHECK(says(said_of([&](Cylinder& c) { c.radii = {bad, bad}; }), "beyond what a mesh"));
     }
-    CHECK(has(said_of([&](Cylinder& c) { c.origin.z = -1e41; }), "beyond what a mesh"));
-    CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = nan; }), "rest_angle"));
+    CHECK(says(said_of([&](Cylinder& c) { c.origin.z = -1e41; }), "beyond what a mesh"));
+    CHECK(says(said_of([&](Cylinder& c) { c.rest_angle = nan; }), "rest_angle"));
     for (const double bad : {-1e-9, 5.0, 6.3, HUGE_VAL})  // length / (2 radius) is 5
-        CHECK(has(said_of([&](Cylinder& c) { c.rest_angle = bad; }), "rest_angle"));
+        CHECK(says(said_of([&](Cylinder& c) { c.rest_angle = bad; }), "rest_angle"));
     CHECK(said_of([](Cylinder& c) { c.rest_angle = 4.9; }) == "");
-    CHECK(has(said_of([](Cylinder& c) { c.rest_angle = 6.3, c.length = 10; }), "rest_angle"));
-    CHECK(has(said_of([&](Cylinder& c) { c.rest_direction = nan; }), "rest_direction"));
-    CHECK(has(said_of([&](Cylinder& c) { c.residual = nan; }), "residual"));
+    CHECK(says(said_of([](Cylinder& c) { c.rest_angle = 6.3, c.length = 10; }), "rest_angle"));
+    CHECK(says(said_of([&](Cylinder& c) { c.rest_direction = nan; }), "rest_direction"));
+    CHECK(says(said_of([&](Cylinder& c) { c.residual = nan; }), "residual"));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
 #include "support/models.hpp"
 #include "support/rounds.hpp"
 #include "synthetic.hpp"
@@ -24,10 +25,9 @@
 /// Amplitude mode `mesh`: a mesh keeps its own area, whichever way and however far it is bent.
 
 using namespace goffer;
+using test::degree;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // With sanitizers the largest meshes would take minutes.
 const std::size_t max_vertices = test::rounds<std::size_t>(1'000'000, 10'000);
@@ -40,7 +40,7 @@ struct Soup {
 };
 
 /// Refined, so that it carries as many folds as suit it.
-Soup refined(Soup soup, const fit::Cylinder& cylinder, const fit::BindOptions& options = {}) {
+Soup refined_soup(Soup soup, const fit::Cylinder& cylinder, const fit::BindOptions& options = {}) {
     const fit::Refinement refinement =
         fit::refine(soup.geometry(), cylinder, fit::stretches_of(cylinder, options));
     return {fit::refined_positions(soup.positions, refinement), refinement.triangles};
@@ -58,16 +58,16 @@ double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose
 }
 
 /// The largest changes of area in 16 directions at six angles from 10 degrees to 0.9 of the largest.
-struct Change {
+struct AreaChange {
     double low = 0, high = 0;
 
     [[nodiscard]] double most() const { return std::max(-low, high); }
 };
 
-Change change_of(const fit::Binding& binding, const Soup& soup) {
+AreaChange area_change_of(const fit::Binding& binding, const Soup& soup) {
     const double rest = fit::surface_area(soup.positions, soup.triangles);
     const double least = 10 * degree, most = 0.9 * static_cast<double>(binding.body.max_angle());
-    Change change;
+    AreaChange change;
     for (int step = 0; step <= 5; ++step) {
         const double angle = least + (most - least) * step / 5;
         for (int direction = 0; direction < 16; ++direction) {
@@ -93,12 +93,12 @@ void check_area(const char* name, double most, std::optional<glm::dvec3> axis = 
     }
     const fit::Cylinder fitted = fit::fit_cylinder(read.geometry(), axis, fit::RestPose::straight);
     const fit::Cylinder cylinder = fit::fit_shape(read.geometry(), fitted);
-    const Soup soup = refined(read, cylinder);
+    const Soup soup = refined_soup(read, cylinder);
     fit::BindOptions options;
-    const Change paper = change_of(fit::bind(soup.geometry(), cylinder, options), soup);
+    const AreaChange paper = area_change_of(fit::bind(soup.geometry(), cylinder, options), soup);
     options.amplitude = paper::Amplitude::mesh;
     const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
-    const Change own = change_of(binding, soup);
+    const AreaChange own = area_change_of(binding, soup);
     std::printf(
         "%-24s %8zu vertices, %2d folds, bound in %6.0f ms: paper %+6.2f .. %+5.2f %%, mesh %+6.3f "
         ".. %+5.3f %%\n",

@@ -7,30 +7,18 @@
 #include <limits>
 
 using namespace goffer;
+using test::capacity;
 using test::Recipe;
 using test::Solid;
+using test::soup;
 
 namespace {
-
-int capacity(const Solid& solid) {
-    return fit::folds_capacity(solid.geometry(), fit::fit_cylinder(solid.geometry()));
-}
 
 fit::Cylinder base(double length, double radius) {
     fit::Cylinder cylinder;
     cylinder.length = length;
     cylinder.radius = radius;
     return cylinder;
-}
-
-/// The same surface with a vertex for every corner, as in an STL.
-Solid soup(const Solid& solid) {
-    Solid loose;
-    for (const std::uint32_t i : solid.triangles) {
-        loose.triangles.push_back(static_cast<std::uint32_t>(loose.positions.size()));
-        loose.positions.push_back(solid.positions[i]);
-    }
-    return loose;
 }
 
 }  // namespace

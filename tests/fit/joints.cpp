@@ -17,7 +17,7 @@
 namespace goffer {
 namespace {
 
-constexpr float degree = std::numbers::pi_v<float> / 180;
+constexpr float one_degree = std::numbers::pi_v<float> / 180;
 
 /// Equal regions of a tube of radius 1.
 struct TestChain {
@@ -28,11 +28,11 @@ struct TestChain {
 };
 
 /// Changes of area over 24 slices by 4 sides, and of the whole.
-struct Change {
+struct ChainChange {
     double local, whole;
 };
 
-Change change_of(const TestChain& chain, bool over_joints) {
+ChainChange chain_change_of(const TestChain& chain, bool over_joints) {
     std::mt19937 random(11);
     test::Recipe tube{.columns = 96, .rows = 1200};
     tube.length = chain.length;
@@ -46,7 +46,7 @@ Change change_of(const TestChain& chain, bool over_joints) {
     const fit::Binding binding = fit::bind(solid.geometry(), base, options);
     std::vector<bend::Pose> poses;
     for (std::size_t r = 0; r < chain.angles.size(); ++r)
-        poses.push_back({chain.angles[r] * degree, chain.directions[r] * degree});
+        poses.push_back({chain.angles[r] * one_degree, chain.directions[r] * one_degree});
     std::vector<glm::vec3> bent(solid.positions.size()), sorted(bent.size());
     bend::DeformJob job{.body = &binding.body, .poses = poses};
     job.positions = interleaved<3>(&bent[0].x, bent.size());
@@ -68,7 +68,7 @@ TEST_CASE(
         {"worm", 24, std::vector<float>(8, 40), {0, 90, 180, 180, 270, 0, 0, 90}, 1.8},
     };
     for (const TestChain& chain : chains) {
-        const Change over = change_of(chain, true), apart = change_of(chain, false);
+        const ChainChange over = chain_change_of(chain, true), apart = chain_change_of(chain, false);
         MESSAGE(std::string(chain.name), ": local ", over.local, " % (all ", over.whole,
                 " %), folds that end at joints ", apart.local, " % (", apart.whole, " %)");
         CHECK(over.local < chain.most);

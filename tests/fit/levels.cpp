@@ -18,7 +18,7 @@
 namespace goffer::test {
 namespace {
 
-constexpr std::uint32_t columns = 24, rows = 65;
+constexpr std::uint32_t fine_columns = 24, fine_rows = 65;
 
 /// A coarser level: every other column and every fourth row of random_mesh's skin, and all of its loose
 /// vertices, last to first.
@@ -37,14 +37,14 @@ struct Level {
 Level decimated(const TestMesh& fine) {
     Level level;
     level.test_mesh.cylinder = fine.cylinder;
-    for (std::uint32_t row = 0; row < rows; row += 4) {
-        for (std::uint32_t column = 0; column < columns; column += 2)
-            level.take(fine, row * columns + column);
+    for (std::uint32_t row = 0; row < fine_rows; row += 4) {
+        for (std::uint32_t column = 0; column < fine_columns; column += 2)
+            level.take(fine, row * fine_columns + column);
     }
-    for (auto i = static_cast<std::uint32_t>(fine.positions.size()); i-- > rows * columns;)
+    for (auto i = static_cast<std::uint32_t>(fine.positions.size()); i-- > fine_rows * fine_columns;)
         level.take(fine, i);
-    constexpr std::uint32_t around = columns / 2;
-    for (std::uint32_t row = 0; row + 4 < rows; row += 4) {
+    constexpr std::uint32_t around = fine_columns / 2;
+    for (std::uint32_t row = 0; row + 4 < fine_rows; row += 4) {
         for (std::uint32_t column = 0; column < around; ++column) {
             const std::uint32_t a = row / 4 * around + column, b = row / 4 * around + (column + 1) % around;
             level.test_mesh.triangles.insert(level.test_mesh.triangles.end(),
@@ -55,7 +55,8 @@ Level decimated(const TestMesh& fine) {
 }
 
 /// Deformed positions, in the geometry's order.
-std::vector<glm::vec3> deformed(const fit::Binding& binding, std::span<const bend::Pose> poses, Isa isa) {
+std::vector<glm::vec3> deformed_in_order(const fit::Binding& binding, std::span<const bend::Pose> poses,
+                                         Isa isa) {
     std::vector<glm::vec3> positions(binding.body.vertex_count()), sorted(positions.size());
     bend::DeformJob job;
     job.body = &binding.body;
@@ -86,7 +87,8 @@ void check_levels(const TestMesh& fine, const fit::BindOptions& options) {
                 const float sign = r % 2 == 0 ? 1.0f : -1.0f;
                 poses.push_back({sign * share * rig.body.max_angle(r), 0.7f + static_cast<float>(r)});
             }
-            const std::vector<glm::vec3> all = deformed(rig, poses, isa), some = deformed(coarse, poses, isa);
+            const std::vector<glm::vec3> all = deformed_in_order(rig, poses, isa),
+                                         some = deformed_in_order(coarse, poses, isa);
             std::size_t equal = 0;
             for (std::size_t i = 0; i < some.size(); ++i)
                 equal += same_bits(some[i], all[level.from[i]]) ? 1 : 0;
@@ -100,7 +102,7 @@ void check_levels(const TestMesh& fine, const fit::BindOptions& options) {
 
 TEST_CASE("levels: shared vertices go to the same place, bit for bit") {
     Random random(71);
-    const TestMesh fine = random_mesh(random, 9, 3, columns, rows);
+    const TestMesh fine = random_mesh(random, 9, 3, fine_columns, fine_rows);
     fit::BindOptions options;
     options.folds = 3;
     check_levels(fine, options);
@@ -113,7 +115,7 @@ TEST_CASE("levels: shared vertices go to the same place, bit for bit") {
 
 TEST_CASE("levels: of several regions, and with factors for the rig's own area") {
     Random random(72);
-    const TestMesh fine = random_mesh(random, 12, 0.2, columns, rows);
+    const TestMesh fine = random_mesh(random, 12, 0.2, fine_columns, fine_rows);
     fit::BindOptions options;
     options.folds = 1;
     options.regions = {{0.5, {}}, {0.2, 0}, {0.3, {}}};
@@ -126,7 +128,7 @@ TEST_CASE("levels: of several regions, and with factors for the rig's own area")
 
 TEST_CASE("levels: of a body that is bent at rest") {
     Random random(73);
-    TestMesh fine = random_mesh(random, 14, 2, columns, rows, 0);
+    TestMesh fine = random_mesh(random, 14, 2, fine_columns, fine_rows, 0);
     fine.cylinder.rest_angle = 1.1;
     fine.cylinder.rest_direction = 0.4;
     const glm::dmat3 axes(fine.cylinder.zero, glm::cross(fine.cylinder.axis, fine.cylinder.zero),
@@ -144,7 +146,7 @@ TEST_CASE("levels: of a body that is bent at rest") {
 
 TEST_CASE("levels: what is shared is the rig's, and what is found is the level's") {
     Random random(74);
-    const TestMesh fine = random_mesh(random, 10, 1, columns, rows);
+    const TestMesh fine = random_mesh(random, 10, 1, fine_columns, fine_rows);
     fit::BindOptions options;
     options.folds = 2;
     options.profile = paper::Profile::smooth;
@@ -173,7 +175,7 @@ TEST_CASE("levels: what is shared is the rig's, and what is found is the level's
 
 TEST_CASE("levels: what cannot be bound to a rig is named") {
     Random random(75);
-    const TestMesh fine = random_mesh(random, 10, 1, columns, rows, 0);
+    const TestMesh fine = random_mesh(random, 10, 1, fine_columns, fine_rows, 0);
     fit::Binding rig = fit::bind(fine.geometry(), fine.cylinder);
     Level beyond = decimated(fine);
     beyond.test_mesh.positions[0] -= glm::vec3(0.01 * fine.cylinder.axis);

@@ -44,7 +44,7 @@ void check_model(const char* name, const Known& known) {
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     const fit::Cylinder fitted = fit::fit_cylinder(geometry(records), std::nullopt, fit::RestPose::straight);
     CHECK_NOTHROW(fit::check(fitted));
-    CHECK(test::angle_between(fitted.axis, known.axis) < std::numbers::pi / 180);
+    CHECK(test::angle_between_lines(fitted.axis, known.axis) < std::numbers::pi / 180);
     CHECK(std::abs(fitted.length / fitted.radius / known.slender - 1) < 3e-4);
     CHECK(std::abs(fitted.residual / known.residual - 1) < 6e-4);
     if (known.volume > 0) {

@@ -9,16 +9,13 @@
 #include <limits>
 
 using namespace goffer;
+using test::near;
 using test::Solid;
 
 namespace {
 
 std::vector<glm::vec3> normals_of(const Solid& solid) {
     return fit::make_normals(solid.positions, solid.triangles);
-}
-
-bool near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
-    return glm::length(a - b) <= tolerance;
 }
 
 const std::vector<glm::vec3> cube_corners{{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},

@@ -20,13 +20,13 @@
 namespace goffer {
 namespace {
 
-constexpr int columns = 24, rows = 400;
-constexpr double length = 10;
+constexpr int ring_columns = 24, ring_rows = 400;
+constexpr double tube_length = 10;
 
 /// A tube of radius 1 and, for 6 of its length, a thin one beside it.
 test::Solid tube_and_rod(double rod_radius, double distance) {
     std::mt19937 random(5);
-    test::Recipe recipe{.columns = columns, .rows = rows, .length = length};
+    test::Recipe recipe{.columns = ring_columns, .rows = ring_rows, .length = tube_length};
     test::Solid solid = test::cylinder(recipe, random);
     recipe.length = 6;
     const test::Solid rod = test::cylinder(recipe, random);
@@ -39,7 +39,7 @@ test::Solid tube_and_rod(double rod_radius, double distance) {
 
 fit::Cylinder base_of_tube() {
     fit::Cylinder base = test::upright();
-    base.length = length;
+    base.length = tube_length;
     return base;
 }
 
@@ -59,11 +59,11 @@ Wobble wobble_of(const test::Solid& solid, const fit::Binding& binding) {
         job.wrinkle_weight = 0;
         job.positions = interleaved<3>(&bare[0].x, bare.size());
         bend::run(job);
-        for (std::size_t row = 0; row < std::size_t{2} * (rows + 1); ++row) {
+        for (std::size_t row = 0; row < std::size_t{2} * (ring_rows + 1); ++row) {
             glm::dvec3 moved(0);
-            for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
-                moved += glm::dvec3(wrinkled[i] - bare[i]) / double{columns};
-            double& own = row < rows + 1 ? most.tube : most.rod;
+            for (std::size_t i = row * ring_columns; i < (row + 1) * ring_columns; ++i)
+                moved += glm::dvec3(wrinkled[i] - bare[i]) / double{ring_columns};
+            double& own = row < ring_rows + 1 ? most.tube : most.rod;
             own = std::max(own, glm::length(moved));
         }
     }

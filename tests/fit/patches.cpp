@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "refusals.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/patches.hpp>
@@ -10,19 +11,6 @@
 
 using namespace goffer;
 using namespace goffer::test;
-
-namespace {
-
-std::string error_of(const auto& work) {
-    try {
-        (void)work();
-    } catch (const fit::Error& error) {
-        return error.what();
-    }
-    return {};
-}
-
-}  // namespace
 
 TEST_CASE("patches: triangles are where their centroids are, and sides lie about e1, e2, -e1, -e2") {
     const Solid solid = tube(64);

@@ -27,7 +27,7 @@ using test::Solid;
 namespace {
 
 /// A tube whose radius goes from `low` to `high`.
-Solid tapered(double low, double high, int rows = 96) {
+Solid tapered_tube(double low, double high, int rows = 96) {
     std::mt19937 random(1);
     Solid solid = test::cylinder({.columns = 40, .rows = rows}, random);
     for (glm::vec3& p : solid.positions) {
@@ -38,7 +38,7 @@ Solid tapered(double low, double high, int rows = 96) {
     return solid;
 }
 
-std::vector<glm::vec3> bent(const fit::Binding& binding, const bend::Pose& pose) {
+std::vector<glm::vec3> bent_to(const fit::Binding& binding, const bend::Pose& pose) {
     std::vector<glm::vec3> positions(binding.body.vertex_count());
     bend::DeformJob job;
     job.body = &binding.body;
@@ -84,7 +84,7 @@ TEST_CASE("radii: a cylinder has none, a cone's go from one end's to the other's
     CHECK(shaped(test::cylinder({}, random)).radii.empty());
     CHECK(shaped(test::cylinder({.noise = 0.02}, random)).radii.empty());
     for (const auto& [low, high] : {std::pair{1.4, 0.3}, {0.5, 1.0}}) {
-        const Solid cone = tapered(low, high);
+        const Solid cone = tapered_tube(low, high);
         const fit::Cylinder found =
             fit::fit_shape(cone.geometry(), fit::fit_cylinder(cone.geometry(), {{0, 0, 1}}));
         REQUIRE(found.radii.size() > 4);
@@ -98,14 +98,14 @@ TEST_CASE("radii: a cylinder has none, a cone's go from one end's to the other's
 
 TEST_CASE("radii: they follow scale and rotation, and do not ask how finely parts are cut") {
     std::mt19937 random(3);
-    const Solid cone = tapered(1.2, 0.5);
+    const Solid cone = tapered_tube(1.2, 0.5);
     const fit::Cylinder here = shaped(cone);
     for (int trial = 0; trial < 5; ++trial) {
         const test::Placing placing = test::random_placing(3, random);
         const fit::Cylinder there = shaped(test::scrambled(test::placed(cone, placing)));
         CHECK(there.radius == doctest::Approx(placing.scale * here.radius).epsilon(1e-3));
     }
-    const fit::Cylinder coarse = shaped(tapered(1.2, 0.5, 4));
+    const fit::Cylinder coarse = shaped(tapered_tube(1.2, 0.5, 4));
     CHECK(coarse.radius == doctest::Approx(here.radius).epsilon(0.01));
 }
 
@@ -115,13 +115,13 @@ TEST_CASE("radii: a body that is bent at rest gets its shape back (P1)") {
     paper::Parameters cone{10, shape->radius(), 0};
     cone.shape = shape;
     const paper::ClosedForm arc(cone, {1.2, 0.4});
-    Solid solid = tapered(1.2, 0.5);
+    Solid solid = tapered_tube(1.2, 0.5);
     for (glm::vec3& p : solid.positions) p = arc.position(paper::to_cylindrical(glm::dvec3(p)));
     const fit::Cylinder fitted = fit::fit_cylinder(solid.geometry(), {{0, 0, 1}});
     CHECK(fitted.rest_angle > 0.8);
     const fit::Binding binding = fit::bind(solid.geometry(), fitted);
     REQUIRE(!binding.cylinder.radii.empty());
-    const std::vector<glm::vec3> back = bent(binding, binding.body.rest_pose());
+    const std::vector<glm::vec3> back = bent_to(binding, binding.body.rest_pose());
     double worst = 0;
     for (std::size_t i = 0; i < back.size(); ++i)
         worst = std::max(worst, glm::length(glm::dvec3(back[i]) - glm::dvec3(solid.positions[i])));
@@ -131,7 +131,7 @@ TEST_CASE("radii: a body that is bent at rest gets its shape back (P1)") {
 }
 
 TEST_CASE("folds: as long and as deep as the body is thick") {
-    const Solid cone = tapered(1.4, 0.5, 400);
+    const Solid cone = tapered_tube(1.4, 0.5, 400);
     const fit::Binding binding = fit::bind(cone.geometry(), shaped(cone));
     const auto& shape = binding.regions[0].shape;
     REQUIRE(shape);
@@ -179,7 +179,7 @@ TEST_CASE("local area: folds of the body's own size keep it several times better
         const std::vector<std::uint32_t> patches = fit::patches_of(geometry, cylinder);
         double sum = 0;
         for (const float direction : {0.0f, 1.5f, 3.0f, 4.5f}) {
-            const std::vector<glm::vec3> after = bent(binding, {std::numbers::pi_v<float> / 2, direction});
+            const std::vector<glm::vec3> after = bent_to(binding, {std::numbers::pi_v<float> / 2, direction});
             sum += fit::patch_change(geometry, after, patches).rms / 4;
         }
         return sum;

@@ -17,16 +17,12 @@ using namespace goffer::test;
 namespace {
 
 /// The refinement of a solid in its own fit.
-Refinement refined(const Solid& solid, int folds) {
+Refinement refined_in_own_fit(const Solid& solid, int folds) {
     return fit::refine(solid.geometry(), fit::fit_cylinder(solid.geometry()), folds);
 }
 
-int capacity(const Solid& solid) {
-    return fit::folds_capacity(solid.geometry(), fit::fit_cylinder(solid.geometry()));
-}
-
-std::string error_of(const fit::Geometry& geometry, std::span<const double> heights,
-                     std::span<const fit::Stretch> stretches) {
+std::string refine_error(const fit::Geometry& geometry, std::span<const double> heights,
+                         std::span<const fit::Stretch> stretches) {
     try {
         (void)fit::refine(geometry, heights, stretches);
     } catch (const fit::Error& error) {
@@ -77,7 +73,7 @@ TEST_CASE("refine: any body carries the folds asked for, closed where it was, it
                 CAPTURE(folds);
                 CAPTURE(closed);
                 CAPTURE(seams);
-                const Refinement refinement = refined(solid, folds);
+                const Refinement refinement = refined_in_own_fit(solid, folds);
                 check_refinement(solid, refinement, placing.scale);
                 const Solid after = applied(solid, refinement);
                 if (closed) CHECK(border(after) == 0);
@@ -109,7 +105,7 @@ TEST_CASE("refine: a mesh that has its rows comes back as it is") {
     for (const int folds : {1, 4, 9}) {
         const Recipe recipe{.columns = 24, .rows = 16 * folds, .length = 12};
         const Solid solid = test::placed(test::cylinder(recipe, random), test::random_placing(3, random));
-        const Refinement refinement = refined(solid, folds);
+        const Refinement refinement = refined_in_own_fit(solid, folds);
         CHECK(refinement.vertices.empty());
         CHECK(refinement.triangles == solid.triangles);
     }
@@ -121,7 +117,7 @@ TEST_CASE("refine: as few pieces as reach over a row each") {
     const Solid solid =
         test::cylinder({.columns = static_cast<int>(columns), .rows = 1, .length = 12}, random);
     for (const std::size_t folds : {1u, 2u, 5u}) {
-        const Refinement refinement = refined(solid, static_cast<int>(folds));
+        const Refinement refinement = refined_in_own_fit(solid, static_cast<int>(folds));
         // the lines along the axis and the diagonals between them
         CHECK(refinement.vertices.size() == 2 * columns * (16 * folds - 1));
         CHECK(refinement.parents.size() == 2 * columns + 2 * columns * (2 * 16 * folds - 1));
@@ -132,7 +128,7 @@ TEST_CASE("refine: what is linear over the surface stays linear, to the last rou
     std::mt19937 random(35);
     const Recipe recipe{.columns = 16, .rows = 3, .length = 12, .jitter = 0.4, .noise = 0.1};
     const Solid solid = test::cylinder(recipe, random);
-    const Refinement refinement = refined(solid, 5);
+    const Refinement refinement = refined_in_own_fit(solid, 5);
     const std::vector<glm::vec3> positions = fit::refined_positions(solid.positions, refinement);
     const auto linear = [](const glm::vec3& p) {
         return 0.3 + 1.7 * static_cast<double>(p.x) - 0.9 * static_cast<double>(p.y) +
@@ -157,7 +153,7 @@ TEST_CASE("refine: pieces are no worse than the triangles that they come from") 
             CAPTURE(jitter);
             const Solid solid =
                 test::cylinder({.columns = 24, .rows = rows, .length = 12, .jitter = jitter}, random);
-            const Refinement refinement = refined(solid, 6);
+            const Refinement refinement = refined_in_own_fit(solid, 6);
             const Solid after = applied(solid, refinement);
             double worst = 1, mean_before = 0, mean_after = 0;
             for (std::size_t t = 0; t < refinement.parents.size(); ++t) {
@@ -236,7 +232,7 @@ TEST_CASE("refine: triangles without an area, and with three at an edge, do not 
     const auto extra = static_cast<std::uint32_t>(solid.positions.size());
     solid.positions.push_back({3, 0, 5});
     solid.triangles.insert(solid.triangles.end(), {0, 0, 24, 0, 24, 24, 0, 24, extra, 24, 0, extra});
-    const Refinement refinement = refined(solid, 4);
+    const Refinement refinement = refined_in_own_fit(solid, 4);
     check_refinement(solid, refinement, 1);
     CHECK(border(applied(solid, refinement)) == 0);
 }
@@ -267,7 +263,7 @@ TEST_CASE("refine: bad input is named") {
     const Solid solid = test::cylinder({.columns = 12, .rows = 2, .length = 10}, random);
     std::vector<double> heights = heights_of(solid);
     const auto told = [&](const std::vector<fit::Stretch>& stretches) {
-        return error_of(solid.geometry(), heights, stretches);
+        return refine_error(solid.geometry(), heights, stretches);
     };
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(told({}).starts_with("stretches: there are none"));

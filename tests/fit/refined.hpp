@@ -70,15 +70,6 @@ inline double quality(const Solid& solid, std::size_t triangle) {
     return 4 * std::sqrt(3.0) * glm::length(area_vector(solid, triangle)) / squares;
 }
 
-inline Solid soup(const Solid& solid) {
-    Solid loose;
-    for (const std::uint32_t i : solid.triangles) {
-        loose.triangles.push_back(static_cast<std::uint32_t>(loose.positions.size()));
-        loose.positions.push_back(solid.positions[i]);
-    }
-    return loose;
-}
-
 /// What must hold of every refinement, whatever the mesh.
 inline void check_refinement(const Solid& before, const fit::Refinement& refinement, double unit) {
     const Solid after = applied(before, refinement);

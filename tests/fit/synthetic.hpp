@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -118,8 +120,38 @@ inline Solid placed(Solid solid, const Placing& placing) {
     return solid;
 }
 
+/// Every vertex where `map` takes it.
+inline Solid warped(Solid solid, const std::function<glm::dvec3(glm::dvec3)>& map) {
+    for (glm::vec3& p : solid.positions) p = map(p);
+    return solid;
+}
+
+/// The same surface with a vertex for every corner, as in an STL.
+inline Solid soup(const Solid& solid) {
+    Solid loose;
+    for (const std::uint32_t i : solid.triangles) {
+        loose.triangles.push_back(static_cast<std::uint32_t>(loose.positions.size()));
+        loose.positions.push_back(solid.positions[i]);
+    }
+    return loose;
+}
+
+/// Straight or an arc, whichever it is.
+inline fit::Cylinder fit_to(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
+    return fit::fit_cylinder(solid.geometry(), axis, fit::RestPose::automatic);
+}
+
+/// How many folds it carries in its own fit.
+inline int capacity(const Solid& solid) {
+    return fit::folds_capacity(solid.geometry(), fit::fit_cylinder(solid.geometry()));
+}
+
+inline bool near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
+    return glm::length(a - b) <= tolerance;
+}
+
 /// Angle between two lines, whatever their signs.
-inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+inline double angle_between_lines(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
 }
 

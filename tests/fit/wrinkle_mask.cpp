@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -26,14 +27,12 @@ using namespace goffer::test;
 
 namespace {
 
-constexpr double right_angle = std::numbers::pi / 2;
-
 struct Bent {
     std::vector<glm::vec3> positions, normals;
 };
 
 /// In the geometry's order.
-Bent bent(const fit::Binding& binding, float wrinkle_weight, double angle = right_angle) {
+Bent bent_with_normals(const fit::Binding& binding, float wrinkle_weight, double angle = right_angle) {
     const bend::Body& body = binding.body;
     std::vector<bend::Pose> poses;
     for (std::size_t i = 0; i < body.region_count(); ++i)
@@ -52,7 +51,7 @@ Bent bent(const fit::Binding& binding, float wrinkle_weight, double angle = righ
     return sorted;
 }
 
-Solid fine_tube() {
+Solid very_fine_tube() {
     std::mt19937 random(1);
     return cylinder({.columns = 64, .rows = 481, .closed = false}, random);
 }
@@ -87,7 +86,7 @@ double worst_normal(const Solid& solid, const Bent& result) {
     return glm::degrees(std::acos(static_cast<double>(least)));
 }
 
-std::string error_of(const std::vector<float>& mask) {
+std::string mask_error(const std::vector<float>& mask) {
     const Solid solid = tube();
     try {
         (void)fit::bind(masked(solid, mask), upright());
@@ -100,7 +99,7 @@ std::string error_of(const std::vector<float>& mask) {
 }  // namespace
 
 TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profile, amplitude and regions") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const std::vector<float> mask =
         mask_of(solid, [](double z, double beta) { return 0.5 + 0.5 * std::sin(7 * z + 2 * beta); });
     for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped, fit::Profile::smooth}) {
@@ -111,8 +110,8 @@ TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profi
                 options.amplitude = amplitude;
                 options.regions.assign(regions, {1.0 / static_cast<double>(regions), std::nullopt});
                 const fit::Binding plain = fit::bind(solid.geometry(), upright(), options);
-                const Bent bare = bent(plain, 0), full = bent(plain, 1),
-                           part = bent(fit::bind(masked(solid, mask), upright(), options), 1);
+                const Bent bare = bent_with_normals(plain, 0), full = bent_with_normals(plain, 1),
+                           part = bent_with_normals(fit::bind(masked(solid, mask), upright(), options), 1);
                 double worst = 0, deepest = 0;
                 for (std::size_t i = 0; i < mask.size(); ++i) {
                     const glm::vec3 expected = glm::mix(bare.positions[i], full.positions[i], mask[i]);
@@ -127,36 +126,36 @@ TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profi
 }
 
 TEST_CASE("wrinkle mask: normals follow a mask that changes along the body") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const auto along = [](double z, double) { return smooth((z - 0.4) / 0.1); };
-    const double whole = worst_normal(solid, bent(fit::bind(solid.geometry(), upright()), 1));
+    const double whole = worst_normal(solid, bent_with_normals(fit::bind(solid.geometry(), upright()), 1));
     const double half =
-        worst_normal(solid, bent(fit::bind(masked(solid, mask_of(solid, along)), upright()), 1));
+        worst_normal(solid, bent_with_normals(fit::bind(masked(solid, mask_of(solid, along)), upright()), 1));
     MESSAGE("degrees: " << whole << " without a mask, " << half << " with one");
     CHECK(half < 1.2 * whole + 0.1);
 }
 
 TEST_CASE("wrinkle mask: around the body, normals lag by depth over width") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     constexpr double from = 0.4, width = 1.2;  // radians, and radii
     const auto around = [](double, double beta) {
         return smooth((std::fabs(std::remainder(beta - 0.4, 2 * std::numbers::pi)) - from) / width);
     };
     const fit::Binding binding = fit::bind(masked(solid, mask_of(solid, around)), upright());
-    const Bent bare = bent(fit::bind(solid.geometry(), upright()), 0),
-               full = bent(fit::bind(solid.geometry(), upright()), 1);
+    const Bent bare = bent_with_normals(fit::bind(solid.geometry(), upright()), 0),
+               full = bent_with_normals(fit::bind(solid.geometry(), upright()), 1);
     double depth = 0;
     for (std::size_t i = 0; i < bare.positions.size(); ++i)
         depth = std::max(depth, double{glm::distance(bare.positions[i], full.positions[i])});
     const double steepest = std::numbers::pi / 2 * depth / width;  // of a cosine's half wave
-    const double lag = worst_normal(solid, bent(binding, 1));
+    const double lag = worst_normal(solid, bent_with_normals(binding, 1));
     MESSAGE("degrees: " << lag << " seen, " << glm::degrees(std::atan(steepest)) << " promised");
     CHECK(lag > 1);
     CHECK(lag < glm::degrees(std::atan(steepest)));
 }
 
 TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one normal") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const std::size_t count = solid.positions.size();
     std::vector<glm::vec3> positions = solid.positions,
                            normals = fit::make_normals(solid.positions, solid.triangles);
@@ -174,7 +173,7 @@ TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one no
     std::vector<float> mask;
     for (const glm::vec3& p : positions) mask.push_back(p.z > 4.49f ? 1.0f : 0.0f);
     const fit::Geometry geometry{positions, triangles, normals, {}, mask};
-    const Bent result = bent(fit::bind(geometry, upright()), 1);
+    const Bent result = bent_with_normals(fit::bind(geometry, upright()), 1);
     double worst = 0;
     for (std::size_t i = 0; i < count; ++i)
         worst = std::max(worst, double{glm::distance(result.normals[i], result.normals[count + i])});
@@ -182,7 +181,7 @@ TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one no
 }
 
 TEST_CASE("a socket near a surface without area is refused") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const fit::Binding binding = fit::bind(solid.geometry(), upright());
     fit::Geometry flat = solid.geometry();
     const std::vector<std::uint32_t> slivers{0, 0, 1, 2, 2, 2};
@@ -193,11 +192,11 @@ TEST_CASE("a socket near a surface without area is refused") {
 }
 
 TEST_CASE("wrinkle mask: a socket goes where its place on the mesh goes") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const std::vector<float> mask = mask_of(solid, [](double z, double) { return smooth((z - 0.3) / 0.4); });
     const fit::Geometry geometry = masked(solid, mask);
     const fit::Binding binding = fit::bind(geometry, upright());
-    const Bent result = bent(binding, 1);
+    const Bent result = bent_with_normals(binding, 1);
     const std::vector<bend::Pose> poses{{static_cast<float>(right_angle), 0.4f}};
     bend::DeformJob job{.body = &binding.body, .poses = poses};
     double worst = 0, unmasked = 0;
@@ -215,16 +214,16 @@ TEST_CASE("wrinkle mask: a socket goes where its place on the mesh goes") {
 }
 
 TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bare bend") {
-    const Solid solid = fine_tube();
+    const Solid solid = very_fine_tube();
     const std::vector<float> ones(solid.positions.size(), 1.0f), zeros(solid.positions.size());
     for (const fit::Amplitude amplitude : {fit::Amplitude::paper, fit::Amplitude::mesh}) {
         fit::BindOptions options;
         options.amplitude = amplitude;
         const fit::Binding plain = fit::bind(solid.geometry(), upright(), options);
-        CHECK((bent(fit::bind(masked(solid, ones), upright(), options), 1).positions ==
-               bent(plain, 1).positions));
-        const Bent nothing = bent(fit::bind(masked(solid, zeros), upright(), options), 1);
-        const Bent bare = bent(plain, 0);
+        CHECK((bent_with_normals(fit::bind(masked(solid, ones), upright(), options), 1).positions ==
+               bent_with_normals(plain, 1).positions));
+        const Bent nothing = bent_with_normals(fit::bind(masked(solid, zeros), upright(), options), 1);
+        const Bent bare = bent_with_normals(plain, 0);
         double worst = 0;
         for (std::size_t i = 0; i < bare.positions.size(); ++i)
             worst = std::max(worst, double{glm::distance(nothing.positions[i], bare.positions[i])});
@@ -233,11 +232,13 @@ TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bar
 }
 
 TEST_CASE("wrinkle mask: a level of detail has its own") {
-    const Solid fine = fine_tube(), level = tube();
+    const Solid fine = very_fine_tube(), level = tube();
     const fit::Binding rig = fit::bind(fine.geometry(), upright());
     const std::vector<float> zeros(level.positions.size());
-    const std::vector<glm::vec3> smooth = bent(fit::bind_level(masked(level, zeros), rig), 1).positions,
-                                 bare = bent(fit::bind_level(level.geometry(), rig), 0).positions;
+    const std::vector<glm::vec3> smooth = bent_with_normals(fit::bind_level(masked(level, zeros), rig), 1)
+                                              .positions,
+                                 bare =
+                                     bent_with_normals(fit::bind_level(level.geometry(), rig), 0).positions;
     double worst = 0;
     for (std::size_t i = 0; i < bare.size(); ++i)
         worst = std::max(worst, double{glm::distance(smooth[i], bare[i])});
@@ -246,12 +247,12 @@ TEST_CASE("wrinkle mask: a level of detail has its own") {
 
 TEST_CASE("wrinkle mask: what is no mask is refused, and the vertex named") {
     const std::size_t count = tube().positions.size();
-    CHECK(error_of(std::vector<float>(count - 1, 1.0f)).find("give one per vertex or none") !=
+    CHECK(mask_error(std::vector<float>(count - 1, 1.0f)).find("give one per vertex or none") !=
           std::string::npos);
     for (const float bad :
          {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         std::vector<float> mask(count, 0.5f);
         mask[7] = bad;
-        CHECK(error_of(mask).find("wrinkle mask of vertex 7 is outside 0..1") == 0);
+        CHECK(mask_error(mask).find("wrinkle mask of vertex 7 is outside 0..1") == 0);
     }
 }

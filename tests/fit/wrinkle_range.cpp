@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -21,9 +22,7 @@ using namespace goffer::test;
 
 namespace {
 
-constexpr double right_angle = std::numbers::pi / 2;
-
-std::vector<glm::vec3> bent(const fit::Binding& binding, double angle, float wrinkle_weight) {
+std::vector<glm::vec3> bent_positions(const fit::Binding& binding, double angle, float wrinkle_weight) {
     const bend::Body& body = binding.body;
     std::vector<bend::Pose> poses;
     for (std::size_t i = 0; i < body.region_count(); ++i)
@@ -42,8 +41,8 @@ struct Reach {
     double inside = 0, outside = 0;
 
     Reach(const fit::Binding& binding, const Solid& solid, const fit::WrinkleRange& range) {
-        const std::vector<glm::vec3> bare = bent(binding, right_angle, 0),
-                                     full = bent(binding, right_angle, 1);
+        const std::vector<glm::vec3> bare = bent_positions(binding, right_angle, 0),
+                                     full = bent_positions(binding, right_angle, 1);
         for (std::size_t i = 0; i < bare.size(); ++i) {
             const double share = static_cast<double>(solid.positions[i].z) / 10;
             double& own = share > range.first && share < range.last ? inside : outside;
@@ -57,7 +56,7 @@ Solid fine_tube() {
     return cylinder({.columns = 32, .rows = 241, .closed = false}, random);
 }
 
-std::string error_of(const fit::BindOptions& options) {
+std::string range_error(const fit::BindOptions& options) {
     try {
         (void)fit::bind(tube().geometry(), upright(), options);
     } catch (const fit::Error& error) {
@@ -109,7 +108,7 @@ TEST_CASE("wrinkle range: amplitude mesh keeps the area of what lies inside, and
     const double area = fit::surface_area(solid.positions, inside);
     CHECK(area / fit::surface_area(solid.positions, solid.triangles) == doctest::Approx(0.65).epsilon(0.02));
     for (const double angle : {0.5, 1.0, right_angle, 2.5}) {
-        const std::vector<glm::vec3> positions = bent(binding, angle, 1);
+        const std::vector<glm::vec3> positions = bent_positions(binding, angle, 1);
         CHECK(std::abs(fit::surface_area(positions, inside) / area - 1) < 1e-3);
         // The bare bend's area factor is 1 - alpha r / L.
         const double beyond =
@@ -123,8 +122,8 @@ TEST_CASE("wrinkle range: all of the body is as if nothing was said") {
     const Solid solid = fine_tube();
     fit::BindOptions options;
     options.wrinkle_range = {0, 1};
-    CHECK((bent(fit::bind(solid.geometry(), upright(), options), 1, 1) ==
-           bent(fit::bind(solid.geometry(), upright()), 1, 1)));
+    CHECK((bent_positions(fit::bind(solid.geometry(), upright(), options), 1, 1) ==
+           bent_positions(fit::bind(solid.geometry(), upright()), 1, 1)));
 }
 
 TEST_CASE("wrinkle range: no rows are added beyond it, and a coarse mesh there takes no folds away") {
@@ -161,10 +160,10 @@ TEST_CASE("wrinkle range: what is no stretch of the body is refused") {
           fit::WrinkleRange{0, std::nan("")}}) {
         fit::BindOptions options;
         options.wrinkle_range = range;
-        CHECK(error_of(options).find("wrinkle range: ") == 0);
+        CHECK(range_error(options).find("wrinkle range: ") == 0);
     }
     fit::BindOptions options;
     options.wrinkle_range = {0, 0.5};
     options.amplitude = fit::Amplitude::area;
-    CHECK(error_of(options).find("with a wrinkle range; use mesh") != std::string::npos);
+    CHECK(range_error(options).find("with a wrinkle range; use mesh") != std::string::npos);
 }

@@ -108,7 +108,7 @@ void attribute(GLuint location, GLint floats, const gpu::VertexLayout& layout, s
                           reinterpret_cast<const void*>(offset));
 }
 
-void set_attributes(const gpu::VertexLayout& layout) {
+void set_vertex_attributes(const gpu::VertexLayout& layout) {
     attribute(0, 4, layout, layout.column);
     attribute(1, 4, layout, layout.wrinkle);
     attribute(2, 3, layout, layout.normal);
@@ -181,7 +181,7 @@ public:
             glGenVertexArrays(1, &array);
             glBindVertexArray(array);
             buffer(GL_ARRAY_BUFFER, vertices.size(), vertices.data());
-            set_attributes(layout);
+            set_vertex_attributes(layout);
             set_texture(api_, rows);
             capture(bytes, count, instances);
         }

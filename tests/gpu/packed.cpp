@@ -43,7 +43,7 @@ void main() {
 )";
 
 /// The vertices as attributes of the formats that packed.glsl names.
-void set_attributes(std::span<const bend::PackedVertex> vertices) {
+void set_packed_attributes(std::span<const bend::PackedVertex> vertices) {
     GLuint array = 0;
     glGenVertexArrays(1, &array);
     glBindVertexArray(array);
@@ -67,7 +67,7 @@ std::vector<Decoded> decoded(Api api, std::span<const bend::PackedVertex> vertic
     glUseProgram(program);
     glUniform3fv(glGetUniformLocation(program, "low"), 1, glm::value_ptr(box.low));
     glUniform3fv(glGetUniformLocation(program, "high"), 1, glm::value_ptr(box.high));
-    set_attributes(vertices);
+    set_packed_attributes(vertices);
     std::vector<Decoded> result(vertices.size());
     capture(result.size() * sizeof(Decoded), result.size(), 1);
     read_back(GL_TRANSFORM_FEEDBACK_BUFFER, std::span(result));
@@ -100,7 +100,7 @@ double steps_between(const glm::vec3& a, const glm::vec3& b, const bend::Bounds&
     return glm::max(steps.x, glm::max(steps.y, steps.z));
 }
 
-void agree(Api api, unsigned seed) {
+void decoders_agree(Api api, unsigned seed) {
     std::string why;
     const draw::OffscreenContext context(api, why);
     if (!context) {
@@ -132,11 +132,11 @@ void agree(Api api, unsigned seed) {
 }  // namespace
 
 TEST_CASE("shader: OpenGL 3.3 decodes packed vertices as the CPU does") {
-    agree(Api::core33, 98);
+    decoders_agree(Api::core33, 98);
 }
 
 TEST_CASE("shader: OpenGL ES 3.0 decodes packed vertices as the CPU does") {
-    agree(Api::es30, 99);
+    decoders_agree(Api::es30, 99);
 }
 
 }  // namespace goffer::test

@@ -26,7 +26,7 @@
 namespace goffer::test {
 namespace {
 
-namespace shader {
+namespace deform_shader {
 using namespace glm;
 namespace glsl {
 #include <goffer/gpu/deform.glsl>
@@ -42,7 +42,7 @@ glm::vec4 glsl::goffer_row(int row) {
 }
 
 using namespace glsl;
-}  // namespace shader
+}  // namespace deform_shader
 
 /// The attributes of a vertex, read from its record as a GPU does.
 class Attributes {
@@ -52,8 +52,8 @@ public:
         gpu::write_vertices(body, records_);
     }
 
-    [[nodiscard]] shader::GofferVertex vertex(std::size_t i) const {
-        shader::GofferVertex vertex{};
+    [[nodiscard]] deform_shader::GofferVertex vertex(std::size_t i) const {
+        deform_shader::GofferVertex vertex{};
         vertex.column = at(i, layout_.column, 4);
         vertex.wrinkle = at(i, layout_.wrinkle, 4);
         vertex.normal = at(i, layout_.normal, 3);
@@ -81,10 +81,10 @@ Output shaded(const bend::DeformJob& job) {
     const Attributes attributes(*job.body);
     std::vector<bend::Coefficients> coefficients(job.body->region_count(), unset());
     bend::set_up(batch_of(job), coefficients, job.isa);
-    shader::coefficients = coefficients.data();
+    deform_shader::coefficients = coefficients.data();
     Output out(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const shader::GofferBent bent = shader::goffer_deform(attributes.vertex(i), 0);
+        const deform_shader::GofferBent bent = deform_shader::goffer_deform(attributes.vertex(i), 0);
         for (int c = 0; c < 3; ++c) {
             const auto column = static_cast<std::size_t>(c);
             out.columns[column][i] = bent.position[c];

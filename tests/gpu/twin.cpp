@@ -79,7 +79,7 @@ glm::dvec3 vector(const float (&from)[3]) {
     return {from[0], from[1], from[2]};
 }
 
-void agree(GlApi api, unsigned seed) {
+void twins_agree(GlApi api, unsigned seed) {
     std::string why;
     const std::unique_ptr<GlDeformer> shader = GlDeformer::make(api, why);
     if (!shader) {
@@ -115,15 +115,15 @@ void agree(GlApi api, unsigned seed) {
 }  // namespace
 
 TEST_CASE("shader: OpenGL 3.3, a vertex shader deforms as the kernels do") {
-    agree(GlApi::core, 95);
+    twins_agree(GlApi::core, 95);
 }
 
 TEST_CASE("shader: OpenGL ES 3.0, a vertex shader deforms as the kernels do") {
-    agree(GlApi::embedded, 96);
+    twins_agree(GlApi::embedded, 96);
 }
 
 TEST_CASE("shader: OpenGL 4.3, a compute shader deforms as the kernels do") {
-    agree(GlApi::compute, 97);
+    twins_agree(GlApi::compute, 97);
 }
 
 }  // namespace goffer::test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/bodies.hpp"
-
+#include "small_mesh.hpp"
 #include "starve.hpp"
 
 #include <goffer/bend/body_file.hpp>
@@ -21,11 +20,6 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reser
 }
 
 namespace {
-
-TestMesh small_mesh() {
-    Random random(5);
-    return random_mesh(random, 8, 1, 8, 33, 4);
-}
 
 void starve_bind(const fit::BindOptions& options, std::uint64_t most) {
     const TestMesh mesh = small_mesh();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "small_mesh.hpp"
 #include "starve.hpp"
-#include "support/bodies.hpp"
 
 #include <goffer/fit/bake.hpp>
 #include <goffer/fit/sockets.hpp>
@@ -20,11 +20,6 @@ using namespace goffer::test;
 
 namespace {
 
-TestMesh small_mesh() {
-    Random random(5);
-    return random_mesh(random, 8, 1, 8, 33, 4);
-}
-
 goffer_mesh mesh_of(const TestMesh& mesh) {
     goffer_mesh from = {};
     from.positions = &mesh.positions[0].x;
@@ -34,7 +29,7 @@ goffer_mesh mesh_of(const TestMesh& mesh) {
     return from;
 }
 
-std::vector<std::byte> bytes_of(const TestMesh& mesh) {
+std::vector<std::byte> baked_bytes(const TestMesh& mesh) {
     fit::BindOptions options;
     options.folds = 2;
     options.regions = {{0.4, 2}, {0.6, 3}};
@@ -78,7 +73,7 @@ TEST_CASE("C: a bind without it is an error") {
 }
 
 TEST_CASE("C: a body file without it is not loaded, nor are its sockets") {
-    const std::vector<std::byte> bytes = bytes_of(small_mesh());
+    const std::vector<std::byte> bytes = baked_bytes(small_mesh());
     starve_call(
         [&](goffer_error* error) {
             return goffer_file_load(bytes.data(), bytes.size(), GOFFER_VERIFY_EVERYTHING, 1, error);

@@ -19,7 +19,7 @@ void* checked(void* memory) {
     return memory;
 }
 
-std::size_t bytes_of(std::align_val_t alignment) {
+std::size_t alignment_of(std::align_val_t alignment) {
     return static_cast<std::size_t>(alignment);
 }
 
@@ -41,8 +41,9 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
 
 void* operator new(std::size_t size, std::align_val_t alignment) {
     count(size);
-    const std::size_t whole = (size + bytes_of(alignment) - 1) / bytes_of(alignment) * bytes_of(alignment);
-    return checked(std::aligned_alloc(bytes_of(alignment), std::max(whole, bytes_of(alignment))));
+    const std::size_t whole =
+        (size + alignment_of(alignment) - 1) / alignment_of(alignment) * alignment_of(alignment);
+    return checked(std::aligned_alloc(alignment_of(alignment), std::max(whole, alignment_of(alignment))));
 }
 
 void operator delete(void* memory) noexcept {

@@ -14,8 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
 /// Two quads in two parts of two materials, with normals, uvs, all of them per vertex, and colors.
 Mesh made() {
     Mesh mesh;
@@ -70,7 +68,7 @@ TEST_CASE("file: content counts before the ending") {
         fs::rename(folder / "b.OBJ", folder / "b");
         CHECK(soup(load(folder / "b")) == soup(mesh));
     }
-    CHECK(load_text("a.xyz", "# from somewhere\n\n  " + triangle).positions.size() == 3);
+    CHECK(load_text("a.xyz", "# from somewhere\n\n  " + triangle_obj).positions.size() == 3);
     CHECK(tells(load_error("a.xyz", "solid ground\nendsolid ground\n"), "no facets"));
     CHECK(tells(load_error("a.xyz", "solid ground\nis words\n"), "neither the content nor the ending"));
 }

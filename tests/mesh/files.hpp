@@ -11,6 +11,9 @@
 
 namespace goffer::test {
 
+/// A triangle as an OBJ.
+inline const std::string triangle_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
 inline mesh::Mesh load_text(const std::string& name, const std::string& bytes) {
     const Folder folder;
     return mesh::load(folder.write(name, bytes));

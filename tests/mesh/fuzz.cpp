@@ -27,7 +27,7 @@ const std::string stl =
     "0\nendloop\nendfacet\nendsolid\n";
 
 /// Cuts, flips, doubles or swaps a few bytes.
-std::string mutated(std::string bytes, std::mt19937& random) {
+std::string mutated_text(std::string bytes, std::mt19937& random) {
     const auto place = [&] { return random() % (bytes.size() + 1); };
     for (std::uint32_t n = 1 + random() % 2; n > 0; --n) {
         const std::size_t at = place();
@@ -62,8 +62,9 @@ int survive(const std::string& name, const std::string& bytes, int rounds, const
     std::mt19937 random(20150627);
     int loaded = 0;
     for (int i = 0; i < rounds; ++i) {
-        if (!beside.empty()) folder.write("m.mtl", mutated(beside, random));
-        const auto file = folder.write(name, beside.empty() || i % 2 == 0 ? mutated(bytes, random) : bytes);
+        if (!beside.empty()) folder.write("m.mtl", mutated_text(beside, random));
+        const auto file =
+            folder.write(name, beside.empty() || i % 2 == 0 ? mutated_text(bytes, random) : bytes);
         try {
             const Mesh mesh = load(file);
             ++loaded;

@@ -50,7 +50,7 @@ bool survives(const std::string& name, const std::string& bytes) {
 }
 
 /// Swaps, overwrites, inserts or removes a few bytes.
-std::string mutated(std::string bytes, std::mt19937& random) {
+std::string mutated_document(std::string bytes, std::mt19937& random) {
     const auto below = [&](std::size_t n) {
         return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
     };
@@ -116,7 +116,7 @@ TEST_CASE("gltf fuzz: broken bytes of a GLB end in an error or a mesh") {
     const std::string whole = subject().glb();
     REQUIRE(survives("d.glb", whole));
     std::size_t read = 0;
-    for (int i = 0; i < 1200; ++i) read += survives("d.glb", mutated(whole, random));
+    for (int i = 0; i < 1200; ++i) read += survives("d.glb", mutated_document(whole, random));
     CHECK(read > 30);
     CHECK(read < 130);
 }
@@ -126,7 +126,7 @@ TEST_CASE("gltf fuzz: broken bytes of a .gltf end in an error or a mesh") {
     const std::string whole = subject().gltf();
     REQUIRE(survives("d.gltf", whole));
     std::size_t read = 0;
-    for (int i = 0; i < 1200; ++i) read += survives("d.gltf", mutated(whole, random));
+    for (int i = 0; i < 1200; ++i) read += survives("d.gltf", mutated_document(whole, random));
     CHECK(read > 40);
     CHECK(read < 160);
 }

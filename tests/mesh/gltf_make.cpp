@@ -8,8 +8,6 @@ using goffer::mesh::Mesh;
 
 namespace {
 
-constexpr std::uint32_t none = Attribute<glm::vec2>::none;
-
 /// Two squares that share an edge, each with its own normal and UVs, as an OBJ has them.
 Mesh folded() {
     Mesh mesh;
@@ -17,7 +15,7 @@ Mesh folded() {
     mesh.corners = {0, 1, 2, 3, 1, 4, 5, 2};
     mesh.faces = {4, 4};
     mesh.normals = {{{0, 0, 2}, {-3, 0, 0}}, {0, 0, 0, 0, 1, 1, 1, 1}};
-    mesh.uvs = {{{{0, 0}, {0.5f, 0.5f}}, {0, 0, 0, 0, 0, 1, 1, none}}};
+    mesh.uvs = {{{{0, 0}, {0.5f, 0.5f}}, {0, 0, 0, 0, 0, 1, 1, Attribute<glm::vec2>::none}}};
     mesh.parts = {{"floor", 0, 0, 1}, {"wall", 1, 1, 1}};
     mesh.materials = {{"red", {1, 0, 0, 1}}, {"glass", {0, 2, 0, 0.5f}}};
     return mesh;
@@ -68,7 +66,7 @@ TEST_CASE("gltf made: normals that are no direction become the face's, UVs that 
     Mesh mesh = folded();
     mesh.normals.values = {{0, 0, 0}, {0, 0, 0}};
     mesh.uvs[0].values[0] = {std::nanf(""), 1};
-    mesh.tangents = {{{0, 0, 0, 0}, {3, 0, 0, -2}}, {0, 1, 0, 0, 0, 0, 0, none}};
+    mesh.tangents = {{{0, 0, 0, 0}, {3, 0, 0, -2}}, {0, 1, 0, 0, 0, 0, 0, Attribute<glm::vec4>::none}};
     const Mesh again = reloaded(mesh, "o.glb");
     for (const auto& [vertex, expected] :
          {std::pair{0, glm::vec3(0, 0, 1)}, std::pair{6, glm::vec3(-1, 0, 0)}}) {

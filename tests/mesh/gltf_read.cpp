@@ -20,7 +20,7 @@ struct Counts {
     bool tangents = false;
 };
 
-void check_model(const char* name, const Counts& known) {
+void check_read_model(const char* name, const Counts& known) {
     const auto file = model(name);
     if (file.empty()) return;
     const Mesh mesh = load(file);
@@ -364,23 +364,23 @@ TEST_CASE("gltf: outer buffers are found beside the document, by their decoded n
 }
 
 TEST_CASE("gltf: wine_bottle.glb comes in whole") {
-    check_model("wine_bottle.glb", {.vertices = 508, .triangles = 616, .uv_sets = 2});
+    check_read_model("wine_bottle.glb", {.vertices = 508, .triangles = 616, .uv_sets = 2});
 }
 
 TEST_CASE("gltf: WaterBottle.gltf comes in whole") {
-    check_model("WaterBottle.gltf", {.vertices = 2549, .triangles = 4510, .tangents = true});
+    check_read_model("WaterBottle.gltf", {.vertices = 2549, .triangles = 4510, .tangents = true});
 }
 
 TEST_CASE("gltf: log_01.glb comes in whole") {
-    check_model("log_01.glb", {.vertices = 1227, .triangles = 2190});
+    check_read_model("log_01.glb", {.vertices = 1227, .triangles = 2190});
 }
 
 TEST_CASE("gltf: insect_leg.glb comes in whole") {
-    check_model("insect_leg.glb", {.vertices = 1605, .triangles = 2528, .parts = 11});
+    check_read_model("insect_leg.glb", {.vertices = 1605, .triangles = 2528, .parts = 11});
 }
 
 TEST_CASE("gltf: cushion_02.glb comes in whole") {
-    check_model("cushion_02.glb", {.vertices = 1982, .triangles = 3520});
+    check_read_model("cushion_02.glb", {.vertices = 1982, .triangles = 3520});
 }
 
 TEST_CASE("gltf: log_01.glb stands upright in the world, as its node says") {

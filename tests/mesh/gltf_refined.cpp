@@ -58,7 +58,7 @@ Document skinned(const std::vector<float>& weights) {
 
 const std::vector<float> weights{0.75f, 0.25f, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0.5f, 0.25f, 0.25f, 0};
 
-void check_model(const char* name, int axis) {
+void check_refined_files(const char* name, int axis) {
     const auto file = model(name);
     if (file.empty()) return;
     const Folder folder;
@@ -289,23 +289,23 @@ TEST_CASE("gltf: what is refined has no errors in Khronos' validator") {
 }
 
 TEST_CASE("gltf: insect_leg.glb, refined, has no errors in Khronos' validator") {
-    check_model("insect_leg.glb", 0);
+    check_refined_files("insect_leg.glb", 0);
 }
 
 TEST_CASE("gltf: log_01.glb, refined, has no errors in Khronos' validator") {
-    check_model("log_01.glb", 1);
+    check_refined_files("log_01.glb", 1);
 }
 
 TEST_CASE("gltf: cushion_02.glb, refined, has no errors in Khronos' validator") {
-    check_model("cushion_02.glb", 0);
+    check_refined_files("cushion_02.glb", 0);
 }
 
 TEST_CASE("gltf: wine_bottle.glb, refined, has no errors in Khronos' validator") {
-    check_model("wine_bottle.glb", 1);
+    check_refined_files("wine_bottle.glb", 1);
 }
 
 TEST_CASE("gltf: WaterBottle.gltf, refined, has no errors in Khronos' validator") {
-    check_model("WaterBottle.gltf", 1);
+    check_refined_files("WaterBottle.gltf", 1);
 }
 
 TEST_CASE("gltf: refined, vertices between new vertices are those of two refinements, joints and all") {

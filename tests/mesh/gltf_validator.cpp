@@ -24,7 +24,7 @@ void save_all(const Folder& folder, const std::string& stem, const Mesh& mesh,
     }
 }
 
-void check_model(const char* name) {
+void check_valid_model(const char* name) {
     const auto file = model(name);
     if (file.empty()) return;
     const Folder folder;
@@ -64,45 +64,45 @@ TEST_CASE("gltf: what is written of small documents has no errors in Khronos' va
 }
 
 TEST_CASE("gltf: what is written of WaterBottle.gltf has no errors in Khronos' validator") {
-    check_model("WaterBottle.gltf");
+    check_valid_model("WaterBottle.gltf");
 }
 
 TEST_CASE("gltf: what is written of insect_leg.glb has no errors in Khronos' validator") {
-    check_model("insect_leg.glb");
+    check_valid_model("insect_leg.glb");
 }
 
 TEST_CASE("gltf: what is written of log_01.glb has no errors in Khronos' validator") {
-    check_model("log_01.glb");
+    check_valid_model("log_01.glb");
 }
 
 TEST_CASE("gltf: what is written of cushion_02.glb has no errors in Khronos' validator") {
-    check_model("cushion_02.glb");
+    check_valid_model("cushion_02.glb");
 }
 
 TEST_CASE("gltf: what is written of wine_bottle.glb has no errors in Khronos' validator") {
-    check_model("wine_bottle.glb");
+    check_valid_model("wine_bottle.glb");
 }
 
 TEST_CASE("gltf: what is written of banana.obj has no errors in Khronos' validator") {
-    check_model("banana.obj");
+    check_valid_model("banana.obj");
 }
 
 TEST_CASE("gltf: what is written of blub_open.obj has no errors in Khronos' validator") {
-    check_model("blub_open.obj");
+    check_valid_model("blub_open.obj");
 }
 
 TEST_CASE("gltf: what is written of koala.obj has no errors in Khronos' validator") {
-    check_model("koala.obj");
+    check_valid_model("koala.obj");
 }
 
 TEST_CASE("gltf: what is written of softball.obj has no errors in Khronos' validator") {
-    check_model("softball.obj");
+    check_valid_model("softball.obj");
 }
 
 TEST_CASE("gltf: what is written of fuze.ply has no errors in Khronos' validator") {
-    check_model("fuze.ply");
+    check_valid_model("fuze.ply");
 }
 
 TEST_CASE("gltf: what is written of lh_trochanterfemur.stl has no errors in Khronos' validator") {
-    check_model("lh_trochanterfemur.stl");
+    check_valid_model("lh_trochanterfemur.stl");
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// Nodes with scale, mirror and shear (a rotated child of an unevenly scaled parent), and all fields that a
 /// document may have.
-Document rich() {
+Document rich_document() {
     Document document = tetra_with_nodes(R"([
         {"name": "root", "children": [1, 2], "scale": [2, 1, 0.5], "translation": [1, 2, 3], "extras": {"tag": [1, 2.5, "x"]}},
         {"mesh": 0, "rotation": [0.1, 0.2, 0.3, 0.9], "translation": [5, 0, 0]},
@@ -36,14 +36,14 @@ Document rich() {
 
 /// The same with one user of the mesh.
 Document rich_alone() {
-    Document document = rich();
+    Document document = rich_document();
     document.json["nodes"][0]["children"] = {1};
     document.json["nodes"][2].erase("mesh");
     return document;
 }
 
 /// A change of shape that changes every vertex, normal and tangent.
-Mesh bent(Mesh mesh) {
+Mesh bent_all_over(Mesh mesh) {
     for (glm::vec3& p : mesh.positions)
         p = {p.x + 0.3f * p.y + 1.0f, p.y - 0.2f * p.z * p.z, p.z * 1.1f - 0.25f};
     for (glm::vec3& n : mesh.normals.values) n = glm::normalize(glm::vec3(n.y + 0.1f, n.z, n.x));
@@ -79,7 +79,7 @@ Document saved_document(const Mesh& mesh) {
 }
 
 /// A GLB that is not changed comes out as it came in, but for spaces. Bent, any is found again in the world.
-void check_model(const char* name) {
+void check_written_model(const char* name) {
     const auto file = model(name);
     if (file.empty()) return;
     const Mesh mesh = load(file);
@@ -88,7 +88,7 @@ void check_model(const char* name) {
         CHECK(in.json.dump() == out.json.dump());
         CHECK(in.buffer == out.buffer);
     }
-    const Mesh moved = bent(mesh);
+    const Mesh moved = bent_all_over(mesh);
     check_same_streams(reloaded(moved, "out.glb"), moved, 2e-6f);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("gltf: what only another scene shows stays as it is, whatever it is") 
 }
 
 TEST_CASE("gltf: an unchanged document comes out as it came in, to the last bit and in its order") {
-    const Document document = rich();
+    const Document document = rich_document();
     const Mesh mesh = load_document(document);
     const Document out = saved_document(mesh);
     CHECK(without(out.json, {"buffers"}).dump() == document.json.dump());
@@ -118,33 +118,33 @@ TEST_CASE("gltf: an unchanged document comes out as it came in, to the last bit 
 }
 
 TEST_CASE("gltf: a bent mesh is found again in the world, from GLB and from .gltf") {
-    const Mesh mesh = bent(load_document(rich()));
+    const Mesh mesh = bent_all_over(load_document(rich_document()));
     for (const char* name : {"out.glb", "out.gltf"}) check_same_streams(reloaded(mesh, name), mesh, 2e-6f);
 }
 
 TEST_CASE("gltf: wine_bottle.glb is written as it was, and bent, found again in the world") {
-    check_model("wine_bottle.glb");
+    check_written_model("wine_bottle.glb");
 }
 
 TEST_CASE("gltf: log_01.glb is written as it was, and bent, found again in the world") {
-    check_model("log_01.glb");
+    check_written_model("log_01.glb");
 }
 
 TEST_CASE("gltf: insect_leg.glb is written as it was, and bent, found again in the world") {
-    check_model("insect_leg.glb");
+    check_written_model("insect_leg.glb");
 }
 
 TEST_CASE("gltf: cushion_02.glb is written as it was, and bent, found again in the world") {
-    check_model("cushion_02.glb");
+    check_written_model("cushion_02.glb");
 }
 
 TEST_CASE("gltf: WaterBottle.gltf is written as it was, and bent, found again in the world") {
-    check_model("WaterBottle.gltf");
+    check_written_model("WaterBottle.gltf");
 }
 
 TEST_CASE("gltf: bending changes accessors of positions, normals and tangents, and nothing else") {
     const Document document = rich_alone();
-    const Document out = saved_document(bent(load_document(document)));
+    const Document out = saved_document(bent_all_over(load_document(document)));
     const std::vector<const char*> touched{"buffers", "bufferViews", "accessors"};
     CHECK(without(out.json, touched).dump() == without(document.json, touched).dump());
     REQUIRE(out.json["accessors"].size() == document.json["accessors"].size());
@@ -158,7 +158,7 @@ TEST_CASE("gltf: bending changes accessors of positions, normals and tangents, a
 }
 
 TEST_CASE("gltf: the bounds of bent positions are exact") {
-    const Document out = saved_document(bent(load_document(rich())));
+    const Document out = saved_document(bent_all_over(load_document(rich_document())));
     std::size_t checked = 0;
     for (const Json& mesh : out.json["meshes"]) {
         const Json& accessor =
@@ -209,7 +209,7 @@ TEST_CASE("gltf: nodes that share a mesh get their own where shapes differ, and 
     check_same_streams(reloaded(mesh, "o.glb"), mesh, 1e-6f);
 
     Document outsider = document;  // nodes 1 and 2 are in no scene: their mesh must not change
-    mesh = bent(load_document(outsider));
+    mesh = bent_all_over(load_document(outsider));
     const Json json = saved_document(mesh).json;
     CHECK(json["nodes"][0]["mesh"] == 1);
     CHECK(json["meshes"][0] == document.json["meshes"][0]);
@@ -222,16 +222,16 @@ TEST_CASE("gltf: primitives that share positions but not normals keep sharing po
     document.json["meshes"][0]["primitives"].push_back(second);
     const Mesh mesh = load_document(document);
     CHECK(mesh.positions.size() == 8);
-    const Document out = saved_document(bent(mesh));
+    const Document out = saved_document(bent_all_over(mesh));
     const Json& primitives = out.json["meshes"][0]["primitives"];
     CHECK(primitives[0]["attributes"]["POSITION"] == primitives[1]["attributes"]["POSITION"]);
-    check_same_streams(reloaded(bent(mesh), "o.glb"), bent(mesh), 1e-6f);
+    check_same_streams(reloaded(bent_all_over(mesh), "o.glb"), bent_all_over(mesh), 1e-6f);
 }
 
 TEST_CASE("gltf: an accessor that something else still uses stays beside its replacement") {
     Document document = tetra();
     primitive_of(document)["targets"] = Json::parse(R"([{"POSITION": 0}])");
-    const Mesh mesh = bent(load_document(document));
+    const Mesh mesh = bent_all_over(load_document(document));
     const Document out = saved_document(mesh);
     CHECK(out.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] == 0);
     CHECK(out.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] ==
@@ -252,7 +252,7 @@ TEST_CASE("gltf: quantized, sparse and interleaved positions become plain floats
     attributes["POSITION"] = document.accessor(view, 5123, "VEC3", 4);
     attributes["TEXCOORD_0"] = document.accessor(view, 5126, "VEC2", 4, 8);
     document.json["extensionsRequired"] = document.json["extensionsUsed"] = {"KHR_mesh_quantization"};
-    const Mesh mesh = bent(load_document(document)), again = reloaded(mesh, "o.glb");
+    const Mesh mesh = bent_all_over(load_document(document)), again = reloaded(mesh, "o.glb");
     check_same_streams(again, mesh, 1e-6f);
     CHECK(again.uvs[0].values == mesh.uvs[0].values);
     CHECK(again.uvs[0].values[3] == glm::vec2(1.5f, 0.75f));
@@ -264,7 +264,7 @@ TEST_CASE("gltf: a node that is flat cannot be written back: it stays, with a wa
     const Mesh mesh = load_document(document);
     REQUIRE(mesh.warnings.size() == 1);
     CHECK(mesh.warnings[0].find("nodes[0] is scaled to nothing or flat") != std::string::npos);
-    CHECK(saved_document(bent(mesh)).buffer == document.buffer);
+    CHECK(saved_document(bent_all_over(mesh)).buffer == document.buffer);
 }
 
 TEST_CASE("gltf: very uneven and very small scales are no flat ones") {
@@ -319,12 +319,12 @@ TEST_CASE("gltf: several buffers become one") {
     const Mesh mesh = load(folder.write("d.gltf", document.gltf()));
     check_same_streams(mesh, load_document(tetra()), 0.0f);
     check_same_streams(reloaded(mesh, "o.glb"), mesh, 0.0f);
-    check_same_streams(reloaded(bent(mesh), "o.gltf"), bent(mesh), 1e-6f);
+    check_same_streams(reloaded(bent_all_over(mesh), "o.gltf"), bent_all_over(mesh), 1e-6f);
     CHECK(saved_document(mesh).json["buffers"].size() == 1);
 }
 
 TEST_CASE("gltf: a mesh with other faces than its source is a new document") {
-    Mesh mesh = load_document(rich());
+    Mesh mesh = load_document(rich_document());
     std::swap(mesh.corners[0], mesh.corners[1]);
     const Document out = saved_document(mesh);
     CHECK(out.json["asset"]["generator"] == "goffer");

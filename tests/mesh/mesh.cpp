@@ -12,8 +12,6 @@ using namespace goffer::test;
 
 namespace {
 
-constexpr std::uint32_t none = Attribute<glm::vec3>::none;
-
 /// A square of two triangles, 0 1 2 and 0 2 3, and a loose vertex 4; two normals, the first shared by
 /// vertices 0 and 1.
 Mesh square() {
@@ -22,7 +20,7 @@ Mesh square() {
     mesh.corners = {0, 1, 2, 0, 2, 3};
     mesh.faces = {3, 3};
     mesh.normals.values = {{0, 0, 1}, {0, 0, 2}};
-    mesh.normals.corners = {0, 0, 1, 1, 1, none};
+    mesh.normals.corners = {0, 0, 1, 1, 1, Attribute<glm::vec3>::none};
     return mesh;
 }
 
@@ -56,7 +54,7 @@ TEST_CASE("a normal that several vertices share is split only where they differ"
     const Mesh out = with_vertex_arrays(mesh, bent);
     CHECK(out.positions[2] == glm::vec3(7, 7, 7));
     CHECK(out.normals.values == std::vector<glm::vec3>{{1, 0, 0}, {0, 0, 5}, {0, 1, 0}});
-    CHECK(out.normals.corners == std::vector<std::uint32_t>{0, 2, 1, 1, 1, none});
+    CHECK(out.normals.corners == std::vector<std::uint32_t>{0, 2, 1, 1, 1, Attribute<glm::vec3>::none});
 }
 
 TEST_CASE("normals per vertex and tangents go through, polygons are cut into fans") {

@@ -12,10 +12,8 @@ using namespace goffer::test;
 
 namespace {
 
-constexpr std::uint32_t none = Attribute<glm::vec3>::none;
-
 /// Everything that has to survive: comments, odd blanks, colors, w, quads, groups, unknown statements, CRLF.
-const std::string rich =
+const std::string rich_obj =
     "# made by hand\r\n"
     "mtllib missing.mtl\r\n"
     "o thing\r\n"
@@ -35,10 +33,8 @@ const std::string rich =
     "l 1 2\r\np 1\r\n"
     "# last line without an end";
 
-const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
 /// `mesh` with vertex 1 moved and every entry's normal made different.
-Mesh bent(const Mesh& mesh) {
+Mesh with_one_moved(const Mesh& mesh) {
     VertexArrays r = vertex_arrays(mesh);
     r.positions[1] = {2.5f, 1e-7f, 0.1f};
     for (std::size_t i = 0; i < r.normals.size(); ++i) r.normals[i] = {0.0f, 0.5f, static_cast<float>(i)};
@@ -48,13 +44,13 @@ Mesh bent(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("obj: everything is read in file order") {
-    const Mesh mesh = load_text("a.obj", rich);
+    const Mesh mesh = load_text("a.obj", rich_obj);
     CHECK(mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {1.5f, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     CHECK(mesh.faces == std::vector<std::uint32_t>{4, 3});
     CHECK(mesh.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 3});
     REQUIRE(mesh.uvs.size() == 1);
     CHECK(mesh.uvs[0].values == std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}});
-    CHECK(mesh.uvs[0].corners == std::vector<std::uint32_t>{0, 1, 2, none, 0, 1, 2});
+    CHECK(mesh.uvs[0].corners == std::vector<std::uint32_t>{0, 1, 2, Attribute<glm::vec3>::none, 0, 1, 2});
     CHECK(mesh.normals.values == std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}});
     CHECK(mesh.normals.corners == std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 1});
     CHECK(mesh.colors ==
@@ -66,24 +62,25 @@ TEST_CASE("obj: everything is read in file order") {
 }
 
 TEST_CASE("obj: an unchanged mesh is written to the byte") {
-    const Mesh mesh = load_text("a.obj", rich);
-    CHECK(saved(mesh, "b.obj") == rich);
-    CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), "b.obj") == rich);
+    const Mesh mesh = load_text("a.obj", rich_obj);
+    CHECK(saved(mesh, "b.obj") == rich_obj);
+    CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), "b.obj") == rich_obj);
 }
 
 TEST_CASE("obj: only lines that changed are written anew") {
-    Mesh mesh = load_text("a.obj", rich);
+    Mesh mesh = load_text("a.obj", rich_obj);
     mesh.positions[1] = {2.5f, 1e-7f, 0.1f};
     mesh.positions[2].z = -1;
     mesh.normals.values[1] = {1, 0, 0};
-    std::string expected = replaced(rich, "v  +1.50  0.0\t0 # second", "v  2.5  1e-07\t0.1 # second");
+    std::string expected = replaced(rich_obj, "v  +1.50  0.0\t0 # second", "v  2.5  1e-07\t0.1 # second");
     expected = replaced(expected, "v 1 1 0 0.25", "v 1 1 -1 0.25");
     CHECK(saved(mesh, "b.obj") == replaced(expected, "vn 0.00 1 0", "vn 1 0 0"));
 }
 
 TEST_CASE("obj: split normals follow the last one, and faces refer to them") {
-    const Mesh mesh = bent(load_text("a.obj", rich));  // records: vertices 0..3, each with one normal
-    std::string expected = replaced(rich, "v  +1.50  0.0\t0 #", "v  2.5  1e-07\t0.1 #");
+    const Mesh mesh =
+        with_one_moved(load_text("a.obj", rich_obj));  // records: vertices 0..3, each with one normal
+    std::string expected = replaced(rich_obj, "v  +1.50  0.0\t0 #", "v  2.5  1e-07\t0.1 #");
     expected = replaced(expected, "vn 0 0 1\r\nvn 0.00 1 0\r\n",
                         "vn 0 0.5 0\r\nvn 0 0.5 2\r\nvn 0 0.5 1\r\nvn 0 0.5 3\r\n");
     expected = replaced(expected, "f 1/1/1 2/2/1 3/3/2 4//2", "f 1/1/1 2/2/3 3/3/2 4//4");
@@ -98,7 +95,7 @@ TEST_CASE("obj: references that count backwards from before the last normal stay
     const std::string text =
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf -3//-1 -2//-1 -1//-1\nv 5 5 5\nvn 0 1 0\nf 1//-1 3//-2 "
         "-1//-1\n";
-    const Mesh mesh = bent(load_text("a.obj", text));
+    const Mesh mesh = with_one_moved(load_text("a.obj", text));
     const Mesh again = reloaded(mesh, "b.obj");
     CHECK(again.normals.values.size() == 5);
     CHECK(again.positions == mesh.positions);
@@ -106,7 +103,7 @@ TEST_CASE("obj: references that count backwards from before the last normal stay
 }
 
 TEST_CASE("obj: a mesh changed beyond bending is written anew") {
-    Mesh mesh = load_text("a.obj", rich);
+    Mesh mesh = load_text("a.obj", rich_obj);
     mesh.materials[1].base_color = {0.25f, 0.5f, 1.0f, 0.5f};
     mesh.parts[0].name = "new\nname";
     const Mesh again = reloaded(mesh, "b c.obj");
@@ -120,7 +117,7 @@ TEST_CASE("obj: a mesh changed beyond bending is written anew") {
 }
 
 TEST_CASE("obj: materials that share a name stay apart") {
-    Mesh mesh = load_text("a.obj", triangle);
+    Mesh mesh = load_text("a.obj", triangle_obj);
     mesh.materials = {{.name = "a"}, {.name = "a"}, {.name = ""}};
     mesh.parts = {{"p", 1, 0, 1}};
     const Mesh again = reloaded(mesh, "b.obj");
@@ -132,7 +129,7 @@ TEST_CASE("obj: base colors come from the material file") {
     const Folder folder;
     folder.write("my colors.mtl",
                  "newmtl red paint\nKd 1 0.5 0\nd 0.25\nmap_Kd red.png\n\nnewmtl unused\nKd 0 0 0\n");
-    const Mesh mesh = load(folder.write("a.obj", replaced(rich, "missing.mtl", "my colors.mtl")));
+    const Mesh mesh = load(folder.write("a.obj", replaced(rich_obj, "missing.mtl", "my colors.mtl")));
     CHECK(mesh.materials[0].base_color == glm::vec4(1, 0.5f, 0, 0.25f));
     CHECK(mesh.materials[1].base_color == Material{}.base_color);
     REQUIRE(mesh.warnings.size() == 1);
@@ -142,9 +139,9 @@ TEST_CASE("obj: base colors come from the material file") {
 TEST_CASE("obj: the way to the material file stays right in another folder") {
     const Folder from, to;
     from.write("missing.mtl", "newmtl blue\nKd 0 0 1\n");
-    const Mesh mesh = load(from.write("a.obj", rich));
+    const Mesh mesh = load(from.write("a.obj", rich_obj));
     save(mesh, from / "b.obj");
-    CHECK(bytes_of(from / "b.obj") == rich);
+    CHECK(bytes_of(from / "b.obj") == rich_obj);
     save(mesh, to / "b.obj");
     const Mesh gray = load(to / "b.obj");
     REQUIRE(gray.warnings.size() == 1);
@@ -168,7 +165,7 @@ TEST_CASE("obj: continued lines, a byte order mark and old line ends are read an
 }
 
 TEST_CASE("obj: numbers are written so that they read back exactly") {
-    Mesh mesh = load_text("a.obj", triangle);
+    Mesh mesh = load_text("a.obj", triangle_obj);
     for (const float value : {0.1f, 1.0f / 3, 1e-38f, 3.4028235e38f, 1.17549435e-38f, -16777217.0f, 1e-45f}) {
         mesh.positions[0] = {value, -value, std::nextafter(value, 0.0f)};
         CHECK(reloaded(mesh, "b.obj").positions == mesh.positions);
@@ -177,7 +174,7 @@ TEST_CASE("obj: numbers are written so that they read back exactly") {
 
 TEST_CASE("obj: what cannot be read is told with its line") {
     const auto error = [](const std::string& from, const std::string& to, const std::string& what) {
-        const std::string message = load_error("a.obj", replaced(rich, from, to));
+        const std::string message = load_error("a.obj", replaced(rich_obj, from, to));
         INFO(message);
         return tells(message, what);
     };
@@ -211,7 +208,7 @@ TEST_CASE("obj: a file without a mesh is refused") {
 }
 
 TEST_CASE("obj: faces of two corners are left out with a warning, and stay in the file") {
-    const std::string text = triangle + "f 1 2\nf 3 2 1\n";
+    const std::string text = triangle_obj + "f 1 2\nf 3 2 1\n";
     Mesh mesh = load_text("a.obj", text);
     CHECK(mesh.faces.size() == 2);
     REQUIRE(mesh.warnings.size() == 1);
@@ -221,13 +218,13 @@ TEST_CASE("obj: faces of two corners are left out with a warning, and stay in th
 }
 
 TEST_CASE("obj: a texture coordinate that is not finite counts as 0, with a warning") {
-    const Mesh mesh = load_text("a.obj", replaced(triangle, "f 1 2 3", "vt nan 1\nf 1/1 2/1 3/1"));
+    const Mesh mesh = load_text("a.obj", replaced(triangle_obj, "f 1 2 3", "vt nan 1\nf 1/1 2/1 3/1"));
     CHECK(mesh.uvs[0].values[0] == glm::vec2(0, 1));
     CHECK(mesh.warnings.size() == 1);
 }
 
 TEST_CASE("obj: normals that no face uses are no attribute, and stay in the file") {
-    const std::string text = "vn 0 0 1\n" + triangle;
+    const std::string text = "vn 0 0 1\n" + triangle_obj;
     Mesh mesh = load_text("a.obj", text);
     CHECK(mesh.normals.empty());
     CHECK(mesh.uvs.empty());

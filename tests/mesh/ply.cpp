@@ -36,7 +36,7 @@ const std::string body =
     "35.5 -1 -300 60000 4000000000\n"
     "9 4 0 1 2 3 8 0 0 1 0 1 1 0 1\n"
     "9 3 0 2 3 0\n";
-const std::string rich = header + body;
+const std::string rich_ply = header + body;
 
 /// The numbers of the body of `rich`, as bytes of the types in its header.
 struct Binary {
@@ -103,15 +103,15 @@ std::string small(const std::string& vertex_type, const std::string& vertices) {
 }  // namespace
 
 TEST_CASE("ply: everything is read, in text and in both byte orders") {
-    check_rich(load_text("a.ply", rich));
+    check_rich(load_text("a.ply", rich_ply));
     check_rich(load_text("a.ply", rich_binary(false)));
     check_rich(load_text("a.ply", rich_binary(true)));
-    check_rich(load_text("a.ply", replaced(rich, "\n", "\r\n")));
+    check_rich(load_text("a.ply", replaced(rich_ply, "\n", "\r\n")));
 }
 
 TEST_CASE("ply: an unchanged mesh is written to the byte") {
     for (const std::string& text :
-         {rich, rich_binary(false), rich_binary(true), replaced(rich, "\n", "\r\n")}) {
+         {rich_ply, rich_binary(false), rich_binary(true), replaced(rich_ply, "\n", "\r\n")}) {
         const Mesh mesh = load_text("a.ply", text);
         CHECK(saved(mesh, "b.ply") == text);
         CHECK(saved(with_vertex_arrays(mesh, vertex_arrays(mesh)), "b.ply") == text);
@@ -125,8 +125,8 @@ TEST_CASE("ply: only numbers that changed are written anew, in the file's types"
         return mesh;
     };
     const std::string z = "0.3";
-    const std::string text = replaced(rich, "2 1.50 0 0 2", "2 0.1 0 " + z + " 2");
-    CHECK(saved(bend(load_text("a.ply", rich)), "b.ply") ==
+    const std::string text = replaced(rich_ply, "2 1.50 0 0 2", "2 0.1 0 " + z + " 2");
+    CHECK(saved(bend(load_text("a.ply", rich_ply)), "b.ply") ==
           replaced(text, "0 0 1 0 0 0 255", "0 0 0.5 0 0 0 255"));
     for (const bool big : {false, true}) {
         const std::string bytes = rich_binary(big);
@@ -197,7 +197,7 @@ TEST_CASE("ply: a large polygon does not overflow its count") {
 
 TEST_CASE("ply: what cannot be read is told with its line, element and row") {
     const auto error = [](const std::string& from, const std::string& to, const std::string& what) {
-        const std::string message = load_error("a.ply", replaced(rich, from, to));
+        const std::string message = load_error("a.ply", replaced(rich_ply, from, to));
         INFO(message);
         return tells(message, what);
     };
@@ -243,7 +243,7 @@ TEST_CASE("ply: a cut off or lying binary file is refused without allocating wha
 }
 
 TEST_CASE("ply: faces of two corners are left out with a warning") {
-    const Mesh mesh = load_text("a.ply", replaced(rich, "9 3 0 2 3 0", "9 2 0 2 0"));
+    const Mesh mesh = load_text("a.ply", replaced(rich_ply, "9 3 0 2 3 0", "9 2 0 2 0"));
     CHECK(mesh.faces.size() == 1);
     CHECK(mesh.warnings.size() == 1);
 }

@@ -76,7 +76,7 @@ void check_shares(const std::vector<double>& shares, std::size_t least) {
     CHECK(std::ranges::adjacent_find(shares, std::greater_equal<>()) == shares.end());
 }
 
-void check_same(const mesh::Mesh& a, const mesh::Mesh& b) {
+void check_same_read(const mesh::Mesh& a, const mesh::Mesh& b) {
     CHECK(a.positions == b.positions);
     CHECK(a.corners == b.corners);
     CHECK(a.faces == b.faces);
@@ -119,7 +119,7 @@ TEST_CASE("progress: shares of a file that is read ascend to 1, whatever its for
         options.progress = said.listener();
         const mesh::Mesh loaded = mesh::load(folder / name, options);
         check_shares(said.shares, 60);
-        check_same(loaded, mesh::load(folder / name));
+        check_same_read(loaded, mesh::load(folder / name));
     }
 }
 
@@ -156,6 +156,6 @@ TEST_CASE("progress: shares of a refinement ascend to 1, and nobody is told of i
         const mesh::Mesh refined = mesh::refined(loaded, cuts.pieces(), {}, refining.listener());
         CHECK(reading.shares.size() == before);
         check_shares(refining.shares, 40);
-        check_same(refined, mesh::refined(loaded, cuts.pieces()));
+        check_same_read(refined, mesh::refined(loaded, cuts.pieces()));
     }
 }

@@ -2,6 +2,7 @@
 #include "refined.hpp"
 
 #include "files.hpp"
+#include "same.hpp"
 #include "support/models.hpp"
 
 #include <doctest/doctest.h>
@@ -37,18 +38,6 @@ bool begins_with(const std::vector<T>& now, const std::vector<T>& was) {
     return now.size() >= was.size() && std::equal(was.begin(), was.end(), now.begin());
 }
 
-void check_same(const Mesh& a, const Mesh& b) {
-    CHECK(a.positions == b.positions);
-    CHECK(a.normals == b.normals);
-    CHECK(a.tangents == b.tangents);
-    CHECK(a.uvs == b.uvs);
-    CHECK(a.colors == b.colors);
-    CHECK(a.corners == b.corners);
-    CHECK(a.faces == b.faces);
-    CHECK(a.parts == b.parts);
-    CHECK(a.materials == b.materials);
-}
-
 std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
     for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++found;
@@ -61,7 +50,7 @@ Mesh without_source(Mesh mesh) {
 }
 
 /// Refined along an axis, it stays closed, and its file holds what is there.
-void check_model(const char* name, int axis) {
+void check_refined_model(const char* name, int axis) {
     const auto file = model(name);
     if (file.empty()) return;
     const Mesh mesh = load(file);
@@ -258,43 +247,43 @@ TEST_CASE("refined: STL keeps header, solids and attributes") {
 }
 
 TEST_CASE("refined: banana.obj, and its file holds what is there") {
-    check_model("banana.obj", 1);
+    check_refined_model("banana.obj", 1);
 }
 
 TEST_CASE("refined: blub_open.obj, and its file holds what is there") {
-    check_model("blub_open.obj", 2);
+    check_refined_model("blub_open.obj", 2);
 }
 
 TEST_CASE("refined: koala.obj, and its file holds what is there") {
-    check_model("koala.obj", 2);
+    check_refined_model("koala.obj", 2);
 }
 
 TEST_CASE("refined: fuze.ply, and its file holds what is there") {
-    check_model("fuze.ply", 2);
+    check_refined_model("fuze.ply", 2);
 }
 
 TEST_CASE("refined: lh_trochanterfemur.stl, and its file holds what is there") {
-    check_model("lh_trochanterfemur.stl", 2);
+    check_refined_model("lh_trochanterfemur.stl", 2);
 }
 
 TEST_CASE("refined: wine_bottle.glb, and its file holds what is there") {
-    check_model("wine_bottle.glb", 1);
+    check_refined_model("wine_bottle.glb", 1);
 }
 
 TEST_CASE("refined: log_01.glb, and its file holds what is there") {
-    check_model("log_01.glb", 1);
+    check_refined_model("log_01.glb", 1);
 }
 
 TEST_CASE("refined: cushion_02.glb, and its file holds what is there") {
-    check_model("cushion_02.glb", 0);
+    check_refined_model("cushion_02.glb", 0);
 }
 
 TEST_CASE("refined: insect_leg.glb, and its file holds what is there") {
-    check_model("insect_leg.glb", 0);
+    check_refined_model("insect_leg.glb", 0);
 }
 
 TEST_CASE("refined: WaterBottle.gltf, and its file holds what is there") {
-    check_model("WaterBottle.gltf", 1);
+    check_refined_model("WaterBottle.gltf", 1);
 }
 
 TEST_CASE("refined: vertices between new vertices are those of two refinements, one after the other") {

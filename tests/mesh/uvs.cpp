@@ -71,7 +71,7 @@ void check_uvs(const Mesh& mesh, const VertexArrays& arrays) {
     CHECK(wrong == 0);
 }
 
-void check_model(const char* name) {
+void check_uvs_of_model(const char* name) {
     const auto file = model(name);
     if (file.empty()) return;
     const Mesh mesh = load(file);
@@ -169,17 +169,17 @@ TEST_CASE("uvs: what only coordinates split goes back to its vertex, whose first
 }
 
 TEST_CASE("uvs: blub_open.obj") {
-    check_model("blub_open.obj");
+    check_uvs_of_model("blub_open.obj");
 }
 
 TEST_CASE("uvs: wine_bottle.glb") {
-    check_model("wine_bottle.glb");
+    check_uvs_of_model("wine_bottle.glb");
 }
 
 TEST_CASE("uvs: log_01.glb") {
-    check_model("log_01.glb");
+    check_uvs_of_model("log_01.glb");
 }
 
 TEST_CASE("uvs: banana.obj") {
-    check_model("banana.obj");
+    check_uvs_of_model("banana.obj");
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
+
 #include <goffer/paper/chain.hpp>
 
 #include <doctest/doctest.h>
@@ -6,7 +8,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace goffer::paper {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 /// Regions of `folds` folds each, of one wave.
 std::vector<Parameters> joined(const std::vector<int>& folds, double fold_length, double radius) {

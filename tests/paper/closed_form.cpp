@@ -13,12 +13,11 @@
 #include <stdexcept>
 
 using namespace goffer::paper;
+using goffer::test::pi;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-struct Random {
+struct RandomBodies {
     std::mt19937 engine{20150601};
     double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 
@@ -93,7 +92,7 @@ bool near_a_crease(const Parameters& body, const Pose& pose, const Cylindrical& 
 }  // namespace
 
 TEST_CASE("P1: without an angle the rest shape comes back, to the bit") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 500; ++i) {
         const Parameters body =
             i % 3 == 0 ? random.shaped_body() : random.body(i % 2 ? Amplitude::area : Amplitude::paper);
@@ -108,7 +107,7 @@ TEST_CASE("P1: without an angle the rest shape comes back, to the bit") {
 }
 
 TEST_CASE("the map is continuous at rest: the bend like the angle, the wrinkle like its root") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 200; ++i) {
         const Parameters body = random.body(), bare{body.length, body.radius, 0};
         const Cylindrical v = random.vertex(body);
@@ -128,7 +127,7 @@ TEST_CASE("the map is continuous at rest: the bend like the angle, the wrinkle l
 }
 
 TEST_CASE("P8: a turn about the axis commutes with the bend") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 300; ++i) {
         const Parameters body = random.body(i % 3 ? Amplitude::paper : Amplitude::area);
         const Cylindrical v = random.vertex(body);
@@ -145,7 +144,7 @@ TEST_CASE("P8: a turn about the axis commutes with the bend") {
 }
 
 TEST_CASE("a negative angle bends the other way") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 100; ++i) {
         const Parameters body = random.body();
         const Cylindrical v = random.vertex(body);
@@ -158,7 +157,7 @@ TEST_CASE("a negative angle bends the other way") {
 }
 
 TEST_CASE("tangents are the map's derivatives, normals stand on them") {
-    Random random;
+    RandomBodies random;
     double worst = 0;
     for (int i = 0; i < 1500; ++i) {
         const Parameters body =
@@ -186,7 +185,7 @@ TEST_CASE("tangents are the map's derivatives, normals stand on them") {
 }
 
 TEST_CASE("a tangent that was normal to the normal stays so, and both have unit length") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 1000; ++i) {
         const Parameters body = random.body();
         const ClosedForm map(body, random.pose(body));
@@ -229,7 +228,7 @@ TEST_CASE("on the axis everything is finite, and the axis stays the center line"
 }
 
 TEST_CASE("cylinder coordinates and back") {
-    Random random;
+    RandomBodies random;
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 p{random.in(-2, 2), random.in(-2, 2), random.in(-2, 2)};
         CHECK(glm::length(from_cylindrical(to_cylindrical(p)) - p) < 1e-15 * 4);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
+
 #include <goffer/paper/closed_form.hpp>
 
 #include <doctest/doctest.h>
@@ -7,22 +9,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 
 using namespace goffer::paper;
+using goffer::test::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Case {
     Parameters body;
     Pose rest;
 };
 
-struct Random {
+struct RandomArcs {
     std::mt19937 engine{1261};
     double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 
@@ -46,7 +46,7 @@ double apart(const Cylindrical& a, const Cylindrical& b) {
 }  // namespace
 
 TEST_CASE("inverse of the bend: there and back, within 1e-12 L") {
-    Random random;
+    RandomArcs random;
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
         const Case c = random.bent();
@@ -59,7 +59,7 @@ TEST_CASE("inverse of the bend: there and back, within 1e-12 L") {
 }
 
 TEST_CASE("inverse of the bend: any place has one vertex, and it maps to that place") {
-    Random random;
+    RandomArcs random;
     for (int i = 0; i < 20000; ++i) {
         const Case c = random.bent();
         const double reach = 2 * c.body.length;
@@ -72,7 +72,7 @@ TEST_CASE("inverse of the bend: any place has one vertex, and it maps to that pl
 }
 
 TEST_CASE("inverse of the bend: the center line, the ends, and the arc's continuation beyond them") {
-    Random random;
+    RandomArcs random;
     for (int i = 0; i < 2000; ++i) {
         const Case c = random.bent(0.9);
         const double length = c.body.length;
@@ -91,7 +91,7 @@ TEST_CASE("inverse of the bend: the center line, the ends, and the arc's continu
 
 TEST_CASE(
     "inverse of the bend: without an angle it is the straight one to the bit, and goes there smoothly") {
-    Random random;
+    RandomArcs random;
     for (int i = 0; i < 1000; ++i) {
         Case c = random.bent();
         const double length = c.body.length;
@@ -118,7 +118,7 @@ TEST_CASE(
 }
 
 TEST_CASE("inverse of the bend: a negative angle is the other direction") {
-    Random random;
+    RandomArcs random;
     for (int i = 0; i < 200; ++i) {
         const Case c = random.bent();
         const glm::dvec3 p = c.body.length * glm::dvec3(random.in(-1, 1), random.in(-1, 1), random.in(0, 1));

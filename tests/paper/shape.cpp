@@ -19,11 +19,10 @@
 /// Shapes along a body, and the lengths that columns keep part by part.
 
 using namespace goffer::paper;
-using goffer::test::degrees;
+using goffer::test::degree;
+using goffer::test::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 std::vector<double> random_values(std::mt19937& random, std::size_t count, double low, double high) {
     std::vector<double> values;
@@ -33,7 +32,7 @@ std::vector<double> random_values(std::mt19937& random, std::size_t count, doubl
 }
 
 /// Length of the image of a column between two heights.
-double column_length(const ClosedForm& map, double beta, double rho, double low, double high) {
+double length_of_image(const ClosedForm& map, double beta, double rho, double low, double high) {
     constexpr int steps = 4000;
     double length = 0;
     glm::dvec3 last = map.position({beta, low, rho});
@@ -52,7 +51,7 @@ std::pair<double, double> errors_of_folds(Profile profile, int folds, double ang
     double square = 0, worst = 0;
     for (int i = 0; i < count; ++i) {
         const double low = 10.0 * i / count, high = 10.0 * (i + 1) / count;
-        const double error = column_length(map, 0, 1, low, high) / (high - low) - 1;
+        const double error = length_of_image(map, 0, 1, low, high) / (high - low) - 1;
         square += error * error / count;
         if (std::abs(error) > std::abs(worst)) worst = error;
     }
@@ -139,7 +138,7 @@ TEST_CASE("the cone's outer line keeps its length in every fifth") {
     const auto shape = std::make_shared<const Shape>(10.0, 1.0, Shape::Knots{.radius = {1.4, 0.3}});
     Parameters cone{10, shape->radius(), 0};
     cone.shape = shape;
-    const ClosedForm shaped(cone, {90 * degrees, 0.3}), plain({10, shape->radius(), 0}, {90 * degrees, 0.3});
+    const ClosedForm shaped(cone, {90 * degree, 0.3}), plain({10, shape->radius(), 0}, {90 * degree, 0.3});
     double worst_plain = 0;
     for (int fifth = 0; fifth < 5; ++fifth) {
         const double low = 2.0 * fifth;
@@ -161,9 +160,9 @@ TEST_CASE("the cone's outer line keeps its length in every fifth") {
 
 TEST_CASE("folds of one depth keep the length of every fold, not of the column alone") {
     for (const double angle : {90.0, 180.0}) {
-        const auto [damped, damped_worst] = errors_of_folds(Profile::damped, 6, angle * degrees);
-        const auto [smooth, smooth_worst] = errors_of_folds(Profile::smooth, 6, angle * degrees);
-        const auto [even, even_worst] = errors_of_folds(Profile::even, 12, angle * degrees);
+        const auto [damped, damped_worst] = errors_of_folds(Profile::damped, 6, angle * degree);
+        const auto [smooth, smooth_worst] = errors_of_folds(Profile::smooth, 6, angle * degree);
+        const auto [even, even_worst] = errors_of_folds(Profile::even, 12, angle * degree);
         std::printf(
             "fold by fold, %3.0f deg, rms and worst: damped %.1f %+.1f %%, smooth %.1f %+.1f %%, "
             "even %.1f %+.1f %%\n",

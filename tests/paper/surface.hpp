@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/angles.hpp"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 namespace goffer::test {
 
-inline constexpr double degrees = std::numbers::pi / 180;
+/// The tube that most tests bend.
+inline constexpr double tube_length = 10, tube_radius = 1;
 
 /// Area of a closed strip of columns x rows points, each quadrilateral cut in two.
 template <class Node>

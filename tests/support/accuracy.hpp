@@ -33,7 +33,7 @@ inline void take_worst(double& worst, double value) {
 
 /// The largest differences; NaN counts as the largest of all.
 struct Worst {
-    double position = 0;  // of L
+    double position = 0;  // of L, or of what the test says
     double normal = 0;    // degrees
     double tangent = 0;   // degrees
     double unit = 0;      // | |n| - 1 |

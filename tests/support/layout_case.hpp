@@ -16,7 +16,7 @@ namespace goffer::test {
 class LayoutCase {
 public:
     LayoutCase(Random& random, bend::Body body)
-        : body_(std::move(body)), planes_("x y z u v w a b c d p q r 123", body_.vertex_count()) {
+        : body_(std::move(body)), planes_(OutputBuffer::all_planes, body_.vertex_count()) {
         for (std::size_t region = 0; region < body_.region_count(); ++region) {
             poses_.push_back(
                 {static_cast<float>(uniform(random, -4.8, 4.8)), static_cast<float>(uniform(random, -9, 9))});

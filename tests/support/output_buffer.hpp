@@ -39,6 +39,8 @@ public:
     enum class Gaps : std::uint8_t { kept, scratch };
 
     static constexpr std::string_view letters = "xyzuvwabcdpqr123";
+    /// A plane for every stream.
+    static constexpr std::string_view all_planes = "x y z u v w a b c d p q r 123";
     static constexpr float guard = -12345.0f;
 
     /// Memory for `count` vertices. Arrays begin `shift` floats behind a cache line, each of them `skew`

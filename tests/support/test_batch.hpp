@@ -59,7 +59,7 @@ struct BatchStyle {
     bool defaults = false;  ///< transforms and weights are not given
     bool hostile = false;   ///< one pose or weight in four holds any bits
     bool scratch_gaps = false;
-    std::string_view picture = "x y z u v w a b c d p q r 123";
+    std::string_view picture = OutputBuffer::all_planes;
 };
 
 class TestBatch {
@@ -81,7 +81,8 @@ public:
         }
         const std::size_t vertices = set_places(random);
         out_ = OutputBuffer(style.picture, vertices, random() % 16, random() % 2 == 0 ? 0 : random() % 16);
-        for (std::size_t i = 0; i < count; ++i) planes_.emplace_back(all_planes, body.vertex_count());
+        for (std::size_t i = 0; i < count; ++i)
+            planes_.emplace_back(OutputBuffer::all_planes, body.vertex_count());
     }
 
     [[nodiscard]] bend::Batch batch() {
@@ -172,7 +173,6 @@ public:
     [[nodiscard]] const bend::Body& body() const { return body_; }
 
 private:
-    static constexpr std::string_view all_planes = "x y z u v w a b c d p q r 123";
     static constexpr bend::Bounds untouched{glm::vec3(7), glm::vec3(-7)};
     static constexpr std::size_t page_size = 4;
 

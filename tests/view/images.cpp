@@ -2,6 +2,7 @@
 #include "images.hpp"
 
 #include "support/files.hpp"
+#include "support/says.hpp"
 
 #include <doctest/doctest.h>
 
@@ -31,10 +32,6 @@ std::string error_of(const std::string& bytes, std::uint64_t most = view::most_i
     const std::string error = message_of<view::Error>([&] { (void)view::decode_image(bytes, most); });
     CHECK(error.find('\n') == error.npos);
     return error;
-}
-
-bool says(const std::string& error, const std::string& what) {
-    return error.find(what) != error.npos;
 }
 
 /// Every prefix that lacks more than `tail` bytes is refused, and of what has one wrong byte nothing worse

@@ -8,6 +8,7 @@
 #include <vector>
 
 using namespace goffer;
+using test::from_above;
 
 namespace {
 
@@ -17,7 +18,6 @@ test::Shape scaled(test::Shape shape, float factor) {
 }
 
 const view::Settings small{240, 180, 8};
-const view::Camera from_above{{0, 0, -1}, {0, 1, 0}, 0.5f};
 
 }  // namespace
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shapes.hpp"
+#include "support/says.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
 using namespace goffer;
+using test::says;
 
 namespace {
 
@@ -19,10 +21,6 @@ std::string refusal(const std::vector<view::Model>& models, const view::Camera& 
         return error.what();
     }
     return "";
-}
-
-bool says(const std::string& text, const char* words) {
-    return text.find(words) != std::string::npos;
 }
 
 }  // namespace

@@ -71,6 +71,9 @@ inline glm::ivec3 pixel(const view::Picture& picture, int x, int y) {
     return {p[0], p[1], p[2]};
 }
 
+/// On squares, along their normal.
+inline constexpr view::Camera from_above{{0, 0, -1}, {0, 1, 0}, 0.5f};
+
 /// The share of pixels that differ by more than `tolerance` in a channel.
 inline double difference(const view::Picture& a, const view::Picture& b, int tolerance) {
     std::size_t count = 0;

@@ -28,7 +28,6 @@ view::Texture texture_of(int width, int height, const Rgb& rgb, view::Wrap wrap 
 }
 
 const view::Settings settings{200, 200, 4};
-const view::Camera from_above{{0, 0, -1}, {0, 1, 0}, 0.5f};
 
 /// A square from above, in which the picture's middle is its own; its corners are at these coordinates.
 view::Picture board(const view::Texture& texture, float low, float high) {
