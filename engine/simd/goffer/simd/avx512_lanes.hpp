@@ -17,6 +17,7 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
     using X86Rows<Avx512Lanes>::mixed_row;
     using X86Rows<Avx512Lanes>::row_times;
     using X86Rows<Avx512Lanes>::store_row;
+    using X86Rows<Avx512Lanes>::store_row_first;
     using X86Rows<Avx512Lanes>::stream_row;
 
     static Vec madd(Vec a, Vec b, Vec c) { return Vec(_mm512_fmadd_ps(a, b, c)); }
@@ -33,11 +34,6 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         if (count == 0) return;  // a store with an empty mask would fetch its line all the same
         const auto lanes = static_cast<__mmask16>(count >= width ? 0xffffu : (1u << count) - 1u);
         _mm512_mask_storeu_ps(to, lanes, value);
-    }
-
-    template <std::size_t count>
-    static void store_row_first(float* to, Row row) {
-        _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1u << count) - 1u), _mm512_castps128_ps512(row));
     }
 
     template <class Visit>
