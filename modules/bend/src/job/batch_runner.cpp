@@ -56,7 +56,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
-      posed_(body_, kernels.setup),
+      posed_(body_, kernels.setup, PosedGroup::capacity(regions_)),
       stage_(plan_) {
     bool streams = false;
     for (const PassPlan& pass : plan_.passes()) {
@@ -68,8 +68,9 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
     // If nothing else needs the current coefficients, they are quantized in place.
     set_of(Pass::packed) = !batch.packed.empty() && streams ? set_count_++ : set_of(Pass::current);
     assert(set_count_ != 0 && "a batch that asks for nothing: see validate()");
-    group_size_ = std::clamp<std::size_t>(
-        max_coefficients / (std::max<std::size_t>(set_count_, 1) * regions_), 1, setup_width);
+    group_size_ =
+        std::clamp<std::size_t>(max_coefficients / (std::max<std::size_t>(set_count_, 1) * regions_), 1,
+                                PosedGroup::capacity(regions_));
 }
 
 void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last) noexcept {
@@ -78,20 +79,34 @@ void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last)
     const std::size_t element = element_of(batch_, instance);
     const std::size_t vertex = batch_.vertex_offsets.empty() ? instance * batch_.vertex_step
                                                              : std::size_t{batch_.vertex_offsets[element]};
-    members_[member_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
-    if (!whole) {
-        run_group(first, last);
-    } else if (member_count_ == group_size_) {
-        run_group(0, last);
-    }
+    gathered_[gathered_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
+    gather(element, first == 0);
+    if (whole && gathered_count_ < group_size_) return;
+    deform_group(0, body_.vertex_count);
+    set_up(first == 0);
+    if (!whole) deform_group(first, last);
 }
 
 void BatchRunner::finish() noexcept {
-    if (member_count_ != 0) run_group(0, body_.vertex_count);
+    deform_group(0, body_.vertex_count);
+    if (gathered_count_ == 0) return;
+    set_up(true);
+    deform_group(0, body_.vertex_count);
 }
 
-void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
-    set_up(first == 0);
+/// Adds an instance to the group that is being gathered.
+void BatchRunner::gather(std::size_t element, bool count_pose) noexcept {
+    const PoseState state = posed_now_ ? posed_.add(batch_, element, Time::now)
+                                       : state_of(body_, {batch_.poses.at(element), regions_});
+    if (!count_pose) return;
+    ++result_.deformed;
+    result_.clamped += state.clamped ? 1 : 0;
+    result_.at_rest += state.at_rest ? 1 : 0;
+}
+
+/// Deforms the vertices [first, last) of the group that is set up, if there is one.
+void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
+    if (member_count_ == 0) return;
     for (std::size_t begin = first; begin < last;) {
         const std::size_t end = (begin / block_vertices + 1) * block_vertices;
         for (std::size_t i = 0; i < member_count_; ++i) {
@@ -106,41 +121,32 @@ void BatchRunner::run_group(std::size_t first, std::size_t last) noexcept {
     member_count_ = 0;
 }
 
-void BatchRunner::count(const PoseState& state) noexcept {
-    ++result_.deformed;
-    result_.clamped += state.clamped ? 1 : 0;
-    result_.at_rest += state.at_rest ? 1 : 0;
-}
-
-void BatchRunner::set_up(bool count_poses) noexcept {
-    for (const PassPlan& pass : plan_.passes()) {
-        if (pass.pass == Pass::previous) set_up_poses(Time::before, set_of(Pass::previous), false);
-    }
+/// Sets up the group that was gathered, in place of the one that was deformed.
+void BatchRunner::set_up(bool sets_bounds) noexcept {
+    std::swap(members_, gathered_);
+    member_count_ = std::exchange(gathered_count_, 0);
     const std::size_t current = set_of(Pass::current);
-    if (posed_now_) {
-        set_up_poses(Time::now, current, count_poses);
-    } else if (count_poses) {
-        for (std::size_t i = 0; i < member_count_; ++i)
-            count(state_of(body_, {batch_.poses.at(members_[i].element), regions_}));
+    if (posed_now_) set_up_poses(current);
+    for (const PassPlan& pass : plan_.passes()) {
+        if (pass.pass != Pass::previous) continue;
+        for (std::size_t i = 0; i < member_count_; ++i) posed_.add(batch_, members_[i].element, Time::before);
+        set_up_poses(set_of(Pass::previous));
     }
     if (!bounded_) return;
     for (std::size_t i = 0; i < member_count_; ++i) {
         const Bounds bounds = bounds_of(body_, coefficients(i, current), squeezes(i, current));
-        if (!batch_.bounds.empty() && count_poses) batch_.bounds[members_[i].instance] = bounds;
+        if (!batch_.bounds.empty() && sets_bounds) batch_.bounds[members_[i].instance] = bounds;
         if (!batch_.packed.empty()) set_up_packed(i, bounds);
     }
 }
 
-void BatchRunner::set_up_poses(Time time, std::size_t set, bool count_poses) noexcept {
-    posed_.clear();
-    for (std::size_t i = 0; i < member_count_; ++i) {
-        const PoseState state = posed_.add(batch_, members_[i].element, time);
-        if (count_poses) count(state);
-    }
+/// Sets up the poses that were added, and makes room for others.
+void BatchRunner::set_up_poses(std::size_t set) noexcept {
     for (std::size_t r = 0; r < regions_; ++r) {
         posed_.set_up(r, coefficients(0, set) + r, set_count_ * regions_);
         for (std::size_t i = 0; i < member_count_; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
     }
+    posed_.clear();
 }
 
 void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexcept {

@@ -18,7 +18,8 @@ namespace goffer::bend {
 /// Deforms instances of a batch. What all of them share (kernels, columns, outputs) is looked up once, when
 /// the runner is made. Instances are taken in groups, whose coefficients fit into the first-level cache. Each
 /// group is set up, and its vertices are deformed block by block: the rest columns of a block stay in that
-/// cache, too, while they serve the whole group. Lives on the stack and takes at most 52 KB.
+/// cache, too, while they serve the whole group. A group is deformed when the next one is gathered: see
+/// PosedGroup. Lives on the stack and takes at most 52 KB.
 class BatchRunner {
 public:
     /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
@@ -63,10 +64,10 @@ private:
 
     [[nodiscard]] std::size_t& set_of(Pass pass) noexcept { return set_of_[static_cast<std::size_t>(pass)]; }
 
-    void run_group(std::size_t first, std::size_t last) noexcept;
-    void count(const PoseState& state) noexcept;
-    void set_up(bool count_poses) noexcept;
-    void set_up_poses(Time time, std::size_t set, bool count_poses) noexcept;
+    void gather(std::size_t element, bool count_pose) noexcept;
+    void set_up(bool sets_bounds) noexcept;
+    void set_up_poses(std::size_t set) noexcept;
+    void deform_group(std::size_t first, std::size_t last) noexcept;
     void set_up_packed(std::size_t member, const Bounds& bounds) noexcept;
     void deform(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept;
@@ -100,9 +101,12 @@ private:
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones
     std::size_t group_size_ = 0;
-    std::size_t member_count_ = 0;
     CrowdResult result_;
-    Member members_[setup_width];
+    Member groups_[2][setup_width];
+    Member* members_ = groups_[0];  // of the group that is set up, and not yet deformed
+    std::size_t member_count_ = 0;
+    Member* gathered_ = groups_[1];  // of the one that is being gathered
+    std::size_t gathered_count_ = 0;
     Squeeze squeezes_[max_coefficients];
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;

@@ -64,7 +64,7 @@ struct JointBlend {
 /// Rest columns that have their wrinkles: of vertices near a joint, for kernels that add none. The first ones
 /// belong to the first vertex of a call.
 struct BlendColumns {
-    static constexpr std::size_t vertices = 256;  ///< of a call, at most
+    static constexpr std::size_t vertices = 192;  ///< of a call, at most
     static constexpr std::size_t places = vertices + max_unit;
     alignas(64) float rho[places];
     alignas(64) float normal[3][places];
@@ -125,11 +125,12 @@ struct SetupRegion {
     float onset, rest_angle, rest_direction;  ///< used if relative; the direction is within -pi..pi
 };
 
-/// What up to setup_width instances are set up from, one value per instance. Unused values must be finite.
+/// What up to setup_width instances are set up from, one value per instance. There are setup_width of each,
+/// and unused ones must be finite.
 struct SetupColumns {
-    alignas(64) float angle[setup_width];          ///< radians, finite
-    alignas(64) float direction[setup_width];      ///< radians, -pi..pi
-    alignas(64) float factor[setup_width];         ///< on the amplitude
+    const float* angle;                            ///< radians, finite
+    const float* direction;                        ///< radians, -pi..pi
+    const float* factor;                           ///< on the amplitude
     alignas(64) float transform[12][setup_width];  ///< the matrix, column after column
     /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region.
     alignas(64) float frame[12][setup_width];

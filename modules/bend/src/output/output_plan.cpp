@@ -71,12 +71,12 @@ const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
     return pass.pass == Pass::previous ? batch.previous_positions : batch.positions;
 }
 
-bool has_normals(const PassPlan& pass) noexcept {
+bool writes_normals(const PassPlan& pass) noexcept {
     return pass.streams == StreamSet::positions_normals ||
            pass.streams == StreamSet::positions_normals_tangents;
 }
 
-bool has_tangents(const PassPlan& pass) noexcept {
+bool writes_tangents(const PassPlan& pass) noexcept {
     return pass.streams == StreamSet::positions_normals_tangents;
 }
 
@@ -142,7 +142,7 @@ bool OutputPlan::fills_record(const PassPlan& pass) const noexcept {
     const Record& record = records_[pass.places[0].record];
     const bool alone = !record.has_gaps() && record.first == pass.places[0].first &&
                        record.floats == values_of(pass.streams) &&
-                       (!has_normals(pass) || pass.places[1].first == record.first + 3);
+                       (!writes_normals(pass) || pass.places[1].first == record.first + 3);
     return alone && (!non_temporal_ || record.to_line(0) != line_floats);
 }
 
@@ -199,8 +199,8 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (pass.pass == Pass::packed) return false;
     Planes planes;
     if (!planes.take(positions_of(pass, batch), pass.planes.position)) return false;
-    if (has_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
-    if (has_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
+    if (writes_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
+    if (writes_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
     return !non_temporal_ || side_by_side(planes.all());
 }
 
@@ -221,10 +221,10 @@ bool OutputPlan::set_place(StreamPlace& place, const Stream<N>& stream) const no
 
 /// Tangents are woven from the stage alone.
 bool OutputPlan::set_places(PassPlan& pass, const Batch& batch) const noexcept {
-    if (has_tangents(pass)) return false;
+    if (writes_tangents(pass)) return false;
     if (pass.pass == Pass::packed) return set_place(pass.places[0], words_of(batch.packed));
     return set_place(pass.places[0], positions_of(pass, batch)) &&
-           (!has_normals(pass) || set_place(pass.places[1], batch.normals));
+           (!writes_normals(pass) || set_place(pass.places[1], batch.normals));
 }
 
 std::size_t OutputPlan::peeled(std::size_t vertex) const noexcept {

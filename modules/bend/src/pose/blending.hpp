@@ -22,7 +22,7 @@ struct PosedRegions {
     const Squeeze* squeezes;
 };
 
-/// Vertices near a joint, with their wrinkles, for kernels that add none. Lives on the stack; 8 KB.
+/// Vertices near a joint, with their wrinkles, for kernels that add none. Lives on the stack; 6 KB.
 class Blending {
 public:
     /// Wrinkles `count` vertices of region `r` from `first` on, at most BlendColumns::vertices. Those that

@@ -5,6 +5,7 @@
 #include "pose/matrix_layout.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -44,11 +45,20 @@ PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
     return state;
 }
 
-PosedGroup::PosedGroup(const BodyData& body, Setup setup) noexcept : body_(body), setup_(setup) {
+PosedGroup::PosedGroup(const BodyData& body, Setup setup, std::size_t most) noexcept
+    : body_(body), setup_(setup), most_(most) {
+    assert(most >= 1 && most <= capacity(body.regions.size()));
     // Set-up computes with unused lanes, too.
-    for (float* column : {columns_.angle, columns_.direction, columns_.factor})
-        std::fill_n(column, setup_width, 0.0f);
+    const std::size_t read = (body.regions.size() - 1) * most + setup_width;
+    for (float* values : {angle_, direction_, factor_}) std::fill_n(values, read, 0.0f);
     set_identities();
+}
+
+/// Those of the first region, for all lanes.
+void PosedGroup::set_frames() noexcept {
+    for (std::size_t c = 0; c < 12; ++c)
+        std::fill_n(columns_.frame[c], setup_width,
+                    c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
 }
 
 void PosedGroup::set_identities() noexcept {
@@ -60,11 +70,12 @@ void PosedGroup::set_identities() noexcept {
 PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
                           float weight) noexcept {
     const std::size_t i = count_++;
+    if (i == 0) set_frames();
     poses = poses.first(std::min(poses.size(), body_.regions.size()));
     const PoseState state = state_of(body_, poses);
-    poses_[i] = poses.data();
-    pose_count_[i] = state.at_rest ? 0 : poses.size();
-    weight_[i] = usable_weight(weight);
+    const std::size_t posed = state.at_rest ? 0 : poses.size();
+    for (std::size_t r = 0; r < body_.regions.size(); ++r)
+        set_pose(r, r * most_ + i, r < posed ? poses[r] : body_.regions[r].rest, usable_weight(weight));
     if (!transforms.empty()) {
         read_transform(transforms, element, columns_.transform, i);
         transformed_ = true;
@@ -88,39 +99,34 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
                element, weight);
 }
 
-void PosedGroup::set_poses(std::size_t region) noexcept {
+void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept {
     const Region& limits = body_.regions[region];
     const FactorTable& factors = *body_.details[region].factors;
     const bool has_table = body_.details[region].setup.rows != nullptr;
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Pose pose = region < pose_count_[i] ? poses_[i][region] : limits.rest;
-        columns_.angle[i] = pose.angle;
-        columns_.direction[i] = wrapped_direction(pose.direction);
-        columns_.factor[i] = weight_[i];
-        wrinkled_[i] = has_table && weight_[i] > 0;
-        if (factors.empty() || !wrinkled_[i]) continue;
-        const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
-        columns_.factor[i] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
-                                         columns_.direction[i] - limits.rest.direction + turned);
-    }
+    angle_[place] = pose.angle;
+    direction_[place] = wrapped_direction(pose.direction);
+    factor_[place] = weight;
+    wrinkled_[place] = has_table && weight > 0;
+    if (factors.empty() || !wrinkled_[place]) return;
+    const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
+    factor_[place] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
+                                 direction_[place] - limits.rest.direction + turned);
 }
 
 void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
     const RegionData& details = body_.details[region];
-    if (region == 0) {
-        for (std::size_t c = 0; c < 12; ++c)
-            std::fill_n(columns_.frame[c], setup_width,
-                        c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
-    }
     squeeze_ = details.squeeze;
     bare_ = details.setup.shaped ? Squeeze::shaped : Squeeze::none;
-    set_poses(region);
-    setup_(details.setup, columns_, count_, wrinkled_, k, step);
+    place_ = region * most_;
+    columns_.angle = angle_ + place_;
+    columns_.direction = direction_ + place_;
+    columns_.factor = factor_ + place_;
+    setup_(details.setup, columns_, count_, wrinkled_ + place_, k, step);
 }
 
 PosedInstance::PosedInstance(const BodyData& body, Setup setup, std::span<const Pose> poses,
                              const glm::mat4x3& transform, float weight) noexcept {
-    PosedGroup group(body, setup);
+    PosedGroup group(body, setup, 1);
     group.add(poses, transform, weight);
     for (std::size_t r = 0; r < body.regions.size(); ++r) {
         group.set_up(r, &k[r], 1);

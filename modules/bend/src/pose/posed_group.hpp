@@ -9,6 +9,7 @@
 
 #include <glm/mat4x3.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,17 +36,26 @@ enum class Time : std::uint8_t { now, before };
 /// The state of `poses`, of which there are at most as many as regions.
 [[nodiscard]] PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept;
 
-/// Up to setup_width instances of one body. Poses may hold any bits. There may be fewer than regions: the
-/// others are at rest. An instance with a pose that is not finite is at rest as a whole.
+/// Some instances of one body. Poses may hold any bits. There may be fewer than regions: the others are at
+/// rest. An instance with a pose that is not finite is at rest as a whole.
+///
+/// Instances are added one value at a time, and set up a register at a time. Processors read a register that
+/// was written in parts only when all that was written before it is in memory, past the cache too: in a
+/// crowd, add the next group before the one at hand is deformed.
 class PosedGroup {
 public:
-    PosedGroup(const BodyData& body, Setup setup) noexcept;
+    /// Has room for `most` instances, at most capacity().
+    PosedGroup(const BodyData& body, Setup setup, std::size_t most) noexcept;
+
+    /// The most instances that a group of a body with so many regions holds.
+    [[nodiscard]] static std::size_t capacity(std::size_t regions) noexcept {
+        return std::clamp<std::size_t>(max_poses / regions, 1, setup_width);
+    }
 
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     void clear() noexcept { count_ = 0; }
 
-    /// Adds an instance. Until clear(), either all have a transform or none has. The poses must stay where
-    /// they are until the last region is set up. `weight` may hold any bits.
+    /// Adds an instance. Until clear(), either all have a transform or none has. `weight` may hold any bits.
     PoseState add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
 
     /// Adds the instance of a batch that reads element `element` of its columns.
@@ -56,23 +66,33 @@ public:
     void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
 
     /// Which kernels serve instance i in the region that was set up last.
-    [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept { return wrinkled_[i] ? squeeze_ : bare_; }
+    [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {
+        return wrinkled_[place_ + i] ? squeeze_ : bare_;
+    }
 
 private:
     PoseState add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
                   float weight) noexcept;
     void set_identities() noexcept;
-    void set_poses(std::size_t region) noexcept;
+    void set_frames() noexcept;
+    void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
+
+    static constexpr std::size_t max_poses = 96;
+    static_assert(max_poses >= max_regions);
+    static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 
     const BodyData& body_;
     Setup setup_;
+    std::size_t most_;
     std::size_t count_ = 0;
-    Squeeze squeeze_ = Squeeze::none, bare_ = Squeeze::none;  // of the region that was set up last
-    const Pose* poses_[setup_width];
-    std::size_t pose_count_[setup_width];  // 0: at rest
-    float weight_[setup_width];
-    bool wrinkled_[setup_width];
-    bool transformed_ = false;  // lanes hold matrices other than the identity
+    std::size_t place_ = 0;                                   // of the region that was set up last, as are
+    Squeeze squeeze_ = Squeeze::none, bare_ = Squeeze::none;  // these
+    bool transformed_ = false;                                // lanes hold matrices other than the identity
+    // Instance i in region r is at r * most_ + i.
+    bool wrinkled_[places];
+    alignas(64) float angle_[places];
+    alignas(64) float direction_[places];
+    alignas(64) float factor_[places];
     SetupColumns columns_;
 };
 
@@ -85,12 +105,12 @@ struct PosedInstance {
                   const glm::mat4x3& transform, float weight) noexcept;
 };
 
-/// Calls visit(group, first) for all instances of a batch, up to `most` <= setup_width at a time: those from
-/// `first` on.
+/// Calls visit(group, first) for all instances of a batch, up to `most` <= PosedGroup::capacity() at a time:
+/// those from `first` on.
 template <class Visit>
 void each_group(const Batch& batch, const BodyData& body, Setup setup, Time time, std::size_t most,
                 const Visit& visit) noexcept {
-    PosedGroup group(body, setup);
+    PosedGroup group(body, setup, most);
     for (std::size_t first = 0; first < batch.count; first += most) {
         group.clear();
         for (std::size_t i = first; i < batch.count && i < first + most; ++i)
