@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "rest.hpp"
+
 #include <goffer/fit/bake.hpp>
 
 #include <string>
@@ -41,8 +43,7 @@ void check_counts(const bend::DrawMesh& mesh, std::size_t vertices, std::size_t 
 bend::DrawMesh in_body_order(const bend::DrawMesh& mesh, const std::vector<std::uint32_t>& order,
                              Sorted& memory) {
     if (order.empty()) return mesh;
-    std::vector<std::uint32_t> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+    const std::vector<std::uint32_t> place = places_in_body(order);
     memory.triangles.reserve(mesh.triangles.size());
     for (const std::uint32_t vertex : mesh.triangles) memory.triangles.push_back(place[vertex]);
     memory.uvs = sorted(mesh.uvs, order);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "factors.hpp"
 
+#include "rest.hpp"
+
 #include <goffer/bend/job.hpp>
 #include <goffer/engine/parallel.hpp>
 
@@ -86,13 +88,6 @@ double solve_square(const Surface& surface, std::span<const std::uint32_t> trian
     const double bare = area_of(surface, triangles, 0).area;
     const double gain = area_of(surface, triangles, 1).area - bare;
     return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
-}
-
-/// Where in the body each vertex of the geometry is; empty where the order is the same.
-std::vector<std::uint32_t> places_in(std::span<const std::uint32_t> order) {
-    std::vector<std::uint32_t> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
-    return place;
 }
 
 /// The triangles that have two corners or more in the region, as vertices of the body.
@@ -293,7 +288,7 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     // Two folds apart at least: a slice that is shorter than a fold would follow its crest and trough.
     const auto knots = static_cast<std::size_t>(std::clamp(folds / 2 + 1, 3, 13));
     const std::vector<std::uint32_t> triangles =
-        triangles_of(body.regions()[region], geometry.triangles, places_in(order));
+        triangles_of(body.regions()[region], geometry.triangles, places_in_body(order));
     if (body.region_inputs()[region].table.empty() || triangles.empty()) return {};
     const SliceSolver solver(triangles, heights, body.region_inputs()[region].length, knots);
     std::vector<Surface> surfaces;
@@ -320,7 +315,7 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
 
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
                    std::span<bend::RegionInput> regions, const Share& share) {
-    const std::vector<std::uint32_t> place = places_in(order);
+    const std::vector<std::uint32_t> place = places_in_body(order);
     const Surface at_rest = Poser(body).rest();
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const std::vector<std::uint32_t> triangles =

@@ -270,6 +270,12 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
     return rest;
 }
 
+std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> places(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    return places;
+}
+
 RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
                    std::span<const RestRegion> regions, const Parts* parts) {
     const Straightening straightening(cylinder);

@@ -134,6 +134,10 @@ struct RestMesh {
     std::vector<std::uint32_t> order;  ///< vertex i is the geometry's order[i]; empty: i
 };
 
+/// Returns where in the body each vertex of the geometry is, of which `order` tells as RestMesh::order; empty
+/// where the order is the same.
+[[nodiscard]] std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order);
+
 /// Returns the vertices without a mask. `parts`: what they bear of their wrinkles; null: all. Throws Error
 /// where a vertex of a triangle lies beyond the ends.
 [[nodiscard]] RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
