@@ -45,8 +45,8 @@ std::vector<bend::DeformJob> make_jobs(Fixture& fixture) {
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         jobs[i].body = &fixture.body(setup_vertices);
         jobs[i].pose = pose_of(i);
-        measure::set_streams(jobs[i], layout, memory, 0,
-                             setup_vertices);  // the same for all: nothing is written
+        // The same for all: nothing is written.
+        measure::set_streams(jobs[i], layout, memory, 0, setup_vertices);
     }
     return jobs;
 }

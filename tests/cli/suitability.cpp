@@ -48,7 +48,7 @@ std::string warning(const Folder& folder, const mesh::Mesh& mesh, const std::str
 }
 
 /// What is said of a real model: nothing, or a line that holds `said`.
-void check_said_of_model(const char* name, const std::string& said) {
+void check_warning_of_model(const char* name, const std::string& said) {
     const auto file = model(name);
     if (file.empty()) return;
     const Folder folder;
@@ -115,25 +115,25 @@ TEST_CASE("suitability: a body far from any cylinder") {
 // spurs beside its claws.
 
 TEST_CASE("suitability: blub_open.obj") {
-    check_said_of_model("blub_open.obj", "");
+    check_warning_of_model("blub_open.obj", "");
 }
 
 TEST_CASE("suitability: cushion_02.glb") {
-    check_said_of_model("cushion_02.glb", "");
+    check_warning_of_model("cushion_02.glb", "");
 }
 
 TEST_CASE("suitability: insect_leg.glb") {
-    check_said_of_model("insect_leg.glb", "");
+    check_warning_of_model("insect_leg.glb", "");
 }
 
 TEST_CASE("suitability: koala.obj") {
-    check_said_of_model("koala.obj", "");
+    check_warning_of_model("koala.obj", "");
 }
 
 TEST_CASE("suitability: banana.obj") {
-    check_said_of_model("banana.obj", "");
+    check_warning_of_model("banana.obj", "");
 }
 
 TEST_CASE("suitability: l_arista.stl, a feathery antenna") {
-    check_said_of_model("l_arista.stl", "radii (rms) from the base cylinder");
+    check_warning_of_model("l_arista.stl", "radii (rms) from the base cylinder");
 }

@@ -82,10 +82,10 @@ TEST_CASE("wrinkles: a part of the body stays smooth, and the report says at wha
     const Words words{"bend", "base.ply", "-o", "out.ply"};
     const auto ends = [&](const Words& more) {
         well(folder, words + more);
-        const mesh::Mesh bent_file = mesh::load(folder / "out.ply"), rest = mesh::load(folder / "base.ply");
+        const mesh::Mesh bent = mesh::load(folder / "out.ply"), rest = mesh::load(folder / "base.ply");
         mesh::Mesh below;
         for (std::size_t i = 0; i < rest.positions.size(); ++i) {
-            if (rest.positions[i].z > 7) below.positions.push_back(bent_file.positions[i]);
+            if (rest.positions[i].z > 7) below.positions.push_back(bent.positions[i]);
         }
         return below;
     };
@@ -111,9 +111,9 @@ TEST_CASE("wrinkles: a color's channel says where, on refined meshes, and in bod
         mesh::save(painted, folder / name);
         const auto ends = [&](const Words& more) {
             well(folder, Words{"bend", name, "-o", "out.ply", "--amplitude", "paper"} + more);
-            mesh::Mesh bent_file = mesh::load(folder / "out.ply"), above;
+            mesh::Mesh bent = mesh::load(folder / "out.ply"), above;
             for (std::size_t i = 0; i < painted.positions.size(); ++i) {
-                if (painted.positions[i].z > 7) above.positions.push_back(bent_file.positions[i]);
+                if (painted.positions[i].z > 7) above.positions.push_back(bent.positions[i]);
             }
             return above;
         };

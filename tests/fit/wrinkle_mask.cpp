@@ -235,13 +235,11 @@ TEST_CASE("wrinkle mask: a level of detail has its own") {
     const Solid fine = very_fine_tube(), level = tube();
     const fit::Binding rig = fit::bind(fine.geometry(), upright());
     const std::vector<float> zeros(level.positions.size());
-    const std::vector<glm::vec3> smooth = bent_with_normals(fit::bind_level(masked(level, zeros), rig), 1)
-                                              .positions,
-                                 bare =
-                                     bent_with_normals(fit::bind_level(level.geometry(), rig), 0).positions;
+    const Bent smooth = bent_with_normals(fit::bind_level(masked(level, zeros), rig), 1),
+               bare = bent_with_normals(fit::bind_level(level.geometry(), rig), 0);
     double worst = 0;
-    for (std::size_t i = 0; i < bare.size(); ++i)
-        worst = std::max(worst, double{glm::distance(smooth[i], bare[i])});
+    for (std::size_t i = 0; i < bare.positions.size(); ++i)
+        worst = std::max(worst, double{glm::distance(smooth.positions[i], bare.positions[i])});
     CHECK(worst < 5e-6);
 }
 

@@ -50,7 +50,7 @@ TEST_CASE("obj: everything is read in file order") {
     CHECK(mesh.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 3});
     REQUIRE(mesh.uvs.size() == 1);
     CHECK(mesh.uvs[0].values == std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}});
-    CHECK(mesh.uvs[0].corners == std::vector<std::uint32_t>{0, 1, 2, Attribute<glm::vec3>::none, 0, 1, 2});
+    CHECK(mesh.uvs[0].corners == std::vector<std::uint32_t>{0, 1, 2, Attribute<glm::vec2>::none, 0, 1, 2});
     CHECK(mesh.normals.values == std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}});
     CHECK(mesh.normals.corners == std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 1});
     CHECK(mesh.colors ==
@@ -78,8 +78,8 @@ TEST_CASE("obj: only lines that changed are written anew") {
 }
 
 TEST_CASE("obj: split normals follow the last one, and faces refer to them") {
-    const Mesh mesh =
-        with_one_moved(load_text("a.obj", rich_obj));  // records: vertices 0..3, each with one normal
+    // Records: vertices 0..3, each with one normal.
+    const Mesh mesh = with_one_moved(load_text("a.obj", rich_obj));
     std::string expected = replaced(rich_obj, "v  +1.50  0.0\t0 #", "v  2.5  1e-07\t0.1 #");
     expected = replaced(expected, "vn 0 0 1\r\nvn 0.00 1 0\r\n",
                         "vn 0 0.5 0\r\nvn 0 0.5 2\r\nvn 0 0.5 1\r\nvn 0 0.5 3\r\n");

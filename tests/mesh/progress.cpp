@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "files.hpp"
+#include "same.hpp"
 
 #include <goffer/mesh/refined.hpp>
 
@@ -77,10 +78,7 @@ void check_shares(const std::vector<double>& shares, std::size_t least) {
 }
 
 void check_same_read(const mesh::Mesh& a, const mesh::Mesh& b) {
-    CHECK(a.positions == b.positions);
-    CHECK(a.corners == b.corners);
-    CHECK(a.faces == b.faces);
-    CHECK(a.parts == b.parts);
+    check_same(a, b);
     CHECK(a.warnings == b.warnings);
 }
 

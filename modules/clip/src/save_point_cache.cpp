@@ -15,8 +15,8 @@
 namespace goffer::clip {
 namespace {
 
-constexpr std::size_t most_in_cache =
-    std::numeric_limits<std::int32_t>::max();  // readers take counts as signed
+/// Readers take counts as signed.
+constexpr std::size_t most_in_cache = std::numeric_limits<std::int32_t>::max();
 
 void check(const Frames& frames, std::size_t vertices, const std::filesystem::path& file) {
     const auto too_many = [&](const char* what, std::size_t count) {

@@ -203,7 +203,7 @@ struct Slice {
     double next;  // share of the slice behind `first`; the rest is that of `first`
 };
 
-/// SliceAreas of slices, each a sum over triangles.
+/// Areas of slices, each a sum over triangles.
 using SliceAreas = std::vector<double>;
 
 /// Factors along z, in what they change.
