@@ -146,7 +146,7 @@ TEST_CASE("animate: frames of a walk are those of bend along the path from there
 
 TEST_CASE("animate: a point cache has the places of the sequence's vertices") {
     const Folder folder;
-    base(folder);
+    base(folder, "base.ply", {"--rows", "201"});
     write_keys(folder);
     for (const std::string name : {"worm.mdd", "worm.pc2"}) {
         const json all =

@@ -56,12 +56,12 @@ TEST_CASE("bake: inspect tells what is in a body file") {
          {"bake", "log_01.glb", "-o", "log.goffer", "--socket", "hat=0,1,0", "--socket", "side=0,0.5,0.2"});
     const json found = report(folder, {"inspect", "log.goffer"});
     REQUIRE(found["levels"].size() == 1);
-    CHECK(found["levels"][0]["triangles"] == 9432);
+    CHECK(found["levels"][0]["triangles"] == 13608);
     CHECK(found["levels"][0]["uvs"] == true);
     CHECK(found["sockets"] == json::array({"hat", "side"}));
     CHECK(found["materials"] == json::array({"basic"}));
     CHECK(found["made_from"]["model"] == "log_01.glb");
-    CHECK(found["regions"][0]["folds"] == 9);
+    CHECK(found["regions"][0]["folds"] == 13);
     CHECK(found["regions"][0]["max_angle"].get<double>() > 90);
     CHECK(well(folder, {"inspect", "log.goffer"}).find("sockets           2: hat, side\n") !=
           std::string::npos);

@@ -43,7 +43,7 @@ TEST_CASE("bend: every field, with its type") {
     }
     CHECK(all["pose"]["angle"] == 60.0);
     CHECK(all["pose"]["direction"] == -20.0);
-    CHECK(all["folds"] == 13);
+    CHECK(all["folds"] == 20);
     CHECK(all["clamped"] == false);
     CHECK(all["isa"] == "scalar");
     CHECK(all["threads"] == 1);

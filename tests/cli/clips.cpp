@@ -16,7 +16,7 @@ namespace {
 /// Animated glTF of a body that swings: what is said on standard error, which is one line or nothing.
 std::string warned(const Folder& folder, const Words& words) {
     const Result result =
-        run(folder, Words{"animate", "base.ply", "-o", "worm.glb", "--swing", "60"} + words);
+        run(folder, Words{"animate", "base.ply", "-o", "worm.glb", "--swing", "90"} + words);
     CHECK(result.code == 0);
     CHECK(std::ranges::count(result.err, '\n') == (result.err.empty() ? 0 : 1));
     return result.err;

@@ -184,7 +184,7 @@ TEST_CASE("crowd: a coarse model is given the vertices of its folds") {
     const json all = crowd(folder, {"--refine"});
     CHECK(all["warnings"] == json::array());
     CHECK(all["models"][0]["vertices"].get<int>() > 24 * 9);
-    CHECK(all["models"][0]["folds"] == 13);
+    CHECK(all["models"][0]["folds"] == 20);
     CHECK(crowd(folder, {"--refine", "--paper"})["models"][0]["folds"] == 5);
     const json rough = crowd(folder, {});
     CHECK(rough["models"][0]["vertices"] == 24 * 9);

@@ -37,7 +37,7 @@ TEST_CASE("inspect: every field, with its type") {
     CHECK(all["triangles"] == 20480);
     CHECK(all["primitives"] == 1);
     CHECK(all["folds_capacity"] == 20);
-    CHECK(all["folds"] == 13);
+    CHECK(all["folds"] == 20);
     CHECK(all["warnings"] == json::array());
     CHECK(all["max_angle"].is_number_float());
     CHECK(all["area"].get<double>() == doctest::Approx(2 * 3.14159265 * 10).epsilon(1e-3));

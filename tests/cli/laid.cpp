@@ -14,7 +14,7 @@ using nlohmann::json;
 
 TEST_CASE("bend: a body lies on its path, and the report says how closely") {
     const Folder folder;
-    base(folder, "base.ply", {"--caps"});
+    base(folder, "base.ply", {"--caps", "--rows", "201"});
     folder.write("line.txt", "1 2 3\n11 2 3\n");
     const json line = report(folder, {"bend", "base.ply", "-o", "line.ply", "--path", "line.txt"});
     CHECK(line["path"]["error"].get<double>() < 1e-6);

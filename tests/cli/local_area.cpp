@@ -4,8 +4,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 /// The change of area here and there: in the report, and as colors of the picture.
 
@@ -74,6 +77,26 @@ TEST_CASE("local area: wrinkles give some of it back, and the report says both")
     CHECK(lines.find("\nlocal change      rms ") != lines.npos);
     CHECK(lines.find("of 48 patches\nwithout wrinkles  rms ") != lines.npos);
     CHECK(lines.find("side toward 0)") != lines.npos);
+}
+
+TEST_CASE("local area: without options, real models keep it several times better than by the paper") {
+    const Folder folder;
+    std::vector<double> over_paper;
+    for (const auto& [model, turn] :
+         {std::pair("log_01.glb", "--angle"), std::pair("wine_bottle.glb", "--angle"),
+          std::pair("fuze.ply", "--angle"), std::pair("blub_open.obj", "--angle"),
+          std::pair("insect_leg.glb", "--by")}) {
+        CAPTURE(model);
+        copy_of(folder, model);
+        const auto rms = [&](const Words& words) {
+            const json all = report(folder, Words{"bend", model, "-o", "out.ply", turn, "60"} + words);
+            return all["local_area_change"]["bent"]["rms"].get<double>();
+        };
+        over_paper.push_back(rms({}) / rms({"--paper", "--refine", "on"}));
+        CHECK(over_paper.back() < 0.8);
+    }
+    std::ranges::sort(over_paper);
+    CHECK(over_paper[over_paper.size() / 2] < 0.25);
 }
 
 TEST_CASE("local area: regions, whose vertices are in another order, are as one") {

@@ -73,11 +73,11 @@ TEST_CASE("refine: a bare cylinder gets the rows of its folds") {
 TEST_CASE("refine: without a number, for the folds that suit the body") {
     const Folder folder;
     coarse(folder);
-    CHECK(report(folder, {"refine", "coarse.ply", "-o", "fine.ply"})["refined"]["folds"] == 13);
+    CHECK(report(folder, {"refine", "coarse.ply", "-o", "fine.ply"})["refined"]["folds"] == 20);
     const json bent = report(folder, {"bend", "coarse.ply", "-o", "bent.ply", "--refine"});
-    CHECK(bent["folds"] == 13);
-    CHECK(bent["folds_capacity"] == 13);
-    CHECK(bent["refined"]["folds"] == 13);
+    CHECK(bent["folds"] == 20);
+    CHECK(bent["folds_capacity"] == 20);
+    CHECK(bent["refined"]["folds"] == 20);
     CHECK(bent["warnings"] == json::array());
     const json paper = report(folder, {"bend", "coarse.ply", "-o", "bent.ply", "--refine", "--paper"});
     CHECK(paper["folds"] == 5);
@@ -142,10 +142,10 @@ TEST_CASE("refine: a hose of few sides gets columns where it gets rows, and no o
         CHECK(open_edges(mesh::load(folder / "out.ply")) == 0);
         return all["triangles"].get<int>();
     };
-    // 13 folds of 8 rows
-    CHECK(triangles("6", {}) > 1.5 * 12 * 208);
-    CHECK(triangles("6", {}) < 2 * 12 * 208);
-    CHECK(triangles("12", {}) == 2 * 12 + 2 * 12 * (2 * 104 - 1));
+    // 20 folds of 8 rows
+    CHECK(triangles("6", {}) > 1.5 * 12 * 320);
+    CHECK(triangles("6", {}) < 2 * 12 * 320);
+    CHECK(triangles("12", {}) == 2 * 12 + 2 * 12 * (2 * 160 - 1));
     CHECK(triangles("6", {"--folds", "0"}) == 24);
 
     base(folder, "hose.ply", {"--columns", "6", "--rows", "2", "--caps"});
@@ -154,7 +154,7 @@ TEST_CASE("refine: a hose of few sides gets columns where it gets rows, and no o
     const mesh::Mesh fine = mesh::load(folder / "fine.ply");
     CHECK(begins_with(mesh::load(folder / "rest.ply"), fine, 1e-5f));
     CHECK(begins_with(fine, mesh::load(folder / "hose.ply"), 0));
-    const json again = report(folder, {"refine", "fine.ply", "-o", "same.ply", "--folds", "13"});
+    const json again = report(folder, {"refine", "fine.ply", "-o", "same.ply", "--folds", "20"});
     CHECK(again["refined"]["triangles_after"] == again["refined"]["triangles_before"]);
     CHECK(bytes_of(folder / "same.ply") == bytes_of(folder / "fine.ply"));
 }
@@ -178,7 +178,7 @@ TEST_CASE("refine: a coarse mesh keeps its area as the base does") {
         // Without a word it is refined, and keeps its own area.
         const json plain = report(folder, {"bend", "coarse.ply", "-o", "out.ply", "--angle", angle});
         CHECK(plain["warnings"] == json::array());
-        CHECK(plain["refined"]["folds"] == 13);
+        CHECK(plain["refined"]["folds"] == 20);
         CHECK(std::abs(change(plain)) < 5e-5);
     }
 }
@@ -195,7 +195,7 @@ TEST_CASE("refine: a mesh that stays coarse has fewer folds or none, and it is s
         if (warnings.size() == 1 && !said.empty()) {
             const std::string warning = warnings[0];
             CHECK(warning.starts_with(said));
-            CHECK(warning.find("13 would suit its length") != warning.npos);
+            CHECK(warning.find("20 would suit its length") != warning.npos);
             CHECK(warning.find("goffer refine") != warning.npos);
         }
         return all["folds"].get<int>();
@@ -203,7 +203,7 @@ TEST_CASE("refine: a mesh that stays coarse has fewer folds or none, and it is s
     CHECK(folds("9", "bent without wrinkles: the mesh's rows are too far apart") == 0);
     CHECK(folds("41", "only 5 folds, and ") == 5);
     CHECK(folds("81", "") == 10);
-    CHECK(folds("161", "") == 13);
+    CHECK(folds("161", "") == 20);
     // Too long for its folds: rows would not help.
     base(folder, "long.ply", {"--columns", "8", "--length", "500", "--rows", "6001"});
     const json all = report(folder, {"bend", "long.ply", "-o", "out.ply", "--refine", "off"});

@@ -58,9 +58,9 @@ TEST_CASE("wrinkles: --paper is what the words say that it stands for") {
 TEST_CASE("wrinkles: folds half as long are twice as many") {
     const Folder folder;
     base(folder);
-    CHECK(folds(folder, {}) == 13);
-    CHECK(folds(folder, {"--fold-length", "0.75"}) == 13);
-    CHECK(folds(folder, {"--fold-length", "0.375"}) == 27);
+    CHECK(folds(folder, {}) == 20);
+    CHECK(folds(folder, {"--fold-length", "0.5"}) == 20);
+    CHECK(folds(folder, {"--fold-length", "0.25"}) == 40);
     CHECK(folds(folder, {"--fold-length", "2"}) == 5);
     CHECK(folds(folder, {"--paper"}) == 5);
     CHECK(folds(folder, {"--paper", "--fold-length", "0.5"}) == 10);

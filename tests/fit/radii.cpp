@@ -131,14 +131,14 @@ TEST_CASE("radii: a body that is bent at rest gets its shape back (P1)") {
 }
 
 TEST_CASE("folds: as long and as deep as the body is thick") {
-    const Solid cone = tapered_tube(1.4, 0.5, 400);
+    const Solid cone = tapered_tube(1.4, 0.5, 800);
     const fit::Binding binding = fit::bind(cone.geometry(), shaped(cone));
     const auto& shape = binding.regions[0].shape;
     REQUIRE(shape);
-    CHECK(binding.folds() == doctest::Approx(10 / 0.75 * std::log(1.4 / 0.5) / 0.9).epsilon(0.06));
+    CHECK(binding.folds() == doctest::Approx(10 / 0.5 * std::log(1.4 / 0.5) / 0.9).epsilon(0.06));
     CHECK(deepest(binding) < 0.25);
     fit::BindOptions options;
-    options.fold_length = 0.375;
+    options.fold_length = 0.25;
     CHECK(deepest(fit::bind(cone.geometry(), shaped(cone), options)) ==
           doctest::Approx(deepest(binding) / 2).epsilon(0.1));
     CHECK(deepest(fit::bind(cone.geometry(), shaped(cone), fit::BindOptions::as_in_paper())) > 0.3);
@@ -150,7 +150,7 @@ TEST_CASE("folds: a mesh carries as many as its rows allow, and none where they 
         const Solid tube = test::cylinder({.rows = rows}, random);
         return fit::bind(tube.geometry(), fit::fit_cylinder(tube.geometry()));
     };
-    CHECK(folds(320).folds() == 13);  // of 0.75 radii
+    CHECK(folds(320).folds() == 20);  // of half a radius
     CHECK(folds(64).folds() == 8);    // of eight rows
     CHECK(deepest(folds(64)) < 0.35);
     CHECK(folds(24).folds() == 0);  // eight rows are 3.3 radii

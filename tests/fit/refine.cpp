@@ -221,8 +221,8 @@ TEST_CASE("refine: a body's stretches are its regions, with the folds asked for 
     CHECK(folds_of({.folds = 4, .profile = damped, .regions = {{0.25, 2}, {0.75, std::nullopt}}}) ==
           Folds{{5, 2}, {15, 4}});
     // Those of `even` are counted over the whole length.
-    CHECK(folds_of({}) == Folds{{20, 13.5}});
-    CHECK(folds_of({.fold_length = 0.5}) == Folds{{20, 20}});
+    CHECK(folds_of({}) == Folds{{20, 20}});
+    CHECK(folds_of({.fold_length = 0.75}) == Folds{{20, 13.5}});
     CHECK(folds_of({.folds = 7}) == Folds{{20, 3.5}});
 }
 

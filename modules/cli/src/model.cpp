@@ -75,8 +75,8 @@ std::string too_few(const fit::RegionBinding& region, int wanted, bool even, boo
                            counted(static_cast<std::size_t>(region.folds_capacity), "fold") + ", and ") +
                std::to_string(wanted) + " would suit its length" + mend + ", or --folds K to insist";
     }
-    // Folds that are somewhat longer have their depth all the same.
-    if (even && 3 * region.folds < 2 * wanted) {
+    // Folds that are up to twice as long have their depth all the same.
+    if (even && 2 * region.folds < wanted) {
         return "only " + counted(static_cast<std::size_t>(region.folds), "fold") + ", and " +
                std::to_string(wanted) +
                " would suit its length: where the mesh's rows are far apart, folds are longer or there are "
@@ -138,10 +138,9 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                        "over half of it), or a list of one number for each (default: what suits the body and "
                        "its mesh)");
     command
-        .add_option(
-            "--fold-length", words.fold_length,
-            "Make folds so many radii long: the shorter, the shallower (default: 0.75; with --profile "
-            "damped or smooth 1)")
+        .add_option("--fold-length", words.fold_length,
+                    "Make folds so many radii long: the shorter, the shallower (default: 0.5; with --profile "
+                    "damped or smooth 1)")
         ->check(number_within(0.05, 10, "a number of radii"));
     command
         .add_option("--amplitude", words.amplitude,

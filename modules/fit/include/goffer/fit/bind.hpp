@@ -127,7 +127,7 @@ struct RegionBinding {
 [[nodiscard]] std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cylinder& cylinder,
                                                           const WrinkleRange& range);
 
-/// Returns BindOptions::fold_length where nobody says: 0.75 for Profile::even, else 1.
+/// Returns BindOptions::fold_length where nobody says: 0.5 for Profile::even, else 1.
 [[nodiscard]] double default_fold_length(Profile profile);
 
 class Parts;
