@@ -108,7 +108,7 @@ struct Batch {
 
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not: of records of up to 64 bytes, most are then
-    /// written as whole cache lines, with zeros in the gaps, which takes less time than to keep them. Gaps
+    /// written as whole cache lines, with zeros in the gaps, which takes no more time than to keep them. Gaps
     /// are kept all the same where several records of a batch have one stride. Bytes before an instance's
     /// first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
