@@ -2,6 +2,7 @@
 #include "support/accuracy.hpp"
 
 #include "support/bodies.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 
@@ -41,7 +42,7 @@ bend::Pose random_pose_within(Random& random, double max_angle) {
 TEST_CASE("P2, P4: every instruction set agrees with the double closed form") {
     Random random(1);
     std::vector<Worst> worst(built_isas().size());
-    for (int trial = 0; trial < 40; ++trial) {
+    for (int trial = 0; trial < rounds(40, 10); ++trial) {
         const double scale = std::pow(10, uniform(random, -4, 4));
         TestMesh test_mesh = random_mesh(random, uniform(random, 3, 40), scale);
         if (trial % 3 == 0) add_radii(test_mesh, random);

@@ -135,7 +135,7 @@ TestMesh round_mesh(const Round& round, double slenderness, const glm::dmat3& ax
 
 TEST_CASE("P10: bounds hold every vertex") {
     Random random(81);
-    for (int trial = 0; trial < 40; ++trial) {
+    for (int trial = 0; trial < rounds(40, 10); ++trial) {
         const double slenderness =
             trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 3)) : uniform(random, 3, 40);
         TestMesh test_mesh =
@@ -150,7 +150,7 @@ TEST_CASE("P10: bounds hold every vertex") {
 
 TEST_CASE("P10: bounds hold the vertices of any body, however far from its axis and deep its wrinkles") {
     Random random(82);
-    for (int trial = 0; trial < 150; ++trial) {
+    for (int trial = 0; trial < rounds(150, 30); ++trial) {
         const std::size_t count = trial % 5 == 0 ? 1 + random() % 4 : 300;
         const double widest = trial % 3 == 0 ? 0.11 : uniform(random, 0.01, 2);
         check_held(random, loose_body(random, count, widest), 25);
@@ -194,7 +194,7 @@ TEST_CASE("P10: bounds are at most 1.3 times as long as the tight box on each ax
     double worst[2] = {};  // shallow folds or none; folds deeper than the radius
     std::string where[2];
     for (const Round& round : round_bodies) {
-        for (int trial = 0; trial < 12; ++trial) {
+        for (int trial = 0; trial < rounds(12, 4); ++trial) {
             const double slenderness =
                 trial % 4 == 0 ? std::pow(10, uniform(random, 1.5, 2.5)) : uniform(random, 3, 40);
             const glm::dmat3 axes = trial % 3 == 0 ? glm::dmat3(1) : random_rotation(random);

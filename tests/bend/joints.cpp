@@ -2,6 +2,7 @@
 #include "body_files.hpp"
 #include "support/bound_case.hpp"
 #include "support/chain_checks.hpp"
+#include "support/rounds.hpp"
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/body_input.hpp>
@@ -77,7 +78,7 @@ TEST_CASE("P1, P2, P4: folds over joints agree with the double chain") {
     Random random(161);
     for (const Kind kind : kinds) {
         Worst worst;
-        for (int trial = 0; trial < 12; ++trial) {
+        for (int trial = 0; trial < rounds(12, 4); ++trial) {
             CAPTURE(trial);
             const BoundCase one = joined_case(random, kind);
             check_rest(one);
@@ -137,7 +138,7 @@ TEST_CASE("P9: with folds over joints, a chain of one curvature is one region, w
 
 TEST_CASE("P10: bounds and capsules hold folds over joints") {
     Random random(164);
-    for (int trial = 0; trial < 40; ++trial) {
+    for (int trial = 0; trial < rounds(40, 10); ++trial) {
         const BoundCase one = joined_case(random, kinds[trial % 4]);
         const std::size_t count = one.test_mesh.positions.size();
         const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bound_case.hpp"
 #include "support/chain_checks.hpp"
+#include "support/rounds.hpp"
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/bend/bounds.hpp>
@@ -17,7 +18,7 @@ namespace goffer::test {
 TEST_CASE("P1, P2, P4: regions agree with the double chain") {
     Random random(61);
     Worst worst;
-    for (int trial = 0; trial < 16; ++trial) {
+    for (int trial = 0; trial < rounds(16, 6); ++trial) {
         const std::size_t regions = 2 + random() % 7;
         CAPTURE(trial);
         CAPTURE(regions);
@@ -32,7 +33,7 @@ TEST_CASE("P1, P2, P4: regions agree with the double chain") {
 TEST_CASE("P1, P2, P4: bodies bent at rest agree with the double closed form") {
     Random random(62);
     Worst worst;
-    for (int trial = 0; trial < 16; ++trial) {
+    for (int trial = 0; trial < rounds(16, 6); ++trial) {
         CAPTURE(trial);
         const BoundCase one = random_case(random, 1 + random() % 3, true);
         check_rest(one);

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Compiles each public header of goffer alone, and fails where one takes more processor time than allowed.
    headers.py COMPILER TOP LIMIT FOLDER..
-LIMIT: seconds. FOLDER: where the compiler looks for headers; those below TOP are goffer's. A header's time is the best of
-three, and of up to twelve where it is beyond the limit. On a machine that takes longer for a yardstick, <vector> and GLM's
+LIMIT: seconds. FOLDER: where the compiler looks for headers; those below TOP are goffer's. A header that takes more is tried
+again, up to twelve times; its time is the best of them. On a machine that takes longer for a yardstick, <vector> and GLM's
 vectors and matrices, than the one that the limit was set on, it is longer in proportion."""
 import os
 import pathlib
@@ -39,10 +39,10 @@ for turn in range(12):
     yardstick = min(yardstick, seconds(YARDSTICK))
     limit = LIMIT * max(1, yardstick / YARDSTICK_SECONDS)
     beyond = [header for header in headers if best[header] > limit]
-    for header in headers if turn < 3 else beyond:
-        best[header] = min(best[header], seconds([header]))
-    if turn >= 3 and not beyond:
+    if not beyond:
         break
+    for header in beyond:
+        best[header] = min(best[header], seconds([header]))
 for header, time in sorted(best.items(), key=lambda row: -row[1]):
     print(f"{time:.3f} s  {header}")
 print(f"yardstick: {yardstick:.3f} s; limit: {limit:.3f} s")
