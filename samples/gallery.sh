@@ -1,13 +1,11 @@
 #!/usr/bin/env bash
-# Draws the pictures of samples/gallery; needs ImageMagick, to make them small. The banana and the bottle are not bundled:
+# Draws the pictures of samples/gallery, and samples/caterpillar.png from the demo's; needs ImageMagick, to make them small. The banana and the bottle are not bundled:
 # they are drawn where MODELS has banana.obj and wine_bottle.glb.
 #   bash samples/gallery.sh [MODELS]
 set -euo pipefail
 models=$(realpath "${1:-.}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-bash .ci/setup build
-cmake --preset release --log-level=WARNING >/dev/null
-cmake --build --preset release --target goffer
+bash samples/demo.sh
 export PATH=$PWD/build/release/bin:$PATH
 to=$PWD/samples/gallery work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -27,3 +25,4 @@ else
     echo "gallery: no banana.obj and wine_bottle.glb in $models: their pictures stay as they are"
 fi
 for picture in *.png; do convert "$picture" -strip -resize 50% +dither -colors 255 "$to/$picture"; done
+convert "$to/../../out/bent.png" -strip -resize 75% +dither -colors 255 "$to/../caterpillar.png"
