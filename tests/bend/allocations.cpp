@@ -3,7 +3,6 @@
 #include "support/bodies.hpp"
 #include "support/locks.hpp"
 #include "support/output_buffer.hpp"
-#include "support/rounds.hpp"
 #include "support/test_batch.hpp"
 
 #include <goffer/bend/bounds.hpp>
@@ -105,9 +104,9 @@ private:
     int faults_ = 0, texts_ = 0;
 };
 
-/// A hundred, or some in a few rounds; but where nothing is counted, enough to see that they run.
+/// A hundred; but where nothing is counted, enough to see that they run.
 int frame_count() {
-    return measure::allocations() ? rounds(100, 20) : 3;
+    return measure::allocations() ? 100 : 3;
 }
 
 }  // namespace

@@ -139,8 +139,10 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                        "its mesh)");
     command
         .add_option("--fold-length", words.fold_length,
-                    "Make folds so many radii long: the shorter, the shallower (default: 0.5; with --profile "
-                    "damped or smooth 1)")
+                    "Make folds so many radii long: the shorter, the shallower (default: " +
+                        number(fit::default_fold_length(fit::Profile::even)) +
+                        "; with --profile damped or smooth " +
+                        number(fit::default_fold_length(fit::Profile::damped)) + ")")
         ->check(number_within(0.05, 10, "a number of radii"));
     command
         .add_option("--amplitude", words.amplitude,
