@@ -484,7 +484,7 @@ def too_few(folds, settings):
             "Take more of the length, or Add Rows", True)
     if even and not asked and folds.made == 0 and folds.capacity >= wanted:
         return "0 folds: in so long a body they would be longer than 2.5 radii. Give it Regions, under Body", False
-    if folds.capacity >= wanted if asked else 3 * folds.made >= 2 * wanted if even else folds.made > 0:
+    if folds.capacity >= wanted if asked else 2 * folds.made >= wanted if even else folds.made > 0:
         return "", False
     return (f"{folds.made} folds; {wanted} need a finer mesh, this one has vertices for {folds.capacity}. Add Rows, "
             "or Blender's Subdivide", True)

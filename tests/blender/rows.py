@@ -58,7 +58,7 @@ def check_shaped():
     assert bpy.ops.object.goffer_add_rows() == {"FINISHED"}
     folds = module().body_of(fuze)[0].folds[0]
     print(f"{len(rest(fuze))} vertices, {folds.made} of {folds.suitable} folds")
-    assert folds.made == folds.suitable == 11 and len(rest(fuze)) < 10_000
+    assert folds.made == folds.suitable == 16 and len(rest(fuze)) < 10_000
     check_near(seen(fuze), by_command(written(fuze), "--angle", "90"), "a shaped body")
 
 
