@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "arc.hpp"
 
-#include <Eigen/Dense>
+#include "least_squares.hpp"
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,12 +39,13 @@ Chord chord_of(const Body& cloud, const Vector3d& axis) {
         spread += p * p.transpose();
         right += row * p.head<2>().transpose();
     }
-    const Eigen::Matrix<double, 3, 2> by = normal.completeOrthogonalDecomposition().solve(right);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.topLeftCorner<2, 2>());
+    const Eigen::Matrix<double, 3, 2> by = least_squares(normal, right);
     const auto across = [&line](const Eigen::Vector2d& v) -> Vector3d {
         return (line.frame.leftCols<2>() * v).stableNormalized();
     };
-    const Vector3d p = across(solver.eigenvectors().col(0)), q = across(solver.eigenvectors().col(1));
+    const double widest = std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1)) / 2;
+    const double c = std::cos(widest), s = std::sin(widest);
+    const Vector3d p = across({-s, c}), q = across({c, s});
     return {line, normal(1, 1) / normal(0, 0), {across(by.row(2)), p, -p, q, -q}};
 }
 
@@ -102,17 +105,15 @@ CenterParabola regress(const Body& body, const Line& line) {
         const double x = 2 * s.place.x(), y = 2 * s.place.y(), z = s.place.z();
         Eigen::Matrix<double, 7, 1> row;
         row << x, y, z * x, z * y, z * z * x, z * z * y, s.rho * s.rho;
-        products.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+        products += weight * row * row.transpose();
         slices[slice].weight += weight;
         slices[slice].first += weight * row;
     });
     for (const Sums<7>& own : slices) {
         if (own.weight == 0) continue;
-        products.selfadjointView<Eigen::Lower>().rankUpdate(own.first, -1 / own.weight);
+        products -= own.first * own.first.transpose() / own.weight;
     }
-    products = products.selfadjointView<Eigen::Lower>();
-    return products.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
-        products.topRightCorner<6, 1>());
+    return least_squares(products.topLeftCorner<6, 6>(), products.topRightCorner<6, 1>());
 }
 
 /// Moves, tilts and bows the line until the centers of the sections' circles lie on it, in `steps` at most.

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "sections.hpp"
 
+#include "least_squares.hpp"
+
 #include <goffer/fit/cylinder.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <limits>
 
 namespace goffer::fit {
@@ -20,11 +22,10 @@ Row regress(const Body& body, const Line& line, bool tilt) {
         const Vector3d& p = s.place;
         const double z = tilt ? p.z() : 0;
         const Row row{1, 2 * p.x(), 2 * p.y(), 2 * p.x() * z, 2 * p.y() * z};
-        normal.selfadjointView<Eigen::Lower>().rankUpdate(row, s.unrolled);
+        normal += s.unrolled * row * row.transpose();
         right += s.unrolled * s.rho * s.rho * row;
     });
-    normal = normal.selfadjointView<Eigen::Lower>();
-    return normal.completeOrthogonalDecomposition().solve(right);
+    return least_squares(normal, right);
 }
 
 double sinc(double x) {

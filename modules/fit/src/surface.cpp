@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "surface.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
