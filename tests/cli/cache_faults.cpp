@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cache.hpp"
+#include "support/rounds.hpp"
 
 #include <doctest/doctest.h>
 
@@ -140,7 +141,7 @@ TEST_CASE("cache: damaged plans, manifests and shards end in one line") {
     refused(folder, 1, {"cache", "--extract", "9,0", "-o", "a.ply", "cache"}, {"0..8", "0..13"});
     std::mt19937 random(7);
     const auto below = [&](std::size_t end) { return random() % end; };
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < rounds(120, 24); ++round) {
         const std::string name = round % 3 == 0   ? "plan.json"
                                  : round % 3 == 1 ? "manifest.json"
                                                   : "shard-000000.gofferc";
