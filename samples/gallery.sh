@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of samples/gallery, and samples/caterpillar.png from the demo's; needs ImageMagick, to make them small. The banana and the bottle are not bundled:
-# they are drawn where MODELS has banana.obj and wine_bottle.glb.
+# Draws the pictures of samples/gallery, and samples/caterpillar.png from the demo's; needs ImageMagick, to make them
+# small. The banana is not bundled: it is drawn where MODELS has banana.obj.
 #   bash samples/gallery.sh [MODELS]
 set -euo pipefail
 models=$(realpath "${1:-.}")
@@ -17,12 +17,14 @@ goffer bend worm.ply --regions 0.5,0.5 --angles 120,-120 -o s.glb --png s.png
 goffer base --length 60 --radius 1 --columns 40 --rows 1201 --caps -o tentacle.ply
 goffer bend tentacle.ply --regions 0.25,0.2,0.17,0.15,0.13,0.1 --angles 60,70,80,95,110,115 -o spiral.glb --png spiral.png
 
-if [[ -f $models/banana.obj && -f $models/wine_bottle.glb ]]; then
+bottle=$OLDPWD/tests/data/wine_bottle.glb
+goffer bend "$bottle" --angle 90 -o bottle.glb --png bottle.png
+goffer bend "$bottle" --angle 90 --paper -o paper.glb --png bottle_paper.png
+
+if [[ -f $models/banana.obj ]]; then
     goffer bend "$models/banana.obj" --angle 0 -o straight.obj --png banana.png --ghost
-    goffer bend "$models/wine_bottle.glb" --angle 90 -o bottle.glb --png bottle.png
-    goffer bend "$models/wine_bottle.glb" --angle 90 --paper -o paper.glb --png bottle_paper.png
 else
-    echo "gallery: no banana.obj and wine_bottle.glb in $models: their pictures stay as they are"
+    echo "gallery: no banana.obj in $models: its picture stays as it is"
 fi
 for picture in *.png; do convert "$picture" -strip -resize 50% +dither -colors 255 "$to/$picture"; done
 convert "$to/../../out/bent.png" -strip -resize 75% +dither -colors 255 "$to/../caterpillar.png"

@@ -161,8 +161,7 @@ TEST_CASE("P3: squeezed columns keep the lengths that they have at rest, region 
         options.regions = {{0.5, {}}, {0.5, {}}};
         const fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
         const std::size_t count = test_mesh.positions.size();
-        std::vector<std::size_t> place(count);
-        for (std::size_t i = 0; i < count; ++i) place[binding.order.empty() ? i : binding.order[i]] = i;
+        const std::vector<std::uint32_t> place = binding.vertices_in_body();
         const bend::Pose poses[] = {{1.2f, 0.5f}, {2.5f, 1.4f}};
         Output bent(count);
         bend::run(make_job(binding.body, poses, Isa::automatic, bent));

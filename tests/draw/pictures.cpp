@@ -94,9 +94,7 @@ struct Crowd {
     /// Its triangles, as vertices of the body.
     [[nodiscard]] std::vector<std::uint32_t> triangles_of_body() const {
         std::vector<std::uint32_t> triangles = bound.test_mesh.triangles;
-        const std::vector<std::uint32_t>& order = bound.binding.order;
-        std::vector<std::uint32_t> place(bound.binding.body.vertex_count());
-        for (std::uint32_t i = 0; i < place.size(); ++i) place[order.empty() ? i : order[i]] = i;
+        const std::vector<std::uint32_t> place = bound.binding.vertices_in_body();
         for (std::uint32_t& vertex : triangles) vertex = place[vertex];
         return triangles;
     }

@@ -249,13 +249,6 @@ mesh::Mesh mesh_of(const paper::BaseMesh& base) {
     return mesh;
 }
 
-std::vector<std::uint32_t> places_of(const fit::Binding& binding) {
-    std::vector<std::uint32_t> places(binding.body.vertex_count());
-    for (std::uint32_t i = 0; i < places.size(); ++i)
-        places[binding.order.empty() ? i : binding.order[i]] = i;
-    return places;
-}
-
 std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh) {
     std::vector<TriangleRange> ranges;
     ranges.reserve(mesh.parts.size());

@@ -137,9 +137,6 @@ void put_in_model_order(std::vector<T>& values, const fit::Binding& binding) {
     values = std::move(sorted);
 }
 
-/// The inverse of binding.order: where in the body a vertex of the model is.
-[[nodiscard]] std::vector<std::uint32_t> places_of(const fit::Binding& binding);
-
 /// Warns of a mask that is the same everywhere, of folds that the mesh cannot carry, of those that are
 /// missing for want of rows, and of those that reach past the axis when regions are bent by `angles`
 /// (radians, >= 0; one per region). `where` begins each warning: empty, or which of several models is meant.

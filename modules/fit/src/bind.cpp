@@ -8,6 +8,7 @@
 #include "rest.hpp"
 #include "share.hpp"
 #include "text.hpp"
+#include "triangle.hpp"
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/fit/bind.hpp>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -323,33 +325,6 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-void check(std::span<const RegionOptions> regions) {
-    if (regions.size() > bend::max_regions) {
-        throw Error("regions: there are " + std::to_string(regions.size()) + " of them; give " +
-                    std::to_string(bend::max_regions) + " at most");
-    }
-    double sum = 0;
-    for (const RegionOptions& region : regions) {
-        if (!(region.share > 0) || !std::isfinite(region.share)) {
-            throw Error("regions: " + text(region.share) +
-                        " is not a share of the length; each must be above 0");
-        }
-        sum += region.share;
-    }
-    if (std::fabs(sum - 1) > 1e-6) {
-        throw Error("regions: their shares add up to " + text(sum) + " of the length; make it 1");
-    }
-}
-
-std::vector<RegionOptions> regions_of(const BindOptions& options) {
-    std::vector<RegionOptions> regions = options.regions;
-    if (regions.empty()) regions.emplace_back();
-    for (RegionOptions& region : regions) {
-        if (!region.folds) region.folds = options.folds;
-    }
-    return regions;
-}
-
 std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cylinder& cylinder,
                                             const WrinkleRange& range) {
     check(geometry);
@@ -359,20 +334,13 @@ std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cyli
     std::vector<std::uint32_t> within;
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
         const auto corners = geometry.triangles.subspan(t, 3);
-        const double share =
-            std::clamp(straightening.height(centroid(geometry, corners)) / cylinder.length, 0.0, 1.0);
+        const double share = std::clamp(
+            straightening.height(Triangle(geometry.positions, corners).centroid()) / cylinder.length, 0.0,
+            1.0);
         if (share >= range.first && share <= range.last && may_wrinkle(geometry, corners))
             within.insert(within.end(), corners.begin(), corners.end());
     }
     return within;
-}
-
-BindOptions BindOptions::as_in_paper() {
-    BindOptions options;
-    options.profile = Profile::damped;
-    options.shape = ShapeMode::cylinder;
-    options.onset = 0;
-    return options;
 }
 
 Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions& options) {
@@ -428,6 +396,13 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     }
     return {std::move(body), std::move(found),  std::move(draft->mesh.order), cylinder,
             options.profile, options.amplitude, std::move(parts_found),       milliseconds_since(start)};
+}
+
+std::vector<std::uint32_t> Binding::vertices_in_body() const {
+    if (!order.empty()) return places_in_body(order);
+    std::vector<std::uint32_t> vertices(body.vertex_count());
+    std::iota(vertices.begin(), vertices.end(), 0u);
+    return vertices;
 }
 
 Binding bind_level(const Geometry& level, const Binding& rig) {

@@ -68,10 +68,6 @@ std::vector<double> widened(const std::vector<double>& values) {
 
 }  // namespace
 
-double default_fold_length(Profile profile) {
-    return profile.kind == Profile::Kind::even ? 0.5 : 1;
-}
-
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
     const bool even = options.profile.kind == Profile::Kind::even;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
+#include "triangle.hpp"
 
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
@@ -29,11 +30,9 @@ std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
     std::vector<Reach> all;
     all.reserve(geometry.triangles.size() / 3);
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
-        const std::uint32_t i = geometry.triangles[t], j = geometry.triangles[t + 1],
-                            k = geometry.triangles[t + 2];
-        const glm::dvec3 a(geometry.positions[i]), b(geometry.positions[j]), c(geometry.positions[k]);
-        const auto [low, high] = std::minmax({z[i], z[j], z[k]});
-        all.push_back({low, high - low, glm::length(glm::cross(b - a, c - a)) / 2});
+        const std::span<const std::uint32_t> corners = geometry.triangles.subspan(t, 3);
+        const auto [low, high] = std::minmax({z[corners[0]], z[corners[1]], z[corners[2]]});
+        all.push_back({low, high - low, Triangle(geometry.positions, corners).area()});
     }
     return all;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "triangle.hpp"
+
 #include <goffer/fit/geometry.hpp>
 
 #include <glm/geometric.hpp>
@@ -113,14 +115,10 @@ void check(const Geometry& geometry) {
 }
 
 double surface_area(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
-    double twice = 0;
-    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        const glm::dvec3 a = positions[triangles[t]];
-        const glm::dvec3 b = positions[triangles[t + 1]];
-        const glm::dvec3 c = positions[triangles[t + 2]];
-        twice += glm::length(glm::cross(b - a, c - a));
-    }
-    return twice / 2;
+    double area = 0;
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3)
+        area += Triangle(positions, triangles.subspan(t, 3)).area();
+    return area;
 }
 
 }  // namespace goffer::fit

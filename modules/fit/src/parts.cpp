@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "parts.hpp"
 
+#include "disjoint_sets.hpp"
 #include "places.hpp"
 #include "rest.hpp"
 
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -43,12 +43,13 @@ public:
     /// Calls visit(segments) for each connected outline.
     template <class Visit>
     void each_outline(const Visit& visit) {
-        for (const Segment& segment : segments_) joined_[root(segment.from)] = root(segment.to);
-        std::ranges::sort(segments_, {}, [&](const Segment& segment) { return root(segment.from); });
+        for (const Segment& segment : segments_) joined_.join(segment.from, segment.to);
+        const auto outline = [&](const Segment& segment) { return joined_.set_of(segment.from); };
+        std::ranges::sort(segments_, {}, outline);
         for (auto from = segments_.begin(); from != segments_.end();) {
-            const std::uint32_t own = root(from->from);
-            const auto to =
-                std::find_if(from, segments_.end(), [&](const Segment& s) { return root(s.from) != own; });
+            const auto to = std::find_if(from, segments_.end(), [&, own = outline(*from)](const Segment& s) {
+                return outline(s) != own;
+            });
             visit(std::span<const Segment>(&*from, static_cast<std::size_t>(to - from)));
             from = to;
         }
@@ -56,18 +57,14 @@ public:
 
 private:
     std::uint32_t number(std::uint64_t edge) {
-        const auto [at, added] = numbers_.try_emplace(edge, static_cast<std::uint32_t>(joined_.size()));
-        if (added) joined_.push_back(at->second);
+        const auto [at, added] = numbers_.try_emplace(edge, 0);
+        if (added) at->second = joined_.add();
         return at->second;
-    }
-    std::uint32_t root(std::uint32_t i) {
-        while (joined_[i] != i) i = joined_[i] = joined_[joined_[i]];
-        return i;
     }
 
     std::vector<Segment> segments_;
     std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // of the edges that are crossed
-    std::vector<std::uint32_t> joined_;                         // a forest over them
+    DisjointSets joined_;                                       // those of one outline
 };
 
 /// How much of a displacement away from the axis is away from the center of a part, too: 1 all around a part

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
+#include "triangle.hpp"
 
 #include <goffer/fit/patches.hpp>
 
@@ -14,13 +15,6 @@ namespace goffer::fit {
 namespace {
 
 using Corners = std::span<const std::uint32_t>;
-
-double area(std::span<const glm::vec3> positions, Corners corners) {
-    const glm::dvec3 a = positions[corners[0]];
-    return glm::length(
-               glm::cross(glm::dvec3(positions[corners[1]]) - a, glm::dvec3(positions[corners[2]]) - a)) /
-           2;
-}
 
 /// The part that `share` (0..1, or a little beyond) falls into, of `count` equal ones.
 std::uint32_t part(double share, int count) {
@@ -54,7 +48,7 @@ std::vector<std::uint32_t> patches_of(const Geometry& geometry, const Cylinder& 
     std::vector<std::uint32_t> patches;
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
         const paper::Cylindrical at =
-            straightening.vertex(centroid(geometry, geometry.triangles.subspan(t, 3)));
+            straightening.vertex(Triangle(geometry.positions, geometry.triangles.subspan(t, 3)).centroid());
         const double turn = at.beta / (2 * std::numbers::pi) + 0.5 / grid.sides;
         patches.push_back(part(at.z / cylinder.length, grid.slices) * static_cast<std::uint32_t>(grid.sides) +
                           part(turn - std::floor(turn), grid.sides));
@@ -71,8 +65,8 @@ PatchChange patch_change(const Geometry& geometry, std::span<const glm::vec3> po
     std::vector<Areas> all(patches.empty() ? 0 : *std::ranges::max_element(patches) + std::size_t{1});
     for (std::size_t t = 0; t < patches.size(); ++t) {
         const Corners corners = geometry.triangles.subspan(3 * t, 3);
-        all[patches[t]].before += area(geometry.positions, corners);
-        all[patches[t]].after += area(positions, corners);
+        all[patches[t]].before += Triangle(geometry.positions, corners).area();
+        all[patches[t]].after += Triangle(positions, corners).area();
     }
     PatchChange result;
     double whole = 0, squares = 0;
@@ -95,7 +89,8 @@ std::vector<double> vertex_change(const Geometry& geometry, std::span<const glm:
     std::vector<Areas> all(positions.size());
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
         const Corners corners = geometry.triangles.subspan(t, 3);
-        const double before = area(geometry.positions, corners), after = area(positions, corners);
+        const double before = Triangle(geometry.positions, corners).area();
+        const double after = Triangle(positions, corners).area();
         for (const std::uint32_t corner : corners) {
             all[corner].before += before;
             all[corner].after += after;

@@ -169,12 +169,6 @@ glm::dvec3 Straightening::in_body(const glm::dvec3& position) const {
     return to_body_ * (position - cylinder_.origin);
 }
 
-glm::dvec3 centroid(const Geometry& geometry, std::span<const std::uint32_t> corners) {
-    glm::dvec3 sum(0);
-    for (const std::uint32_t corner : corners) sum += glm::dvec3(geometry.positions[corner]) / 3.0;
-    return sum;
-}
-
 glm::dmat3 axes_of(const Cylinder& cylinder) {
     glm::dmat3 axes(1);
     axes[2] = glm::normalize(cylinder.axis);

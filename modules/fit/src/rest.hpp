@@ -53,9 +53,6 @@ void join_folds(std::vector<RestRegion>& regions);
 /// Returns the shape of all of `cylinder`; null where it has no radii.
 [[nodiscard]] std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder);
 
-/// Returns the centroid of a triangle, given its three vertices.
-[[nodiscard]] glm::dvec3 centroid(const Geometry& geometry, std::span<const std::uint32_t> corners);
-
 /// Returns the axes of the base in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rest.hpp"
+#include "triangle.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
 #include <goffer/fit/cylinder.hpp>
@@ -58,18 +59,17 @@ private:
 };
 
 /// Adds a triangle, cut into pieces that are short along the body, by the area of its lateral part.
-void add_triangle(Profiler& profiler, const Straightening& straightening, const glm::dvec3 (&corner)[3],
+void add_triangle(Profiler& profiler, const Straightening& straightening, const Triangle& triangle,
                   double longest) {
+    const auto& corner = triangle.corner;
     double z[3];
-    for (int i = 0; i < 3; ++i) z[i] = straightening.height(corner[i]);
+    for (std::size_t i = 0; i < 3; ++i) z[i] = straightening.height(corner[i]);
     const auto [low, high] = std::minmax({z[0], z[1], z[2]});
     const int pieces = static_cast<int>(std::clamp(std::ceil((high - low) / longest), 1.0, 32.0));
-    const double area =
-        glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / (2.0 * pieces * pieces);
+    const glm::dvec3 face = triangle.normal();
+    const double area = glm::length(face) / (2.0 * pieces * pieces);
     // How steep the triangle is against the axis: 0 on a cap.
-    const glm::dvec3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
-    const paper::Cylindrical center = straightening.vertex(middle);
-    const glm::dvec3 face = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const paper::Cylindrical center = straightening.vertex(triangle.centroid());
     if (!(glm::length(face) > 0)) return;
     const bend::RestVector normal = straightening.normal(glm::normalize(face), center);
     const double upright = 1 - normal.z * normal.z;
@@ -93,9 +93,8 @@ std::vector<double> mean_radii(const Geometry& geometry, const Cylinder& cylinde
     Profiler profiler(cylinder.length, width, knots);
     const Straightening straightening(cylinder);
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
-        glm::dvec3 corner[3];
-        for (std::size_t i = 0; i < 3; ++i) corner[i] = geometry.positions[geometry.triangles[t + i]];
-        add_triangle(profiler, straightening, corner, width / 2);
+        const Triangle triangle(geometry.positions, geometry.triangles.subspan(t, 3));
+        add_triangle(profiler, straightening, triangle, width / 2);
     }
     return profiler.means();
 }

@@ -3,6 +3,7 @@
 #include "parts.hpp"
 #include "rest.hpp"
 #include "text.hpp"
+#include "triangle.hpp"
 
 #include <goffer/fit/sockets.hpp>
 
@@ -28,20 +29,21 @@ bend::Socket placed(const Binding& binding, const paper::Cylindrical& at) {
 
 /// The point of a triangle nearest to `p`: its foot on the plane where that lies inside, else the nearest
 /// point of its edges.
-glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3]) {
-    const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+glm::dvec3 nearest_on(const Triangle& triangle, const glm::dvec3& p) {
+    const auto& corner = triangle.corner;
+    const glm::dvec3 normal = triangle.normal();
     const double area = glm::dot(normal, normal);
     if (area > 0) {
         const glm::dvec3 foot = p - glm::dot(p - corner[0], normal) / area * normal;
         bool inside = true;
-        for (int i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i) {
             const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
             inside = inside && glm::dot(glm::cross(edge, foot - corner[i]), normal) >= 0;
         }
         if (inside) return foot;
     }
     glm::dvec3 nearest = corner[0];
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
         const double squared = glm::dot(edge, edge);
         const double t = squared > 0 ? std::clamp(glm::dot(p - corner[i], edge) / squared, 0.0, 1.0) : 0;
@@ -52,16 +54,15 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3 (&corner)[3
 }
 
 /// The mask at a point of a triangle, given by its three vertices.
-MaskValue mask_on(const Mask& mask, const Geometry& geometry, std::span<const std::uint32_t> triangle,
+MaskValue mask_on(const Mask& mask, const Geometry& geometry, std::span<const std::uint32_t> corners,
                   const glm::dvec3& point) {
-    glm::dvec3 corner[3];
-    for (std::size_t i = 0; i < 3; ++i) corner[i] = geometry.positions[triangle[i]];
-    const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const Triangle triangle(geometry.positions, corners);
+    const glm::dvec3 normal = triangle.normal();
     MaskValue sum{0, 0};
     for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 &b = corner[(i + 1) % 3], &c = corner[(i + 2) % 3];
+        const glm::dvec3 &b = triangle.corner[(i + 1) % 3], &c = triangle.corner[(i + 2) % 3];
         const double share = glm::dot(glm::cross(c - b, point - b), normal) / glm::dot(normal, normal);
-        const MaskValue own = mask.at(triangle[i]);
+        const MaskValue own = mask.at(corners[i]);
         sum.value += share * own.value;
         sum.slope += share * own.slope;
     }
@@ -89,10 +90,9 @@ bend::Socket socket_near(const Binding& binding, const Geometry& geometry, const
     std::span<const std::uint32_t> triangle;
     double distance = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
-        glm::dvec3 corner[3];
-        for (std::size_t i = 0; i < 3; ++i) corner[i] = geometry.positions[geometry.triangles[t + i]];
-        const glm::dvec3 own = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-        const glm::dvec3 on = nearest_on_triangle(point, corner);
+        const Triangle here(geometry.positions, geometry.triangles.subspan(t, 3));
+        const glm::dvec3 own = here.normal();
+        const glm::dvec3 on = nearest_on(here, point);
         if (!(glm::distance(on, point) < distance) || !(glm::length(own) > 0)) continue;
         distance = glm::distance(on, point);
         nearest = on;

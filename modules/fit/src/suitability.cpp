@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "disjoint_sets.hpp"
+#include "places.hpp"
 #include "rest.hpp"
 #include "surface.hpp"
+#include "triangle.hpp"
 
 #include <goffer/fit/suitability.hpp>
 
@@ -12,49 +15,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <vector>
 
 namespace goffer::fit {
 namespace {
-
-/// Sets of vertices that are joined by triangles.
-class Joined {
-public:
-    explicit Joined(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-    [[nodiscard]] std::uint32_t set_of(std::uint32_t vertex) {
-        while (parent_[vertex] != vertex) {
-            parent_[vertex] = parent_[parent_[vertex]];
-            vertex = parent_[vertex];
-        }
-        return vertex;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) { parent_[set_of(a)] = set_of(b); }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
-
-/// Joins vertices of one triangle, and vertices in one place.
-Joined joined(const Geometry& geometry) {
-    Joined sets(geometry.positions.size());
-    std::vector<std::uint32_t> order(geometry.positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto place = [&](std::uint32_t v) {
-        const glm::vec3& p = geometry.positions[v];
-        return std::array{p.x, p.y, p.z};
-    };
-    std::ranges::sort(order, {}, place);
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (place(order[i]) == place(order[i - 1])) sets.join(order[i], order[i - 1]);
-    for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
-        sets.join(geometry.triangles[t], geometry.triangles[t + 1]);
-        sets.join(geometry.triangles[t], geometry.triangles[t + 2]);
-    }
-    return sets;
-}
 
 glm::dvec2 across(const paper::Cylindrical& at) {
     return at.rho * glm::dvec2(std::cos(at.beta), std::sin(at.beta));
@@ -88,21 +52,26 @@ bool beside(const Shell& a, const Shell& b) {
 
 /// The middles of a triangle's edges: a third of its area at each of them gives it its second moments.
 std::array<glm::dvec3, 3> edge_middles(const Geometry& geometry, std::size_t triangle) {
-    std::array<glm::dvec3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = geometry.positions[geometry.triangles[3 * triangle + i]];
+    const auto& p = Triangle(geometry.positions, geometry.triangles.subspan(3 * triangle, 3)).corner;
     return {(p[0] + p[1]) / 2.0, (p[1] + p[2]) / 2.0, (p[2] + p[0]) / 2.0};
 }
 
 std::vector<Shell> shells_of(const Geometry& geometry, const Straightening& straightening) {
-    Joined sets = joined(geometry);
+    // Vertices of one triangle are joined, and so are those in one place.
+    const std::vector<std::uint32_t> place = places(geometry.positions);
+    DisjointSets sets(place.size());
+    for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {
+        sets.join(place[geometry.triangles[t]], place[geometry.triangles[t + 1]]);
+        sets.join(place[geometry.triangles[t]], place[geometry.triangles[t + 2]]);
+    }
     std::map<std::uint32_t, Shell> shells;
     double whole = 0;
     for (std::size_t t = 0; 3 * t < geometry.triangles.size(); ++t) {
         const std::array<glm::dvec3, 3> middle = edge_middles(geometry, t);
         // The triangle of the middles has a quarter of the area.
         const double area = 2 * glm::length(glm::cross(middle[1] - middle[0], middle[2] - middle[0]));
-        Shell& shell = shells[sets.set_of(geometry.triangles[3 * t])];
-        for (const glm::dvec3& place : middle) shell.add(area / 3, straightening.vertex(place));
+        Shell& shell = shells[sets.set_of(place[geometry.triangles[3 * t]])];
+        for (const glm::dvec3& p : middle) shell.add(area / 3, straightening.vertex(p));
         whole += area;
     }
     constexpr double counts = 0.02;  // of the area, so that there are at most 50 to compare

@@ -61,7 +61,7 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
     }
     try {
         fit::Binding binding = fit::bind_level({positions, triangles}, model.binding);
-        rig.place_ = places_of(binding);
+        rig.place_ = binding.vertices_in_body();
         rig.body_ = std::move(binding.body);
     } catch (const fit::Error&) {
         return std::nullopt;  // outside bend::WorkingRange

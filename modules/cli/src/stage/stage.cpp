@@ -71,7 +71,7 @@ std::vector<glm::vec3> own_colors(const BoundModel& model) {
 }
 
 draw::Mesh drawn_mesh(const BoundModel& model, const Textures& textures, std::size_t index) {
-    const std::vector<std::uint32_t> places = places_of(model.binding);
+    const std::vector<std::uint32_t> places = model.binding.vertices_in_body();
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
     const std::vector<glm::vec4> colors = vertex_colors(model.file, model.mesh, model.rest);
