@@ -5,8 +5,6 @@
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -4,8 +4,6 @@
 
 #include <goffer/fit/patches.hpp>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -52,7 +52,7 @@ bool beside(const Shell& a, const Shell& b) {
 
 /// The middles of a triangle's edges: a third of its area at each of them gives it its second moments.
 std::array<glm::dvec3, 3> edge_middles(const Geometry& geometry, std::size_t triangle) {
-    const auto& p = Triangle(geometry.positions, geometry.triangles.subspan(3 * triangle, 3)).corner;
+    const auto p = Triangle(geometry.positions, geometry.triangles.subspan(3 * triangle, 3)).corner;
     return {(p[0] + p[1]) / 2.0, (p[1] + p[2]) / 2.0, (p[2] + p[0]) / 2.0};
 }
 
