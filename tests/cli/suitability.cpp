@@ -4,7 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 /// Bodies that are no cylinders: they are bent, and one line says why that may look odd.
 
@@ -136,4 +138,18 @@ TEST_CASE("suitability: banana.obj") {
 
 TEST_CASE("suitability: l_arista.stl, a feathery antenna") {
     check_warning_of_model("l_arista.stl", "radii (rms) from the base cylinder");
+}
+
+TEST_CASE("suitability: a body far from the origin, whose coordinates are rounded") {
+    const Folder folder;
+    const std::string far = "it lies so far from the origin";
+    for (const float away : {0.0f, 1e4f, 1e5f}) {
+        CAPTURE(away);
+        mesh::Mesh mesh = rods(folder, {glm::vec3(away, 0, 0)});
+        mesh.positions.push_back(glm::vec3(1e6f, 0, 5));  // what no triangle uses is no reason
+        mesh::save(mesh, folder / "model.ply");
+        const json warnings = report(folder, {"inspect", "model.ply", "--axis", "z"})["warnings"];
+        CHECK(std::ranges::any_of(warnings, [&](const std::string& text) { return text.starts_with(far); }) ==
+              (away > 5e4f));
+    }
 }

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 /// The wrinkle table against eq 7's own solution, the largest angle against its definition, and bind's
 /// refusals.
@@ -106,6 +107,23 @@ TEST_CASE("the largest angle lies just below where the outermost vertex meets th
             CHECK(room(limit) > 0);
             CHECK(room(limit * 1.003) < 0);
         }
+    }
+}
+
+TEST_CASE("a vertex that no triangle uses does not limit the angle, wherever it is") {
+    for (const fit::ShapeMode shape : {fit::ShapeMode::automatic, fit::ShapeMode::cylinder}) {
+        std::vector<float> limits;
+        for (const double away : {0.5, 3.0, 500.0, 1e6, 1e15}) {
+            Random random(7);
+            TestMesh test_mesh = random_mesh(random, 10, 10);
+            const fit::Cylinder& c = test_mesh.cylinder;
+            add_vertex(test_mesh, random, {c.zero, glm::cross(c.axis, c.zero), c.axis}, 1, 5, away);
+            fit::BindOptions options;
+            options.shape = shape;
+            limits.push_back(fit::bind(test_mesh.geometry(), c, options).body.max_angle());
+        }
+        CHECK(limits.front() > 1);
+        for (const float limit : limits) CHECK(limit == limits.front());
     }
 }
 

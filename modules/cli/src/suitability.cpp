@@ -3,6 +3,9 @@
 
 #include <goffer/fit/suitability.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace goffer::cli {
@@ -12,6 +15,22 @@ namespace {
 constexpr double mostly = 0.5;   // share of the area: spurs and claws that lie side by side are no reason
 constexpr double flat = 3;       // as many times as wide as thick
 constexpr double far_off = 0.6;  // rms distance of the surface from the base cylinder, in radii
+
+/// Where coordinates are so large that floats round them by a share of the radius that shows.
+std::string far_away(const BoundModel& model) {
+    constexpr double most = 2e-3;  // radii: from some thousand lengths away
+    float largest = 0;
+    for (const std::uint32_t vertex : model.rest.triangles) {
+        const glm::vec3& p = model.rest.positions[vertex];
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    }
+    const auto step =
+        static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::max()) - largest);
+    const double radius = model.cylinder.radius;
+    if (step <= most * radius) return {};
+    return "it lies so far from the origin that its coordinates are rounded to steps of " + number(step) +
+           ", " + number(100 * step / radius) + " % of its radius; move it nearer to the origin";
+}
 
 std::string warning(const fit::Suitability& found, double residual) {
     if (found.side_by_side_share > mostly)
@@ -42,6 +61,7 @@ void report_suitability(Report& report, const BoundModel& model) {
                                   {"side_by_side_share", found.side_by_side_share},
                                   {"flatness", found.flatness}};
     const std::string why = warning(found, model.cylinder.residual);
+    if (const std::string far = far_away(model); !far.empty()) report.warn(far);
     if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
 }
 

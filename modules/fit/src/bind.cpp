@@ -117,6 +117,16 @@ Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindO
     return base;
 }
 
+/// A mesh's vertices as largest angles depend on them: those that no triangle uses cannot fold through each
+/// other, and are as if on the axis.
+std::vector<bend::RestVertex> vertices_in_the_way(const RestMesh& mesh, const Geometry& geometry) {
+    std::vector<bend::RestVertex> vertices = mesh.vertices;
+    const std::vector<bool> used = used_by_triangles(geometry);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (!used[mesh.order.empty() ? i : mesh.order[i]]) vertices[i].rho = 0;
+    return vertices;
+}
+
 double largest_rho(std::span<const bend::RestVertex> vertices) {
     double largest = 0;
     for (const bend::RestVertex& vertex : vertices) largest = std::max(largest, vertex.rho);
@@ -222,9 +232,10 @@ struct Draft {
     Draft(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
           std::span<const RestRegion> places, const Parts* parts)
         : mesh(rest_mesh(geometry, cylinder, options.profile, places, parts)) {
+        const std::vector<bend::RestVertex> vertices = vertices_in_the_way(mesh, geometry);
         std::size_t first = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            const auto own = std::span(mesh.vertices).subspan(first, mesh.counts[i]);
+            const auto own = std::span(vertices).subspan(first, mesh.counts[i]);
             const double beyond = scale_beyond(places, i);
             plans.push_back({cylinder, options, places[i], largest_rho(own),
                              places[i].shape ? girths_of(places[i], options.profile, own, beyond) : Girths{},

@@ -23,40 +23,25 @@ bool usable_direction(const glm::dvec3& v) {
     return std::isfinite(length) && length > 1e-12;
 }
 
-/// The vertices that no triangle uses.
-class Unused {
-public:
-    explicit Unused(const Geometry& geometry) : geometry_(geometry) {}
-
-    [[nodiscard]] bool operator[](std::size_t vertex) {
-        if (used_.empty()) {
-            used_.resize(geometry_.positions.size());
-            for (const std::uint32_t i : geometry_.triangles) used_[i] = true;
-        }
-        return !used_[vertex];
-    }
-
-private:
-    const Geometry& geometry_;
-    std::vector<bool> used_;  // made when first asked for
-};
-
+/// The vertices, straightened. One that no triangle uses is moved to within the ends, and to where numbers
+/// are in the working range of a body.
 std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cylinder& cylinder,
                                              const Straightening& straightening) {
     std::vector<paper::Cylindrical> vertices;
     vertices.reserve(geometry.positions.size());
-    Unused unused(geometry);
-    const double slack = 1e-3 * cylinder.length;
+    const std::vector<bool> used = used_by_triangles(geometry);
+    const double slack = 1e-3 * cylinder.length, far = 1e3 * cylinder.radius;
     for (const glm::vec3& position : geometry.positions) {
         paper::Cylindrical at = straightening.vertex(position);
         if (at.z < -slack || at.z > cylinder.length + slack) {
-            if (!unused[vertices.size()]) {
+            if (used[vertices.size()]) {
                 throw Error("vertex " + std::to_string(vertices.size()) + " lies at z = " + text(at.z) +
                             ", outside the base cylinder's 0.." + text(cylinder.length) +
                             "; fit the cylinder to this mesh, or lengthen it");
             }
             at.z = std::clamp(at.z, 0.0, cylinder.length);
         }
+        if (!used[vertices.size()]) at.rho = std::min(at.rho, far);
         vertices.push_back(at);
     }
     return vertices;
@@ -262,6 +247,12 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
     // The weight of an inner vertex depends on the radius there.
     if (at.rho < radius / 2) rest.slope -= weight * wave * rest.scale_slope / rest.scale;
     return rest;
+}
+
+std::vector<bool> used_by_triangles(const Geometry& geometry) {
+    std::vector<bool> used(geometry.positions.size(), false);
+    for (const std::uint32_t vertex : geometry.triangles) used[vertex] = true;
+    return used;
 }
 
 std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order) {

@@ -131,6 +131,9 @@ struct RestMesh {
     std::vector<std::uint32_t> order;  ///< vertex i is the geometry's order[i]; empty: i
 };
 
+/// Returns which of the geometry's vertices its triangles use.
+[[nodiscard]] std::vector<bool> used_by_triangles(const Geometry& geometry);
+
 /// Returns where in the body each vertex of the geometry is, of which `order` tells as RestMesh::order; empty
 /// where the order is the same.
 [[nodiscard]] std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order);

@@ -37,8 +37,8 @@ void Budget::check(std::uint64_t vertices, std::uint64_t triangles, std::uint64_
         refuse("triangles", limits_.triangles, "triangles");
     if (exceeds(bytes_, bytes, limits_.memory))
         throw OverLimit("takes more than the " + io::size_text(limits_.memory) +
-                        " of memory that are allowed; use a smaller mesh, or allow more with --max-memory "
-                        "(Limits::memory)");
+                        " of memory that are allowed; use a smaller mesh, or allow more: --max-memory of the "
+                        "command, Limits::memory in a program");
 }
 
 void Budget::take(std::uint64_t bytes) {
