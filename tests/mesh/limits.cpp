@@ -65,7 +65,7 @@ TEST_CASE("limits: memory, which is named with the option, in every format") {
         CHECK(within({.memory = 1 << 21}, name, bytes).empty());
         const std::string message = within({.memory = 1 << 14}, name, bytes);
         CHECK(tells(message, "takes more than the 16 KiB of memory"));
-        CHECK(tells(message, "--max-memory of the command"));
+        CHECK(tells(message, "--max-memory of the command, Limits::memory in a program"));
         CHECK(tells(within({.memory = bytes.size() - 1}, name, bytes), "Limits::memory"));
     }
 }

@@ -117,41 +117,40 @@ Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindO
     return base;
 }
 
-/// A mesh's vertices as largest angles depend on them: those that no triangle uses cannot fold through each
-/// other, and are as if on the axis.
-std::vector<bend::RestVertex> vertices_in_the_way(const RestMesh& mesh, const Geometry& geometry) {
-    std::vector<bend::RestVertex> vertices = mesh.vertices;
-    const std::vector<bool> used = used_by_triangles(geometry);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        if (!used[mesh.order.empty() ? i : mesh.order[i]]) vertices[i].rho = 0;
-    return vertices;
+/// Calls visit(vertex) for each vertex of a region that begins with vertex `first`, but for those that no
+/// triangle uses: they cannot fold through each other.
+template <class Visit>
+void each_used(const RestMesh& mesh, std::size_t first, std::size_t count, const Visit& visit) {
+    for (std::size_t i = first; i < first + count; ++i)
+        if (mesh.used[i]) visit(mesh.vertices[i]);
 }
 
-double largest_rho(std::span<const bend::RestVertex> vertices) {
+double largest_rho(const RestMesh& mesh, std::size_t first, std::size_t count) {
     double largest = 0;
-    for (const bend::RestVertex& vertex : vertices) largest = std::max(largest, vertex.rho);
+    each_used(mesh, first, count,
+              [&](const bend::RestVertex& vertex) { largest = std::max(largest, vertex.rho); });
     return largest;
 }
 
 /// The slices of a region with a shape. `scale_beyond`: see the function.
-Girths girths_of(const RestRegion& rest, paper::Profile profile, std::span<const bend::RestVertex> vertices,
-                 double scale_beyond) {
-    constexpr std::size_t count = 64;
-    Girths girths{rest.length, rest.shape->radius(), std::vector<Girth>(count)};
-    for (std::size_t i = 0; i < count; ++i) {
+Girths girths_of(const RestRegion& rest, paper::Profile profile, const RestMesh& mesh, std::size_t first,
+                 std::size_t count, double scale_beyond) {
+    constexpr std::size_t slices = 64;
+    Girths girths{rest.length, rest.shape->radius(), std::vector<Girth>(slices)};
+    for (std::size_t i = 0; i < slices; ++i) {
         Girth& girth = girths.slices[i];
         for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            const double z = rest.length * (static_cast<double>(i) + part) / count;
+            const double z = rest.length * (static_cast<double>(i) + part) / slices;
             girth.scale = std::max(girth.scale, rest.shape->scale(z));
             girth.depth = std::max(girth.depth, rest.shape->depth(z) * profile.crest());
         }
         girth.rho = girth.scale * girths.radius;
     }
-    for (const bend::RestVertex& vertex : vertices) {
-        const double slice = std::clamp(vertex.z / rest.length * count, 0.0, count - 1.0);
+    each_used(mesh, first, count, [&](const bend::RestVertex& vertex) {
+        const double slice = std::clamp(vertex.z / rest.length * slices, 0.0, slices - 1.0);
         Girth& girth = girths.slices[static_cast<std::size_t>(slice)];
         girth.rho = std::max(girth.rho, vertex.rho);
-    }
+    });
     if (scale_beyond > 0) girths.slices.push_back({scale_beyond, scale_beyond * girths.radius, 0});
     return girths;
 }
@@ -232,16 +231,17 @@ struct Draft {
     Draft(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
           std::span<const RestRegion> places, const Parts* parts)
         : mesh(rest_mesh(geometry, cylinder, options.profile, places, parts)) {
-        const std::vector<bend::RestVertex> vertices = vertices_in_the_way(mesh, geometry);
         std::size_t first = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            const auto own = std::span(vertices).subspan(first, mesh.counts[i]);
+            const std::size_t count = mesh.counts[i];
             const double beyond = scale_beyond(places, i);
-            plans.push_back({cylinder, options, places[i], largest_rho(own),
-                             places[i].shape ? girths_of(places[i], options.profile, own, beyond) : Girths{},
+            plans.push_back({cylinder, options, places[i], largest_rho(mesh, first, count),
+                             places[i].shape
+                                 ? girths_of(places[i], options.profile, mesh, first, count, beyond)
+                                 : Girths{},
                              beyond, i + 1 < places.size() ? gain_at_joint(places[i], places[i + 1]) : 1});
-            regions.push_back(region_input(plans[i], onset, own.size()));
-            first += own.size();
+            regions.push_back(region_input(plans[i], onset, count));
+            first += count;
         }
     }
 };

@@ -23,13 +23,19 @@ bool usable_direction(const glm::dvec3& v) {
     return std::isfinite(length) && length > 1e-12;
 }
 
+std::vector<bool> used_by_triangles(const Geometry& geometry) {
+    std::vector<bool> used(geometry.positions.size(), false);
+    for (const std::uint32_t vertex : geometry.triangles) used[vertex] = true;
+    return used;
+}
+
 /// The vertices, straightened. One that no triangle uses is moved to within the ends, and to where numbers
 /// are in the working range of a body.
 std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cylinder& cylinder,
-                                             const Straightening& straightening) {
+                                             const Straightening& straightening,
+                                             const std::vector<bool>& used) {
     std::vector<paper::Cylindrical> vertices;
     vertices.reserve(geometry.positions.size());
-    const std::vector<bool> used = used_by_triangles(geometry);
     const double slack = 1e-3 * cylinder.length, far = 1e3 * cylinder.radius;
     for (const glm::vec3& position : geometry.positions) {
         paper::Cylindrical at = straightening.vertex(position);
@@ -249,12 +255,6 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
     return rest;
 }
 
-std::vector<bool> used_by_triangles(const Geometry& geometry) {
-    std::vector<bool> used(geometry.positions.size(), false);
-    for (const std::uint32_t vertex : geometry.triangles) used[vertex] = true;
-    return used;
-}
-
 std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order) {
     std::vector<std::uint32_t> places(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
@@ -264,7 +264,8 @@ std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order) 
 RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Profile profile,
                    std::span<const RestRegion> regions, const Parts* parts) {
     const Straightening straightening(cylinder);
-    const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening);
+    const std::vector<bool> used = used_by_triangles(geometry);
+    const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening, used);
     RestMesh mesh;
     mesh.counts.resize(regions.size());
     const std::vector<std::uint32_t> order = region_order(regions, at, mesh.counts);
@@ -273,6 +274,7 @@ RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Pr
         const RestRegion& region = regions[region_at(regions, at[i].z)];
         mesh.vertices.push_back(rest_vertex(at[i], region, cylinder.radius, profile));
         if (parts != nullptr) apply(parts->at(at[i]), mesh.vertices.back());
+        mesh.used.push_back(used[i]);
         mesh.normals.push_back(straightening.normal(glm::normalize(normals[i]), at[i]));
         if (geometry.tangents.empty()) continue;
         const glm::dvec3 tangent(geometry.tangents[i]);

@@ -127,12 +127,10 @@ struct RestMesh {
     std::vector<bend::RestVector> normals;
     std::vector<bend::RestVector> tangents;  ///< none, or one per vertex
     std::vector<float> tangent_signs;
+    std::vector<bool> used;            ///< whether a triangle uses vertex i
     std::vector<std::size_t> counts;   ///< vertices in each region
     std::vector<std::uint32_t> order;  ///< vertex i is the geometry's order[i]; empty: i
 };
-
-/// Returns which of the geometry's vertices its triangles use.
-[[nodiscard]] std::vector<bool> used_by_triangles(const Geometry& geometry);
 
 /// Returns where in the body each vertex of the geometry is, of which `order` tells as RestMesh::order; empty
 /// where the order is the same.
