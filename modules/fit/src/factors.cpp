@@ -11,10 +11,13 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace goffer::fit {
@@ -33,38 +36,89 @@ struct Surface {
     std::vector<glm::vec3> wrinkle;  // what the wrinkle adds
 };
 
+/// Triangles that are computed side by side, so that compilers take vectors for them.
+constexpr std::size_t lanes = 8;
+
+using Lanes = std::array<float, lanes>;
+
+/// Vectors, one in each lane.
+struct Vectors {
+    Lanes x{}, y{}, z{};
+
+    void set(std::size_t lane, const glm::vec3& v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
+};
+
+/// The normals of triangles, twice as long as their areas, in powers of the factor.
+struct NormalPowers {
+    Vectors bare, linear, square;
+};
+
+/// Of a region's triangles in one pose: gathered once, since Newton's method looks at them for several
+/// factors.
+void gather(const Surface& surface, std::span<const std::uint32_t> triangles,
+            std::vector<NormalPowers>& normals) {
+    normals.clear();
+    normals.reserve(triangles.size() / 3 / lanes + 1);
+    for (std::size_t first = 0; first < triangles.size(); first += 3 * lanes) {
+        Vectors u, v, du, dv;
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const std::size_t t = first + 3 * i;
+            const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+            u.set(i, surface.bare[b] - surface.bare[a]);
+            v.set(i, surface.bare[c] - surface.bare[a]);
+            du.set(i, surface.wrinkle[b] - surface.wrinkle[a]);
+            dv.set(i, surface.wrinkle[c] - surface.wrinkle[a]);
+        }
+        NormalPowers& n = normals.emplace_back();
+        const auto cross = [](const Lanes& ay, const Lanes& az, const Lanes& by, const Lanes& bz,
+                              Lanes& sum) {
+            for (std::size_t i = 0; i < lanes; ++i) sum[i] += ay[i] * bz[i] - az[i] * by[i];
+        };
+        const auto add_cross = [&](const Vectors& a, const Vectors& b, Vectors& sum) {
+            cross(a.y, a.z, b.y, b.z, sum.x);
+            cross(a.z, a.x, b.z, b.x, sum.y);
+            cross(a.x, a.y, b.x, b.y, sum.z);
+        };
+        add_cross(u, v, n.bare);
+        add_cross(u, dv, n.linear);
+        add_cross(du, v, n.linear);
+        add_cross(du, dv, n.square);
+    }
+}
+
 /// Sum of the triangles' areas, and its derivative by the factor.
 struct Area {
     double area = 0;
     double slope = 0;
 };
 
-Area area_of(const Surface& surface, std::span<const std::uint32_t> triangles, double factor) {
+Area area_of(const std::vector<NormalPowers>& normals, double factor) {
     const auto m = static_cast<float>(factor);
-    Area sum;
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-        const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
-        const glm::vec3 u1 = surface.wrinkle[b] - surface.wrinkle[a];
-        const glm::vec3 v1 = surface.wrinkle[c] - surface.wrinkle[a];
-        const glm::vec3 u = surface.bare[b] - surface.bare[a] + m * u1;
-        const glm::vec3 v = surface.bare[c] - surface.bare[a] + m * v1;
-        const glm::vec3 normal = glm::cross(u, v);
-        const float length = std::sqrt(glm::dot(normal, normal));
-        sum.area += static_cast<double>(length) / 2;
-        if (length > 0) {
-            const float slope = glm::dot(normal, glm::cross(u1, v) + glm::cross(u, v1)) / length;
-            sum.slope += static_cast<double>(slope) / 2;
+    std::array<double, lanes> areas{}, slopes{};
+    for (const NormalPowers& n : normals) {
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const float x = n.bare.x[i] + m * (n.linear.x[i] + m * n.square.x[i]);
+            const float y = n.bare.y[i] + m * (n.linear.y[i] + m * n.square.y[i]);
+            const float z = n.bare.z[i] + m * (n.linear.z[i] + m * n.square.z[i]);
+            const float length = std::sqrt(x * x + y * y + z * z);
+            const float along = x * (n.linear.x[i] + 2 * m * n.square.x[i]) +
+                                y * (n.linear.y[i] + 2 * m * n.square.y[i]) +
+                                z * (n.linear.z[i] + 2 * m * n.square.z[i]);
+            areas[i] += static_cast<double>(length);
+            // The smallest float in place of 0, where x, y and z are 0 too.
+            slopes[i] += static_cast<double>(along / std::max(length, std::numeric_limits<float>::min()));
         }
     }
-    return sum;
+    return {std::accumulate(areas.begin(), areas.end(), 0.0) / 2,
+            std::accumulate(slopes.begin(), slopes.end(), 0.0) / 2};
 }
 
 /// The factor in 0..most at which the surface has `wanted` area, or comes nearest to it.
-double solve(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted, double guess) {
+double solve(const std::vector<NormalPowers>& normals, double wanted, double guess) {
     double factor = guess;
     double best = guess, best_error = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
-        const Area at = area_of(surface, triangles, factor);
+        const Area at = area_of(normals, factor);
         const double error = at.area - wanted;
         if (std::fabs(error) < best_error) best = factor, best_error = std::fabs(error);
         if (best_error <= area_tolerance * wanted) break;
@@ -80,13 +134,12 @@ double solve(const Surface& surface, std::span<const std::uint32_t> triangles, d
 /// The square of that factor. Where even the bare bend has more area than is wanted, it is below 0, as if
 /// area grew evenly with the square, so that the table interpolates well up to where wrinkles begin. Where
 /// there is nothing to wrinkle it is that of the guess.
-double solve_square(const Surface& surface, std::span<const std::uint32_t> triangles, double wanted,
-                    double guess) {
+double solve_square(const std::vector<NormalPowers>& normals, double wanted, double guess) {
     constexpr double least = -4;
-    const double factor = solve(surface, triangles, wanted, guess);
+    const double factor = solve(normals, wanted, guess);
     if (factor > 0) return factor * factor;
-    const double bare = area_of(surface, triangles, 0).area;
-    const double gain = area_of(surface, triangles, 1).area - bare;
+    const double bare = area_of(normals, 0).area;
+    const double gain = area_of(normals, 1).area - bare;
     return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
 }
 
@@ -162,6 +215,7 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
                      const RowDone& row_done) {
     Poser poser(body);
     Surface surface;
+    std::vector<NormalPowers> normals;
     double square = 1;
     for (std::size_t row = rows - 1; row > 0; --row) {  // from where it is best determined
         const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
@@ -169,7 +223,8 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
                              static_cast<float>(bend::FactorTable::directions);
         const float toward = body.rest_pose(region).direction + turned;
         poser.bend(region, {root * root * table.max_angle, toward}, surface);
-        square = solve_square(surface, triangles, wanted, square > 0 ? std::sqrt(square) : 1);
+        gather(surface, triangles, normals);
+        square = solve_square(normals, wanted, square > 0 ? std::sqrt(square) : 1);
         table.rows[row][direction] = static_cast<float>(square);
         row_done();
     }
@@ -318,10 +373,13 @@ void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<c
     const std::vector<std::uint32_t> place = places_in_body(order);
     const Surface at_rest = Poser(body).rest();
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        const std::vector<std::uint32_t> triangles =
-            triangles_of(body.regions()[r], geometry.triangles, place);
+        std::vector<std::uint32_t> triangles = triangles_of(body.regions()[r], geometry.triangles, place);
         if (regions[r].table.empty() || triangles.empty()) continue;
-        const double wanted = area_of(at_rest, triangles, 0).area;
+        // Whole lanes: points, which have no area.
+        while (triangles.size() % (3 * lanes) != 0) triangles.push_back(triangles[0]);
+        std::vector<NormalPowers> normals;
+        gather(at_rest, triangles, normals);
+        const double wanted = area_of(normals, 0).area;
         regions[r].factors = factors_of(body, r, triangles, wanted, share.step(r, regions.size()));
     }
 }
