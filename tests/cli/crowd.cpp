@@ -260,7 +260,7 @@ TEST_CASE("crowd: bad words") {
     refuse({"--stores", "nt"}, {"--stores", "nt", "automatic", "cached", "streaming"});
     refuse({"--isa", "mmx"}, {"--isa", "mmx", "scalar"});
     refuse({"--axis", "0,0,0"}, {"--axis", "three finite numbers"});
-    refuse({"--folds", "65"}, {"--folds"});
+    refuse({"--folds", "513"}, {"--folds"});
     refuse({"--fit", "fit.json"}, {"--fit"});
     refuse({"-o", "out.ply"}, {"-o"});
     refuse({"base.ply", "base.ply", "--instances", "2"}, {"--instances", "2", "3 models"});

@@ -205,7 +205,7 @@ TEST_CASE("refine: a mesh that stays coarse has fewer folds or none, and it is s
     CHECK(folds("81", "") == 10);
     CHECK(folds("161", "") == 20);
     // Too long for its folds: rows would not help.
-    base(folder, "long.ply", {"--columns", "8", "--length", "500", "--rows", "6001"});
+    base(folder, "long.ply", {"--columns", "4", "--length", "2700", "--rows", "12001"});
     const json all = report(folder, {"bend", "long.ply", "-o", "out.ply", "--refine", "off"});
     CHECK(all["folds"] == 0);
     REQUIRE(all["warnings"].size() == 1);
@@ -251,7 +251,7 @@ TEST_CASE("refine: bad words, bad files, and more than there is room for") {
     const Words refine{"refine", "coarse.ply", "-o", "out.ply"};
     refused(folder, 2, {"bend", "coarse.ply", "-o", "out.ply", "--refine", "--folds", "0"},
             {"--refine", "--folds 0", "nothing to refine for"});
-    for (const std::string word : {"0", "65", "-1", "many"})
+    for (const std::string word : {"0", "513", "-1", "many"})
         refused(folder, 2, refine + Words{"--folds", word}, {"--folds"});
     refused(folder, 2, {"refine", "coarse.ply"}, {"--output"});
     refused(folder, 2, {"refine", "coarse.ply", "-o", "out.txt"}, {"out.txt"});

@@ -167,8 +167,14 @@ TEST_CASE("folds that nobody asked for are never more than bind takes") {
         CHECK(fit::bind(mesh.geometry(), mesh.cylinder).folds() == 2 * fit::BindOptions::max_folds);
         return fit::bind(mesh.geometry(), mesh.cylinder, damped).folds();
     };
-    CHECK(folds(160) == fit::BindOptions::max_folds);
-    CHECK(folds(300) == 0);  // 64 of the 150 that suit it would reach past the axis
+    CHECK(folds(1280) == fit::BindOptions::max_folds);
+    CHECK(folds(2400) == 0);  // 512 of the 1200 that suit it would reach past the axis
+}
+
+TEST_CASE("bodies that are thousands of radii long bend by as much as a body can") {
+    Random random(26);
+    const TestMesh mesh = random_mesh(random, 4000, 1, 3, 500, 0);
+    CHECK(fit::bind(mesh.geometry(), mesh.cylinder).body.max_angle() == bend::WorkingRange::max_angle);
 }
 
 TEST_CASE("bind refuses what it cannot use, and names it") {
@@ -182,11 +188,11 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
     };
     CHECK(refused([](TestMesh&, fit::BindOptions&) {}).empty());
     using Options = fit::BindOptions;
-    CHECK(refused([](TestMesh&, Options& o) { o.folds = 129; }).find("folds") != std::string::npos);
+    CHECK(refused([](TestMesh&, Options& o) { o.folds = 1025; }).find("folds") != std::string::npos);
     CHECK(refused([](TestMesh&, Options& o) {
               o.profile = Profile::damped;
-              o.folds = 65;
-          }).find("folds: 65 is outside 0..64") != std::string::npos);
+              o.folds = 513;
+          }).find("folds: 513 is outside 0..512") != std::string::npos);
     for (const double bad : {-0.1, 0.6, std::nan("")}) {
         const auto rounded = [&](TestMesh&, Options& o) { o.profile.roundness = bad; };
         CHECK(refused(rounded).find("roundness") == 0);

@@ -102,6 +102,30 @@ TEST_CASE("clean cylinders: axis, length and radius within 4e-6 from 12 columns 
     }
 }
 
+TEST_CASE("slender cylinders, hundreds and thousands of radii long, straight and as arcs") {
+    std::mt19937 random(37);
+    for (const double length : {150.0, 400.0, 800.0, 2500.0}) {
+        for (const double angle : {0.0, 0.4, 3.5}) {
+            CAPTURE(length);
+            CAPTURE(angle);
+            Recipe recipe;
+            recipe.columns = 16;
+            recipe.rows = static_cast<int>(std::min(4 * length, 3000.0));
+            recipe.length = length;
+            recipe.closed = false;
+            Solid solid = test::cylinder(recipe, random);
+            if (angle > 0)
+                solid = warped(solid, [&](glm::dvec3 p) {
+                    const double phi = angle * p.z / length, far = length / angle - p.x;
+                    return glm::dvec3(length / angle - far * std::cos(phi), p.y, far * std::sin(phi));
+                });
+            const Cylinder fitted = fit::fit_cylinder(solid.geometry());
+            CHECK(std::abs(fitted.rest_angle - angle) < 1e-5);
+            CHECK(std::abs(fitted.radius - 1) < 1e-4);
+        }
+    }
+}
+
 TEST_CASE("2 % radial noise: axis within 0.2 degrees, length within 0.25 %, radius within 0.15 %") {
     std::mt19937 random(32);
     each_family(5000, [&](Recipe recipe) {

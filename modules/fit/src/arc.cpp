@@ -3,6 +3,7 @@
 
 #include "least_squares.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -55,6 +56,32 @@ Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
     const double radius = std::sqrt(2 * chord.spread / (1 - std::sin(angle) / angle));
     const double inward = radius * (1 - std::sin(half) / half);
     return line_through(chord.line.point - inward * bow, chord.line.axis(), bow / radius);
+}
+
+/// The arc of the circle through a cloud's plane that lies nearest to its points (Kasa 1976): about that of a
+/// slender body, however far it is bent. Of two ways along it, the one that goes with `axis`.
+Line circle_through(const Body& cloud, const Vector3d& axis) {
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& p : cloud.points) mean += p / static_cast<double>(cloud.points.size());
+    Matrix3d spread = Matrix3d::Zero();
+    for (const Vector3d& p : cloud.points) spread += (p - mean) * (p - mean).transpose();
+    const Matrix3d main = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors();
+    Matrix3d normal = Matrix3d::Zero();
+    Vector3d right = Vector3d::Zero();
+    for (const Vector3d& p : cloud.points) {
+        const Vector3d at = main.transpose() * (p - mean);
+        const Vector3d row{1, 2 * at.y(), 2 * at.z()};  // x is across the plane
+        normal += row * row.transpose();
+        right += (at.y() * at.y() + at.z() * at.z()) * row;
+    }
+    const Vector3d by = least_squares(normal, right);
+    const Vector3d center{0, by[1], by[2]};
+    const double radius = std::sqrt(by[0] + center.squaredNorm());
+    const Vector3d inward = center.stableNormalized();  // from the middle of the arc
+    const Vector3d along{0, -inward.z(), inward.y()};
+    const Vector3d tangent = main * along;
+    return line_through(mean + main * (center - radius * inward),
+                        std::copysign(1.0, tangent.dot(axis)) * tangent, main * inward / radius);
 }
 
 /// The sections of a body, gathered in a few slices along its line: that a bottle's neck is thinner than its
@@ -141,7 +168,10 @@ bool possible(const Fitted& arc) {
 std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {
     const Line line = settle(body, start, steps);
     if (!line.point.allFinite() || !line.frame.allFinite() || !line.bow.allFinite()) return std::nullopt;
-    const Fitted arc = measured(body, line);
+    const std::optional<Section> around = section_around(body, line);
+    if (!around) return std::nullopt;
+    const auto [low, high] = extent(body, line);
+    const Fitted arc{line, low, high, *around};
     return possible(arc) ? std::optional(arc) : std::nullopt;
 }
 
@@ -177,22 +207,23 @@ bool convincing(const Body& body, const Fitted& arc, const Line& straight, doubl
            rough < slack * better * roughness(body, straight);
 }
 
-/// The best of arcs that begin with several angles and directions.
+/// The best of arcs that begin with the points' circle, and with several angles and directions.
 std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
     constexpr double degree = std::numbers::pi / 180;
     constexpr int few_steps = 5;
     const Chord chord = chord_of(cloud, axis);
     std::optional<Fitted> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const double angle : {30., 90., 150.}) {
-        for (const Vector3d& bow : chord.bow) {
-            const std::optional<Fitted> arc = arc_from(cloud, arc_of(angle * degree, chord, bow), few_steps);
-            const double own = arc ? roughness(cloud, arc->line) : least;
-            if (!(own < least)) continue;
-            least = own;
-            best = arc;
-        }
-    }
+    const auto consider = [&](const Line& start) {
+        const std::optional<Fitted> arc = arc_from(cloud, start, few_steps);
+        const double own = arc ? roughness(cloud, arc->line) : least;
+        if (!(own < least)) return;
+        least = own;
+        best = arc;
+    };
+    consider(circle_through(cloud, axis));
+    for (const double angle : {30., 90., 150.})
+        for (const Vector3d& bow : chord.bow) consider(arc_of(angle * degree, chord, bow));
     return best;
 }
 

@@ -166,13 +166,14 @@ struct Plan {
     double blend_gain;
 
     /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
-    /// no wrinkle at rest.
+    /// no wrinkle at rest. Of bodies that are thousands of radii long it is the largest that a body can have.
     [[nodiscard]] double max_angle(double factor) const {
         const double largest =
             rest.shape ? largest_angle(girths, options.profile, options.amplitude, rest.folds, factor)
                        : largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
                                        cylinder.radius, largest_rho, factor);
-        return std::max(cylinder.rest_angle * rest.length / cylinder.length, largest);
+        return std::min(std::max(cylinder.rest_angle * rest.length / cylinder.length, largest),
+                        bend::WorkingRange::max_angle);
     }
 };
 

@@ -100,7 +100,7 @@ std::pair<double, double> extent(const Body& body, const Line& line) {
     return {low, high};
 }
 
-Section section(const Body& body, const Line& line) {
+std::optional<Section> section_around(const Body& body, const Line& line) {
     double flux = 0, unrolled = 0, area = 0;
     double moment = 0;  // integral of rho^2 over the lateral area; that of rho is the flux
     each_sample(body, View(body, line), [&](const Sample& s) {
@@ -110,12 +110,14 @@ Section section(const Body& body, const Line& line) {
         moment += s.flux * s.rho;
     });
     constexpr double no_flux = 1e-14;
-    if (flux < no_flux) {
-        throw AxisError("the mesh has no surface around the axis " + text(line.axis()) +
-                        "; give another axis");
-    }
+    if (flux < no_flux) return std::nullopt;
     const double r = std::sqrt(flux / unrolled);
-    return {r, std::sqrt(std::max(0.0, (moment - 2 * r * flux) / area + r * r)) / r};
+    return Section{r, std::sqrt(std::max(0.0, (moment - 2 * r * flux) / area + r * r)) / r};
+}
+
+Section section(const Body& body, const Line& line) {
+    if (const std::optional<Section> around = section_around(body, line)) return *around;
+    throw AxisError("the mesh has no surface around the axis " + text(line.axis()) + "; give another axis");
 }
 
 Fitted measured(const Body& body, const Line& line) {

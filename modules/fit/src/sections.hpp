@@ -106,8 +106,11 @@ struct Section {
     double residual;
 };
 
-/// r^2 is the mean of rho^2 over the unrolled surface: pi r^2 is the mean area of the sections. Throws Error
-/// where there is no surface around the line.
+/// r^2 is the mean of rho^2 over the unrolled surface: pi r^2 is the mean area of the sections. Nothing where
+/// there is no surface around the line.
+[[nodiscard]] std::optional<Section> section_around(const Body& body, const Line& line);
+
+/// The same. Throws Error where there is no surface around the line.
 [[nodiscard]] Section section(const Body& body, const Line& line);
 
 /// A center line with the body's extent and section about it, in units of the body's size.
