@@ -212,6 +212,21 @@ TEST_CASE("bend: no folds is the bare bend") {
     CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
 }
 
+TEST_CASE("bend: area that wrinkles do not make up for is said, unless somebody said how to wrinkle") {
+    const Folder folder;
+    base(folder, "base.ply", {"--length", "2300", "--columns", "6", "--rows", "601"});  // radii
+    const auto warnings = [&](const Words& words) {
+        return report(folder,
+                      Words{"bend", "base.ply", "-o", "out.ply", "--angle", "max"} + words)["warnings"];
+    };
+    const json said = warnings({});
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].get<std::string>().starts_with("the area changes by -36."));
+    CHECK(warnings({"--amplitude", "none"}).empty());
+    CHECK(warnings({"--folds", "0"}).empty());
+    CHECK(warnings({"--regions", "0.5,0.5"}).empty());
+}
+
 TEST_CASE("bend: folds that the mesh cannot carry are allowed with a warning") {
     const Folder folder;
     base(folder);

@@ -128,6 +128,8 @@ TEST_CASE("from rest: a bend that straightens says so in one line, and names --b
     CHECK(said({"--angle", "60", "--direction", "5"}));
     CHECK(said({"--angle", "-60", "--direction", "210"}));
     CHECK(said({"--angle", "50", "--direction", "30", "--regions", "0.5,0.5"}));
+    CHECK(said({"--angle", "60"}));  // no direction was meant, though 0 is another than 30
+    CHECK(said({"--angle", "-60"}));
     CHECK_FALSE(said({"--angle", "69.9", "--direction", "30"}));  // the rest pose, rounded
     CHECK_FALSE(said({"--angle", "80", "--direction", "30"}));
     CHECK_FALSE(said({"--angle", "60", "--direction", "210"}));

@@ -95,13 +95,13 @@ Target target_from_rest(const bend::Body& body, std::size_t region, double by,
     return moved_from(curvature(rest.angle, rest.direction), by, *direction, largest(body, region));
 }
 
-/// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
-/// no straightening.
+/// Whether a region gets straighter than it is at rest, and nobody asked for that by a direction that is
+/// another. What `inspect` says of the rest pose is rounded, and no straightening.
 bool straightens(const RestPose& rest, const Target& target) {
     constexpr double clearly = 0.99, same_way = 0.7;  // cosine of 45 degrees
     if (!(std::fabs(target.angle) < clearly * rest.angle)) return false;
     const double turn = std::cos(radians(target.direction - rest.direction));
-    return target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
+    return target.any_direction || target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
 }
 
 void report_rest_pose(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
@@ -185,8 +185,10 @@ PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions>
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {
     std::vector<Target> targets;
-    for (std::size_t i = 0; i < request.angles.size(); ++i)
+    for (std::size_t i = 0; i < request.angles.size(); ++i) {
         targets.push_back(target(request.angles[i], request.directions[i].value_or(0)));
+        targets.back().any_direction = !request.directions[i];
+    }
     return targets;
 }
 

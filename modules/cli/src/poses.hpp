@@ -49,7 +49,8 @@ struct PoseRequest {
 struct Target {
     double angle = 0;  ///< as asked for: it may be beyond the largest
     double direction = 0;
-    bend::Pose pose = {};  ///< the same, in radians
+    bend::Pose pose = {};        ///< the same, in radians
+    bool any_direction = false;  ///< nobody said which
 };
 
 /// Returns the targets of `request`, one per region, as if no body were bent at rest; the largest angle is
