@@ -580,7 +580,7 @@ class GofferBend(bpy.types.PropertyGroup):
     amplitude: bpy.props.EnumProperty(name="Depth", items=AMPLITUDE_ITEMS, description="What decides folds' depth",
                                       update=follow, options=set())
     folds: bpy.props.IntProperty(name="Folds", description="Of each region; -1: what suits it", default=-1, min=-1,
-                                 max=64, update=follow, options=set())
+                                 max=512, soft_max=64, update=follow, options=set())
     fold_length: bpy.props.FloatProperty(name="Length", description="Of a fold, in radii; 0: the profile's own", min=0,
                                          soft_max=4, update=follow, options=set())
     wrinkle_first: bpy.props.FloatProperty(name="From", description="Below it the surface stays smooth", min=0,
@@ -667,7 +667,7 @@ class GOFFER_OT_bend(Operator):
     wrinkles: bpy.props.FloatProperty(name="Wrinkles", default=1, min=0, max=1, subtype="FACTOR")
     profile: bpy.props.EnumProperty(name="Profile", items=PROFILE_ITEMS)
     amplitude: bpy.props.EnumProperty(name="Depth", items=AMPLITUDE_ITEMS)
-    folds: bpy.props.IntProperty(name="Folds", default=-1, min=-1, max=64)
+    folds: bpy.props.IntProperty(name="Folds", default=-1, min=-1, max=512, soft_max=64)
 
     def invoke(self, context, _event):
         settings = context.object.goffer_bend

@@ -268,10 +268,13 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
         if (beyond && !all_the_way) warn_of_angle(report, which, asked, limit, "clamped to it");
     }
     const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
-    for (std::size_t i = 0; known && i < targets.size(); ++i)
-        report.line(i == 0 ? "folds" : "",
-                    region_words(i, targets.size()) + std::to_string(binding.folds(i)) + " of " +
-                        std::to_string(binding.folds_capacity(i)) + " that the mesh carries");
+    for (std::size_t i = 0; known && i < targets.size(); ++i) {
+        const int folds = binding.folds(i), capacity = binding.folds_capacity(i);
+        const std::string carried = folds > capacity
+                                        ? "; the mesh carries " + std::to_string(capacity)
+                                        : " of " + std::to_string(capacity) + " that the mesh carries";
+        report.line(i == 0 ? "folds" : "", region_words(i, targets.size()) + std::to_string(folds) + carried);
+    }
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = binding.folds_capacity();
     report.json["pose"] = poses[0];
