@@ -220,6 +220,22 @@ TEST_CASE("P7: validate names two streams that share bytes, and no others") {
                          planar(plane(count), plane(3 * count), plane(5 * count))));
     CHECK(overlaps(planar(plane(0), plane(count), plane(2 * count)), at(3 * count - 2, 3)));
 
+    // Bounds lie beside streams, at an address of their type.
+    DeformJob boxed{.body = &body};
+    boxed.positions = at(12, 3);
+    const auto bounds_at = [&](std::size_t byte) {
+        boxed.bounds = reinterpret_cast<bend::Bounds*>(reinterpret_cast<char*>(memory.data()) + byte);
+        return told(bend::validate(boxed));
+    };
+    CHECK(bounds_at(0) == "none");
+    CHECK(bounds_at(12 * sizeof(float) - sizeof(bend::Bounds)) == "none");
+    CHECK(bounds_at((12 + 3 * count) * sizeof(float)) == "none");
+    CHECK(bounds_at(1) == "bounds alignment");
+    boxed.bounds = reinterpret_cast<bend::Bounds*>(&memory[11]);
+    CHECK(is_overlap(bend::validate(boxed), Field::bounds, Field::positions));
+    boxed.bounds = reinterpret_cast<bend::Bounds*>(&memory[11 + 3 * count]);
+    CHECK(is_overlap(bend::validate(boxed), Field::bounds, Field::positions));
+
     // Every two kinds of streams.
     DeformJob all{.body = &body};
     all.positions = at(0, 20);

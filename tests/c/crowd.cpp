@@ -84,6 +84,8 @@ TEST_CASE("C: a crowd gives the bits of single jobs, whole, in parallel and in p
     for (std::size_t piece = 5; piece-- > 0;) deformed += goffer_crowd_run_piece(crowd, piece, 5).deformed;
     CHECK(deformed == instances - 1);
     CHECK(same_bits(expected, out));
+    CHECK(goffer_crowd_run_piece(crowd, 0, 0).deformed == 0);
+    CHECK(goffer_crowd_run_piece(crowd, 5, 3).deformed == 0);
     goffer_crowd_bounds(crowd, 0, boxes_after.data());
     CHECK(std::memcmp(&boxes[0], &boxes_after[0], 4 * sizeof boxes[0]) == 0);
 

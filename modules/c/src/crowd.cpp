@@ -124,6 +124,7 @@ goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd) {
 }
 
 goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces) {
+    if (piece >= pieces) return {};
     return result_of(bend::run_piece(crowd->job(), piece, pieces));
 }
 

@@ -115,6 +115,22 @@ Fault check(const Streams& streams) noexcept {
     return {};
 }
 
+/// Checks the memory of bounds, which lie side by side, like that of a stream.
+Fault check_bounds(const Batch& batch, const Streams& streams) noexcept {
+    if (batch.bounds.empty()) return {};
+    const auto first = reinterpret_cast<std::uintptr_t>(batch.bounds.data());
+    const std::uintptr_t last = first + batch.count * sizeof(Bounds);
+    if (first % alignof(Bounds) != 0) return fault_of(Field::bounds, Reason::alignment);
+    for (const StreamMemory& stream : streams) {
+        for (std::size_t c = 0; stream.wanted() && c < stream.components; ++c) {
+            const Bytes bytes = bytes_of(stream, c);
+            if (first < bytes.last && bytes.first < last)
+                return {.field = Field::bounds, .reason = Reason::overlap, .other = stream.field};
+        }
+    }
+    return {};
+}
+
 /// Checks that each instance ends within every stream.
 Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     std::size_t room = std::numeric_limits<std::size_t>::max();
@@ -253,6 +269,7 @@ Fault check_memory(const Batch& batch) noexcept {
     if (!batch.tangents.empty() && !batch.body->has_tangents())
         return fault_of(Field::tangents, Reason::not_supported);
     if (Fault fault = check_columns(batch); !fault.none()) return fault;
+    if (Fault fault = check_bounds(batch, streams); !fault.none()) return fault;
     return check_places(batch, streams);
 }
 

@@ -222,7 +222,7 @@ template <class L>
 Vector<L> normalized(const Vector<L>& v) {
     using Vec = typename L::Vec;
     const auto& [x, y, z] = v.component;
-    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::splat(1e-30f));
+    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::splat(1e-37f));
     return {{x * inverse, y * inverse, z * inverse}};
 }
 

@@ -64,6 +64,8 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
     const float count = static_cast<float>(result.size());
     const float step = (bands.highest - bands.lowest) / count;
     const float slack = k.curvature * bands.drift_error;
+    // Coordinates are rounded to steps of 6e-8 of themselves.
+    const float rounding = 1e-6f * (std::fabs(k.offset[0]) + std::fabs(k.offset[1]) + std::fabs(k.offset[2]));
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
         const float begin = shifted(bands, k, from), end = shifted(bands, k, from + step);
@@ -74,9 +76,10 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
         // bound.
         const float sagitta = (turn < 3 ? arc * turn / 8 : arc) + k.one_minus_kappa * region.length * slack;
         const CenterLine line = center_line(k, Float4{begin, end, begin, begin});
-        const float radius = region.first == region.last
-                                 ? 0
-                                 : scale * margin * (widest(bands, deepest, from, from + step) + sagitta);
+        const float radius =
+            region.first == region.last
+                ? 0
+                : scale * margin * (widest(bands, deepest, from, from + step) + sagitta) + rounding;
         result[i] = {placed(k, line, 0), placed(k, line, 1), radius};
     }
 }

@@ -26,7 +26,8 @@ struct Capsule {
 }
 
 /// Writes the chain of capsules at `job`'s current poses, transform and wrinkle_weight, from base to tip,
-/// `pieces` >= 1 for each region. Together they hold every vertex. `result` is the caller's and holds
+/// `pieces` >= 1 for each region. Together they hold every vertex; with a table of the
+/// caller's own, as far as bounds() does. `result` is the caller's and holds
 /// capsule_count() or more. job.body is neither null nor empty; outputs are not read. Poses may hold any
 /// bits: an angle beyond its region's max_angle is clamped, and poses that are not finite are taken as at
 /// rest.

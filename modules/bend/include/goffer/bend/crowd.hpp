@@ -109,8 +109,8 @@ struct Batch {
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not: of records of up to 64 bytes, most are then
     /// written as whole cache lines, with zeros in the gaps, which takes no more time than to keep them. Gaps
-    /// are kept all the same where several records of a batch have one stride. Bytes before an instance's
-    /// first output and behind its last one stay untouched in any case.
+    /// are kept all the same where a batch writes several sets of records with one stride. Bytes before an
+    /// instance's first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
 };
 
@@ -150,7 +150,8 @@ struct CrowdJob {
 /// Finds the first fault of `job`. Looks at every instance, whatever its masks say, and at every index and
 /// vertex offset: a job that validated once stays in bounds in later frames, whatever their masks, frame
 /// numbers, weights, transforms and poses. Does not find out whether instances overlap that vertex_offsets
-/// place. Does not allocate. Thread-safe.
+/// place, whether two batches write to the same memory, or whether an input shares bytes with an output; nor
+/// does it look at where the pages of a column lie. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const CrowdJob& job) noexcept;
 
 /// What a run did.

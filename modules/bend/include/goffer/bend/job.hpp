@@ -53,9 +53,11 @@ struct DeformJob {
     glm::mat4x3 transform{1};
 
     Stream3 positions = {};
-    Stream3 normals = {};  ///< unit length, facing outward even where `transform` mirrors
-    /// Unit length. w is the rest tangent's sign, negated where `transform` mirrors. The body must have
-    /// tangents.
+    /// Unit length, facing outward even where `transform` mirrors. Where a transform flattens the body they
+    /// may be 0, and tangents too.
+    Stream3 normals = {};
+    /// Unit length, under scales of 1e-14 or more. w is the rest tangent's sign, negated where `transform`
+    /// mirrors. The body must have tangents.
     Stream4 tangents = {};
     PackedStream packed = {};  ///< position and normal in 12 bytes; positions are relative to bounds(job)
     Bounds* bounds = nullptr;  ///< null, or where a run writes bounds(job)
@@ -72,7 +74,8 @@ struct DeformJob {
 
 /// Finds the first fault of `job`. A job without fault makes run() neither read nor write out of bounds, if
 /// streams hold as many vertices as they say. Where two streams differ in stride, an overlap of their ranges
-/// is a fault even if no byte is shared. Does not allocate. Thread-safe.
+/// is a fault even if no byte is shared; so is one of `bounds` with a stream. Inputs that share bytes with
+/// outputs are not found. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const DeformJob& job) noexcept;
 
 /// What a run made of the current poses.

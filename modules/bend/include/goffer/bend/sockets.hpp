@@ -20,7 +20,8 @@
 namespace goffer::bend {
 
 /// The frame of a socket on the deformed body: a matrix whose columns are tangent, normal x tangent, normal
-/// (orthonormal and right-handed), and position. It places what is modeled around the origin, z outward.
+/// (orthonormal and right-handed, unless the transform flattens), and position. It places what is modeled
+/// around the origin, z outward.
 using SocketFrame = glm::mat4x3;
 
 /// The sockets of a body. Immutable; move-only; instances and threads share it by reference. An object that
@@ -29,7 +30,8 @@ class Sockets {
 public:
     /// Makes the sockets of `body`, which is not needed afterward. Returns nothing if there are no sockets,
     /// if one names a region that the body does not have, or if Body::check finds a fault in its vertex,
-    /// normal or tangent. Allocates; may throw std::bad_alloc.
+    /// normal or tangent. Does not look whether these two are orthogonal. Allocates; may throw
+    /// std::bad_alloc.
     [[nodiscard]] static std::optional<Sockets> make(const Body& body, std::span<const Socket> sockets);
 
     [[nodiscard]] std::size_t count() const noexcept { return place_.size(); }
