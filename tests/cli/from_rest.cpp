@@ -85,6 +85,16 @@ TEST_CASE("from rest: with a direction, bends are added as vectors") {
     }
 }
 
+TEST_CASE("from rest: without a direction, an angle is one in the plane of the rest arc") {
+    const Bent bent;
+    check_pose(bent.pose({"--angle", "90"}), 90, 30);
+    check_pose(bent.pose({"--angle", "-20"}), -20, 30);
+    check_pose(bent.pose({"--angle", "90", "--direction", "0"}), 90, 0);
+    const json regions = bent.bend({"--regions", "0.5,0.5", "--angles", "40,-30"})["poses"];
+    check_pose(regions[0], 40, 30);
+    check_pose(regions[1], -30, 30);
+}
+
 TEST_CASE("from rest: a straight body is bent as by --angle, to the byte") {
     const Folder folder;
     base(folder);
@@ -128,8 +138,8 @@ TEST_CASE("from rest: a bend that straightens says so in one line, and names --b
     CHECK(said({"--angle", "60", "--direction", "5"}));
     CHECK(said({"--angle", "-60", "--direction", "210"}));
     CHECK(said({"--angle", "50", "--direction", "30", "--regions", "0.5,0.5"}));
-    CHECK(said({"--angle", "60"}));  // no direction was meant, though 0 is another than 30
-    CHECK(said({"--angle", "-60"}));
+    CHECK(said({"--angle", "60"}));
+    CHECK_FALSE(said({"--angle", "-60"}));
     CHECK_FALSE(said({"--angle", "69.9", "--direction", "30"}));  // the rest pose, rounded
     CHECK_FALSE(said({"--angle", "80", "--direction", "30"}));
     CHECK_FALSE(said({"--angle", "60", "--direction", "210"}));

@@ -73,14 +73,14 @@ Target moved_from(const Curvature& rest, double by, double direction, double lim
     return target(std::isfinite(by) ? std::hypot(x, y) : std::fabs(by), degrees(std::atan2(y, x)));
 }
 
-/// A region that is bent at rest, in degrees.
+/// A region's rest arc, in degrees; both are 0 of a straight one.
 struct RestPose {
     double angle, direction;
 };
 
 RestPose rest_pose(const bend::Body& body, std::size_t region) {
     const bend::RegionInput& input = body.region_inputs()[region];
-    return {degrees(input.rest_angle), degrees(input.rest_direction)};
+    return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
 }
 
 double largest(const bend::Body& body, std::size_t region) {
@@ -95,13 +95,13 @@ Target target_from_rest(const bend::Body& body, std::size_t region, double by,
     return moved_from(curvature(rest.angle, rest.direction), by, *direction, largest(body, region));
 }
 
-/// Whether a region gets straighter than it is at rest, and nobody asked for that by a direction that is
-/// another. What `inspect` says of the rest pose is rounded, and no straightening.
+/// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
+/// no straightening.
 bool straightens(const RestPose& rest, const Target& target) {
     constexpr double clearly = 0.99, same_way = 0.7;  // cosine of 45 degrees
     if (!(std::fabs(target.angle) < clearly * rest.angle)) return false;
     const double turn = std::cos(radians(target.direction - rest.direction));
-    return target.any_direction || target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
+    return target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
 }
 
 void report_rest_pose(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
@@ -155,8 +155,8 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
     CLI::Option* const toward =
         command
             .add_option("--direction", words.direction,
-                        "Bend in this direction, degrees about the axis (default: 0, or "
-                        "with --by that of the rest arc)")
+                        "Bend in this direction, degrees about the axis (default: that of the rest arc; "
+                        "0 of a straight body)")
             ->check(angle_word(false));
     command
         .add_option("--directions", words.directions, "Bend each region in a direction of its own, as 0,0,90")
@@ -185,17 +185,19 @@ PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions>
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {
     std::vector<Target> targets;
-    for (std::size_t i = 0; i < request.angles.size(); ++i) {
+    for (std::size_t i = 0; i < request.angles.size(); ++i)
         targets.push_back(target(request.angles[i], request.directions[i].value_or(0)));
-        targets.back().any_direction = !request.directions[i];
-    }
     return targets;
 }
 
 std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request) {
-    std::vector<Target> targets = targets_from_straight(request);
-    for (std::size_t i = 0; i < targets.size() && request.from_rest; ++i)
-        targets[i] = target_from_rest(body, i, request.angles[i], request.directions[i]);
+    std::vector<Target> targets;
+    for (std::size_t i = 0; i < request.angles.size(); ++i) {
+        const std::optional<double>& direction = request.directions[i];
+        targets.push_back(request.from_rest
+                              ? target_from_rest(body, i, request.angles[i], direction)
+                              : target(request.angles[i], direction.value_or(rest_pose(body, i).direction)));
+    }
     return targets;
 }
 

@@ -49,16 +49,16 @@ struct PoseRequest {
 struct Target {
     double angle = 0;  ///< as asked for: it may be beyond the largest
     double direction = 0;
-    bend::Pose pose = {};        ///< the same, in radians
-    bool any_direction = false;  ///< nobody said which
+    bend::Pose pose = {};  ///< the same, in radians
 };
 
 /// Returns the targets of `request`, one per region, as if no body were bent at rest; the largest angle is
 /// beyond that of every body. For a crowd, whose models differ.
 [[nodiscard]] std::vector<Target> targets_from_straight(const PoseRequest& request);
 
-/// Returns the targets of `request` for `body`, which has its regions. Angles that count from the rest pose
-/// are added to it in its own plane or, with a direction, as vectors (alpha cos theta, alpha sin theta).
+/// Returns the targets of `request` for `body`, which has its regions. Without a direction, regions bend in
+/// the plane of their rest arcs. Angles that count from the rest pose are added to it there or, with a
+/// direction, as vectors (alpha cos theta, alpha sin theta).
 [[nodiscard]] std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request);
 
 /// The targets' poses.

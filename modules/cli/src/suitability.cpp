@@ -45,7 +45,7 @@ std::string warning(const fit::Suitability& found, double residual) {
                "with --direction, or try --amplitude none";
     if (residual > far_off)
         return "its surface is " + number(residual) +
-               " radii (rms) from the base cylinder, and a round body has 0; cut it into longish parts and "
+               " radii (rms) from the base cylinder, where a cylinder has 0; cut it into longish parts and "
                "bend "
                "each, or name another axis with --axis";
     return {};

@@ -82,8 +82,7 @@ private:
             }
             const glm::dvec2 vector = between(place, [&](std::size_t key) {
                 const std::optional<double>& said = keys_.keys[key].directions[r];
-                const double direction =
-                    radians(said.value_or(keys_.from_rest ? rest_direction(body, r) : 0));
+                const double direction = radians(said.value_or(rest_direction(body, r)));
                 return value(key) * glm::dvec2(std::cos(direction), std::sin(direction));
             });
             angles.angles[r] = std::hypot(vector.x, vector.y);

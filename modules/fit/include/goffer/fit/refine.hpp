@@ -86,8 +86,8 @@ public:
 struct RefineOptions {
     /// Limit for the refined mesh. Rows beyond it are a SizeError; columns beyond it are left out.
     std::size_t max_triangles = 50'000'000;
-    /// Called with the share that is done, 0 to 1, ascending, a few hundred times at most, from the calling
-    /// thread; it must not throw. Empty: nobody is told.
+    /// Called with the share that is done, from about 0 to nearly 1, ascending, a few hundred times at most,
+    /// from the calling thread; it must not throw. Empty: nobody is told.
     std::function<void(double)> progress = {};
 };
 
