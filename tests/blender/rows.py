@@ -41,7 +41,7 @@ def check_rows():
         keys = obj.data.shape_keys.key_blocks
         assert np.allclose(coordinates(keys["wide"].data), rest(obj) * np.float32([1.5, 1.5, 1]), atol=1e-4)
         if scale == (1, 1, 1):
-            check_near(seen(obj), by_command(written(obj), "--angle", "60"), "with rows")
+            check_near(seen(obj), by_command(written(obj), "--angle", "60", "--direction", "0"), "with rows")
             settings.straight = True
             check_near(seen(obj), by_command(written(obj), "--angle", "60", "--rest", "straight"), "from straight")
 
@@ -91,7 +91,7 @@ def check_range():
     settings.wrinkle_first, settings.wrinkle_last, settings.regions = 0, 0.5, "0.5, 0.5"
     assert settings.warnings == "" and not settings.needs_rows, settings.warnings
     assert "no rows are needed" in reported(bpy.ops.object.goffer_add_rows)
-    long = tube(rows=2001, length=1000)
+    long = tube(columns=4, rows=10801, length=2700)
     bend(60)
     print(long.goffer_bend.warnings)
     assert "in so long a body" in long.goffer_bend.warnings and not long.goffer_bend.needs_rows

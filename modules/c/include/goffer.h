@@ -326,8 +326,8 @@ GOFFER_API void goffer_crowd_set_isa(goffer_crowd* crowd, int isa);
  * those of indices and vertex offsets. */
 GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
 /* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
- * caller's. The crowd must validate. The bits are the same. `piece` is below `pieces`: of any other nothing is
- * done. */
+ * caller's. The crowd must validate. The bits are the same. `piece` is below `pieces`: of any other nothing
+ * is done. */
 GOFFER_API goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces);
