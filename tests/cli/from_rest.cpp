@@ -229,3 +229,15 @@ TEST_CASE("from rest: what does not go together, and help that says what counts 
     CHECK(help.find("--by FLOAT|max") != help.npos);
     CHECK(run(bent.folder, {"crowd", "base.ply", "--by", "3"}).code == 2);
 }
+
+TEST_CASE("from rest: a swing from straight says so, and names --from-rest") {
+    const Bent bent;
+    const auto said = [&](const Words& words) {
+        const Words all{"animate", "bent.ply", "--axis", "z",  "--swing",
+                        "30",      "--frames", "4",      "-o", "out.glb"};
+        return well(bent.folder, all + words).find("to swing from there, use --from-rest") !=
+               std::string::npos;
+    };
+    CHECK(said({}));
+    CHECK_FALSE(said({"--from-rest"}));
+}

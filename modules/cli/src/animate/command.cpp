@@ -36,6 +36,11 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
                               " a second: " + number(seconds) + " s");
     report.line("largest angle",
                 number(largest) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
+    double rest = 0;
+    for (const bend::RegionInput& region : model.binding.body.region_inputs()) rest += region.rest_angle;
+    if (rest != 0 && options.swing && !options.from_rest)
+        report.line("angles", "are absolute: 0 is straight, and " + number(degrees(rest)) +
+                                  " is the shape of the file; to swing from there, use --from-rest");
     if (survey.path_error > 0)
         report.line("path", "the center line is within " + number(survey.path_error) + " of it");
     report.line("area change", "at most " + percent(survey.worst_area_change) + ", in frame " +
