@@ -73,16 +73,6 @@ Target moved_from(const Curvature& rest, double by, double direction, double lim
     return target(std::isfinite(by) ? std::hypot(x, y) : std::fabs(by), degrees(std::atan2(y, x)));
 }
 
-/// A region's rest arc, in degrees; both are 0 of a straight one.
-struct RestPose {
-    double angle, direction;
-};
-
-RestPose rest_pose(const bend::Body& body, std::size_t region) {
-    const bend::RegionInput& input = body.region_inputs()[region];
-    return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
-}
-
 double largest(const bend::Body& body, std::size_t region) {
     return degrees(static_cast<double>(body.max_angle(region)));
 }
@@ -181,6 +171,11 @@ PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions>
     }
     for (std::size_t i = 0; i < count && !words.angles; ++i)
         angles.push_back(shared * (regions.empty() ? 1 : regions[i].share));
+}
+
+RestPose rest_pose(const bend::Body& body, std::size_t region) {
+    const bend::RegionInput& input = body.region_inputs()[region];
+    return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
 }
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {

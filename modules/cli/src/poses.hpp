@@ -45,6 +45,13 @@ struct PoseRequest {
     explicit PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions> baked = {});
 };
 
+/// A region's rest arc, in degrees; both are 0 of a straight one.
+struct RestPose {
+    double angle, direction;
+};
+
+[[nodiscard]] RestPose rest_pose(const bend::Body& body, std::size_t region);
+
 /// Where a region is bent to. Angle and direction are degrees, the angle counts from straight.
 struct Target {
     double angle = 0;  ///< as asked for: it may be beyond the largest

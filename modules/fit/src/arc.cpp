@@ -59,10 +59,9 @@ Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
 }
 
 /// The arc of the circle through a cloud's plane that lies nearest to its points (Kasa 1976): about that of a
-/// slender body, however far it is bent. Of two ways along it, the one that goes with `axis`.
-Line circle_through(const Body& cloud, const Vector3d& axis) {
-    Vector3d mean = Vector3d::Zero();
-    for (const Vector3d& p : cloud.points) mean += p / static_cast<double>(cloud.points.size());
+/// slender body, however far it is bent. Of two ways along it, the one that goes with its chord.
+Line circle_through(const Body& cloud, const Line& chord) {
+    const Vector3d& mean = chord.point;
     Matrix3d spread = Matrix3d::Zero();
     for (const Vector3d& p : cloud.points) spread += (p - mean) * (p - mean).transpose();
     const Matrix3d main = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors();
@@ -81,7 +80,7 @@ Line circle_through(const Body& cloud, const Vector3d& axis) {
     const Vector3d along{0, -inward.z(), inward.y()};
     const Vector3d tangent = main * along;
     return line_through(mean + main * (center - radius * inward),
-                        std::copysign(1.0, tangent.dot(axis)) * tangent, main * inward / radius);
+                        std::copysign(1.0, tangent.dot(chord.axis())) * tangent, main * inward / radius);
 }
 
 /// The sections of a body, gathered in a few slices along its line: that a bottle's neck is thinner than its
@@ -221,7 +220,7 @@ std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
         least = own;
         best = arc;
     };
-    consider(circle_through(cloud, axis));
+    consider(circle_through(cloud, chord.line));
     for (const double angle : {30., 90., 150.})
         for (const Vector3d& bow : chord.bow) consider(arc_of(angle * degree, chord, bow));
     return best;

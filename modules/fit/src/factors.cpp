@@ -48,6 +48,17 @@ struct Vectors {
     void set(std::size_t lane, const glm::vec3& v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
 };
 
+/// Adds ay bz - az by to `sum`.
+void add_product(const Lanes& ay, const Lanes& az, const Lanes& by, const Lanes& bz, Lanes& sum) {
+    for (std::size_t i = 0; i < lanes; ++i) sum[i] += ay[i] * bz[i] - az[i] * by[i];
+}
+
+void add_cross(const Vectors& a, const Vectors& b, Vectors& sum) {
+    add_product(a.y, a.z, b.y, b.z, sum.x);
+    add_product(a.z, a.x, b.z, b.x, sum.y);
+    add_product(a.x, a.y, b.x, b.y, sum.z);
+}
+
 /// The normals of triangles, twice as long as their areas, in powers of the factor.
 struct NormalPowers {
     Vectors bare, linear, square;
@@ -70,15 +81,6 @@ void gather(const Surface& surface, std::span<const std::uint32_t> triangles,
             dv.set(i, surface.wrinkle[c] - surface.wrinkle[a]);
         }
         NormalPowers& n = normals.emplace_back();
-        const auto cross = [](const Lanes& ay, const Lanes& az, const Lanes& by, const Lanes& bz,
-                              Lanes& sum) {
-            for (std::size_t i = 0; i < lanes; ++i) sum[i] += ay[i] * bz[i] - az[i] * by[i];
-        };
-        const auto add_cross = [&](const Vectors& a, const Vectors& b, Vectors& sum) {
-            cross(a.y, a.z, b.y, b.z, sum.x);
-            cross(a.z, a.x, b.z, b.x, sum.y);
-            cross(a.x, a.y, b.x, b.y, sum.z);
-        };
         add_cross(u, v, n.bare);
         add_cross(u, dv, n.linear);
         add_cross(du, v, n.linear);

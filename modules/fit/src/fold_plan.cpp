@@ -100,7 +100,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         plan.folds = static_cast<int>(std::clamp<double>(folds, 1, max_even_folds));
         // A body that is too long for so many has longer ones.
         const double longer = std::max(folds / max_even_folds, 1.0);
-        for (std::size_t i = 0; i < knots && longer > 1; ++i)
+        for (std::size_t i = 0; longer > 1 && i < knots; ++i)
             shape.weight[i] =
                 std::min(shape.weight[i], fade_of(longer * shape.fold_length[i] / radii[i], in_radii));
         if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;

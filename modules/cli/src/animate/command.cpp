@@ -36,9 +36,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
                               " a second: " + number(seconds) + " s");
     report.line("largest angle",
                 number(largest) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
-    double rest = 0;
-    for (const bend::RegionInput& region : model.binding.body.region_inputs()) rest += region.rest_angle;
-    if (rest != 0 && options.swing && !options.from_rest)
+    if (const double rest = model.cylinder.rest_angle; rest != 0 && options.swing && !options.from_rest)
         report.line("angles", "are absolute: 0 is straight, and " + number(degrees(rest)) +
                                   " is the shape of the file; to swing from there, use --from-rest");
     if (survey.path_error > 0)

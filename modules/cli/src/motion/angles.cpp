@@ -17,11 +17,6 @@
 namespace goffer::cli {
 namespace {
 
-double rest_direction(const bend::Body& body, std::size_t region) {
-    const bend::RegionInput& input = body.region_inputs()[region];
-    return input.rest_angle == 0 ? 0 : degrees(input.rest_direction);
-}
-
 class AnglesMotion final : public Motion {
 public:
     explicit AnglesMotion(KeyedAngles keys) : keys_(std::move(keys)) {
@@ -82,7 +77,7 @@ private:
             }
             const glm::dvec2 vector = between(place, [&](std::size_t key) {
                 const std::optional<double>& said = keys_.keys[key].directions[r];
-                const double direction = radians(said.value_or(rest_direction(body, r)));
+                const double direction = radians(said.value_or(rest_pose(body, r).direction));
                 return value(key) * glm::dvec2(std::cos(direction), std::sin(direction));
             });
             angles.angles[r] = std::hypot(vector.x, vector.y);

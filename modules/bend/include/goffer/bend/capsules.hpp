@@ -26,17 +26,17 @@ struct Capsule {
 }
 
 /// Writes the chain of capsules at `job`'s current poses, transform and wrinkle_weight, from base to tip,
-/// `pieces` >= 1 for each region. Together they hold every vertex; with a table of the
-/// caller's own, as far as bounds() does. `result` is the caller's and holds
-/// capsule_count() or more. job.body is neither null nor empty; outputs are not read. Poses may hold any
-/// bits: an angle beyond its region's max_angle is clamped, and poses that are not finite are taken as at
-/// rest.
+/// `pieces` >= 1 for each region. Together they hold every vertex; with a table of the caller's own, as far
+/// as bounds() does. `result` is the caller's and holds capsule_count() or more. job.body is neither null nor
+/// empty; outputs are not read. Poses may hold any bits: an angle beyond its region's max_angle is clamped,
+/// and poses that are not finite are taken as at rest.
 ///
 /// A capsule's segment is the chord of its piece of the center line. Its radius is the sum of three lengths,
 /// times an upper bound of the transform's largest scale, which is exact for rotations and uniform scales:
 /// the largest distance of a vertex from the axis in that piece, the deepest wrinkle there, and the chord's
-/// distance from the arc (the sagitta). The sagitta falls with the square of `pieces`. A region without
-/// vertices has capsules of radius 0. Does not allocate. Thread-safe.
+/// distance from the arc (the sagitta); and a margin for rounding, 1e-6 of the distance from the origin. The
+/// sagitta falls with the square of `pieces`. A region without vertices has capsules of radius 0. Does not
+/// allocate. Thread-safe.
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept;
 
 }  // namespace goffer::bend
