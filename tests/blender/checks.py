@@ -17,13 +17,15 @@ import faults  # noqa: E402
 import objects  # noqa: E402
 import poses  # noqa: E402
 import rows  # noqa: E402
+import surfaces  # noqa: E402
 
 
 def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     common.enable()
     name = "check_" + common.CHECK
-    next(getattr(subject, name) for subject in (actions, baking, faults, objects, poses, rows) if hasattr(subject, name))()
+    next(getattr(subject, name) for subject in (actions, baking, faults, objects, poses, rows, surfaces)
+         if hasattr(subject, name))()
     if addon_utils.check("goffer_bend")[1]:
         bpy.ops.preferences.addon_disable(module="goffer_bend")
     print(f"passed: {common.CHECK}")

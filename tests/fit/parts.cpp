@@ -23,7 +23,7 @@ namespace {
 constexpr int ring_columns = 24, ring_rows = 400;
 constexpr double tube_length = 10;
 
-/// A tube of radius 1 and, for 6 of its length, a thin one beside it.
+/// A tube of radius 1 and, for 6 of its length, another beside it.
 test::Solid tube_and_rod(double rod_radius, double distance) {
     std::mt19937 random(5);
     test::Recipe recipe{.columns = ring_columns, .rows = ring_rows, .length = tube_length};
@@ -98,25 +98,55 @@ TEST_CASE("parts: a body that is one tube bears all of its wrinkles") {
 }
 
 TEST_CASE("parts: deeper wrinkles weigh less, and weights change along the body as their slopes say") {
-    const test::Solid solid = tube_and_rod(0.15, 1.5);
+    constexpr double distance = 2.5;
+    const test::Solid solid = tube_and_rod(0.15, distance);
     fit::Parts parts(solid.geometry(), base_of_tube());
     double last = 1;
     for (const double depth : {0.05, 0.1, 0.2, 0.4}) {
         parts.weigh([depth](double) { return depth; });
         CHECK_FALSE(parts.sound());
-        const double far = parts.at({0, 5, 1.65}).value, near = parts.at({0, 5, 1.35}).value;
+        const double far = parts.at({0, 5, distance + 0.15}).value;
+        const double near = parts.at({0, 5, distance - 0.15}).value;
         CHECK(far > 0);
         CHECK(far <= last);
         CHECK(near < 0);  // away from the rod's own center is toward the axis
         last = far;
         for (double z = 0.3; z < 9.8; z += 0.37) {
             constexpr double step = 1e-5;
-            const auto value = [&](double up) { return parts.at({0.1, z + up, 1.62}).value; };
+            const auto value = [&](double up) { return parts.at({0.05, z + up, distance + 0.12}).value; };
             const double slope = (value(step) - value(-step)) / (2 * step);
-            CHECK(parts.at({0.1, z, 1.62}).slope == doctest::Approx(slope).epsilon(1e-4).scale(1));
+            CHECK(parts.at({0.05, z, distance + 0.12}).slope ==
+                  doctest::Approx(slope).epsilon(1e-4).scale(1));
         }
         CHECK(parts.at({std::numbers::pi, 5, 1}).value > 0.97);  // the tube's other side
     }
+}
+
+TEST_CASE("parts: a wrinkle moves nothing through what lies farther out") {
+    constexpr double most = 0.8;  // of a distance, by which a wrinkle may shorten it
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> height(0, tube_length), angle(-0.6, 0.6), away(0.5, 3),
+        part(0.01, 0.3);
+    double worst = 0;
+    for (const double radius : {0.03, 0.15, 0.4, 0.9}) {
+        for (const double gap : {0.01, 0.1, 0.3}) {
+            const test::Solid solid = tube_and_rod(radius, 1 + gap + radius);
+            fit::Parts parts(solid.geometry(), base_of_tube());
+            constexpr double depth = 0.23;
+            parts.weigh([](double) { return depth; });
+            for (int i = 0; i < 2000; ++i) {
+                const double beta = angle(random), z = height(random), rho = away(random),
+                             step = part(random);
+                const auto moved = [&](double at) {
+                    return depth * parts.at({beta, z, at}).value * paper::depth_weight(at, 1);
+                };
+                worst = std::max(worst, std::fabs(moved(rho + step) - moved(rho)) / step);
+            }
+        }
+    }
+    MESSAGE("a distance becomes shorter by ", worst, " of it at most");
+    CHECK(worst < most);
+    CHECK(worst > 0.3);  // they do differ
 }
 
 TEST_CASE("parts: levels of one rig agree") {

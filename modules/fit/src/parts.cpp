@@ -11,21 +11,27 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace goffer::fit {
 namespace {
 
 constexpr std::size_t slice_count = 128;
-constexpr double most_wobble = 0.15;  // of a part's radius that its center may move by
-constexpr double most_depth = 0.45;   // of the radius of a part beside the axis that a wrinkle may be deep
-constexpr double spread = 0.4;        // radii along the body that a weight passes into others in
+constexpr double most_wobble = 0.1;  // of a part's radius that its center may move by
+constexpr double most_depth = 0.35;  // of the radius of a part beside the axis that a wrinkle may be deep
+constexpr double spread = 0.3;       // radii along the body that a weight passes into others in
+constexpr double blend = 1.8;        // depths of a wrinkle over which it does so across the body
+// By these, a wrinkle leaves at least a quarter of every distance away from the axis in a body that is bent
+// by a right angle: no surface passes through another, and the deeper wrinkles of larger angles have room.
 
-/// A piece of a cross-section's outline.
+/// A piece of a cross-section's outline, in radii of the base.
 struct Segment {
-    double x, y;  // its middle
+    double x, y;              // its middle
+    double along_x, along_y;  // from its beginning to its end
     double length;
     std::uint32_t from;  // which crossed edges it joins
     std::uint32_t to;
@@ -35,9 +41,9 @@ struct Segment {
 class CrossSection {
 public:
     void add(const std::array<std::uint64_t, 2>& edges, const std::array<double, 4>& ends) {
-        segments_.push_back({(ends[0] + ends[2]) / 2, (ends[1] + ends[3]) / 2,
-                             std::hypot(ends[2] - ends[0], ends[3] - ends[1]), number(edges[0]),
-                             number(edges[1])});
+        const double along_x = ends[2] - ends[0], along_y = ends[3] - ends[1];
+        segments_.push_back({(ends[0] + ends[2]) / 2, (ends[1] + ends[3]) / 2, along_x, along_y,
+                             std::hypot(along_x, along_y), number(edges[0]), number(edges[1])});
     }
 
     /// Calls visit(segments) for each connected outline.
@@ -67,18 +73,31 @@ private:
     DisjointSets joined_;                                       // those of one outline
 };
 
+Disc disc_of(std::span<const Segment> outline, double length) {
+    Disc disc;
+    for (const Segment& s : outline) {
+        disc.x += s.length / length * s.x;
+        disc.y += s.length / length * s.y;
+    }
+    for (const Segment& s : outline)
+        disc.radius += s.length / length * std::hypot(s.x - disc.x, s.y - disc.y, s.length / std::sqrt(12.0));
+    disc.radius = std::max(disc.radius, 1e-9);
+    disc.beside = glm::smoothstep(0.5, 1.0, std::hypot(disc.x, disc.y) / disc.radius);
+    return disc;
+}
+
 /// How much of a displacement away from the axis is away from the center of a part, too: 1 all around a part
 /// that the axis runs through, from -1 to 1 about one that lies beside it.
-double outward(double x, double y, double center_x, double center_y, double radius) {
-    const double rho = std::hypot(x, y), own = std::hypot(x - center_x, y - center_y);
-    const double least = 0.25 * radius;  // below it a direction says little
-    return rho > 0 ? ((x - center_x) * x + (y - center_y) * y) / (rho * std::max(own, least)) : 1;
+double outward(double x, double y, const Disc& disc) {
+    const double rho = std::hypot(x, y), dx = x - disc.x, dy = y - disc.y;
+    const double least = 0.6 * disc.radius;  // below it a direction says little
+    if (rho == 0) return 1;
+    return glm::mix(1.0, (dx * x + dy * y) / (rho * std::max(std::hypot(dx, dy), least)), disc.beside);
 }
 
 /// How far the center of an outline moves where the wrinkle of the inner line is 1 deep, in the direction of
 /// bending in which that is the most: a column wrinkles as the cosine of half its angle from the inner line.
-double response(std::span<const Segment> outline, double length, double axis_radius, double center_x,
-                double center_y, double radius) {
+double response(std::span<const Segment> outline, double length, const Disc& disc) {
     constexpr int directions = 16;
     double most = 0;
     for (int i = 0; i < directions; ++i) {
@@ -88,9 +107,8 @@ double response(std::span<const Segment> outline, double length, double axis_rad
             const double rho = std::hypot(s.x, s.y);
             if (rho == 0) continue;
             const double half = (std::atan2(s.y, s.x) - theta) / 2;
-            const double moved = s.length * std::fabs(std::cos(half)) *
-                                 paper::depth_weight(rho, axis_radius) *
-                                 outward(s.x, s.y, center_x, center_y, radius);
+            const double moved =
+                s.length * std::fabs(std::cos(half)) * paper::depth_weight(rho, 1) * outward(s.x, s.y, disc);
             x += moved * s.x / rho;
             y += moved * s.y / rho;
         }
@@ -99,12 +117,57 @@ double response(std::span<const Segment> outline, double length, double axis_rad
     return most;
 }
 
+/// Points all along an outline: one in each cell of a grid that it passes through.
+std::vector<OutlinePoints> points_of(std::span<const Segment> outline) {
+    constexpr double cell = 0.08, most_cells = 1e9;
+    constexpr double most_points = 32;  // of one segment
+    const auto number = [&](double coordinate) {
+        return static_cast<std::uint32_t>(
+            static_cast<std::int32_t>(std::floor(std::clamp(coordinate / cell, -most_cells, most_cells))));
+    };
+    std::unordered_set<std::uint64_t> taken;
+    std::vector<OutlinePoints> points;
+    for (const Segment& s : outline) {
+        const double count = std::clamp(std::ceil(s.length / cell), 1.0, most_points);
+        for (double i = 0.5; i < count; ++i) {
+            const double share = i / count - 0.5, x = s.x + share * s.along_x, y = s.y + share * s.along_y;
+            const std::size_t place = taken.size() % OutlinePoints::count;
+            if (!taken.insert(std::uint64_t{number(x)} << 32 | number(y)).second) continue;
+            if (place == 0) {
+                OutlinePoints& all = points.emplace_back();
+                all.x.fill(static_cast<float>(x));
+                all.y.fill(static_cast<float>(y));
+            }
+            points.back().x[place] = static_cast<float>(x);
+            points.back().y[place] = static_cast<float>(y);
+        }
+    }
+    return points;
+}
+
+/// How far away the nearest point of an outline is. Eight side by side, which the compiler makes vectors of.
+double squared_distance(std::span<const OutlinePoints> outline, double x, double y) {
+    const auto at_x = static_cast<float>(x), at_y = static_cast<float>(y);
+    std::array<float, OutlinePoints::count> least;
+    least.fill(std::numeric_limits<float>::max());
+    for (const OutlinePoints& points : outline) {
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const float dx = points.x[i] - at_x, dy = points.y[i] - at_y, squared = dx * dx + dy * dy;
+            least[i] = squared < least[i] ? squared : least[i];
+        }
+    }
+    return static_cast<double>(*std::ranges::min_element(least));
+}
+
 std::vector<CrossSection> cross_sections(const Geometry& geometry, const Cylinder& cylinder, double step) {
     const Straightening straightening(cylinder);
     std::vector<glm::dvec3> local;
     local.reserve(geometry.positions.size());
-    for (const glm::vec3& position : geometry.positions)
-        local.push_back(paper::from_cylindrical(straightening.vertex(position)));
+    for (const glm::vec3& position : geometry.positions) {
+        paper::Cylindrical at = straightening.vertex(position);
+        at.rho /= cylinder.radius;
+        local.push_back(paper::from_cylindrical(at));
+    }
     const std::vector<std::uint32_t> place = places(geometry.positions);
     std::vector<CrossSection> sections(slice_count);
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
@@ -137,54 +200,48 @@ std::vector<CrossSection> cross_sections(const Geometry& geometry, const Cylinde
 }  // namespace
 
 Parts::Parts(const Geometry& geometry, const Cylinder& cylinder)
-    : slices_(slice_count), step_(cylinder.length / slice_count), reach_(spread * cylinder.radius + step_) {
+    : slices_(slice_count),
+      radius_(cylinder.radius),
+      step_(cylinder.length / slice_count),
+      reach_(spread * cylinder.radius + step_) {
     std::vector<CrossSection> sections = cross_sections(geometry, cylinder, step_);
     for (std::size_t slice = 0; slice < slice_count; ++slice) {
         sections[slice].each_outline([&](std::span<const Segment> outline) {
-            Part part{0, 0, 0, 0, 1};
             double length = 0;
-            for (const Segment& s : outline) {
-                part.x += s.length * s.x;
-                part.y += s.length * s.y;
-                length += s.length;
-            }
+            for (const Segment& s : outline) length += s.length;
             if (!(length > 0)) return;
-            part.x /= length;
-            part.y /= length;
-            for (const Segment& s : outline)
-                part.radius +=
-                    s.length / length * std::hypot(s.x - part.x, s.y - part.y, s.length / std::sqrt(12.0));
-            part.radius = std::max(part.radius, 1e-9 * step_);
-            part.moved =
-                std::max(response(outline, length, cylinder.radius, part.x, part.y, part.radius), 1e-9);
-            slices_[slice].push_back(part);
+            const Disc disc = disc_of(outline, length);
+            const double moved = std::max(response(outline, length, disc), 1e-9);
+            slices_[slice].parts.push_back({disc, moved, points_of(outline)});
         });
     }
 }
 
 void Parts::weigh(const std::function<double(double)>& depth) {
     sound_ = true;
-    for (std::size_t slice = 0; slice < slice_count; ++slice) {
-        const double deep = depth((static_cast<double>(slice) + 0.5) * step_);
-        for (Part& part : slices_[slice]) {
-            part.weight = 1;
-            if (!(deep > 0)) continue;
-            const double beside = glm::smoothstep(0.5, 1.0, std::hypot(part.x, part.y) / part.radius);
-            const double bearable = std::min(most_wobble / part.moved, most_depth / beside) * part.radius;
-            part.weight = std::min(bearable / deep, 1.0);
-            sound_ = sound_ && part.weight == 1 && std::hypot(part.x, part.y) < 0.5 * part.radius;
+    for (std::size_t i = 0; i < slice_count; ++i) {
+        Slice& slice = slices_[i];
+        const double deep = depth((static_cast<double>(i) + 0.5) * step_) / radius_;
+        slice.blend = blend * std::max(deep, 1e-3);
+        slice.sound = true;
+        for (Part& part : slice.parts) {
+            const double bearable =
+                std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.radius;
+            part.weight = deep > 0 ? std::min(bearable / deep, 1.0) : 1;
+            slice.sound = slice.sound && part.weight == 1 && part.disc.beside == 0;
         }
+        sound_ = sound_ && slice.sound;
     }
 }
 
-/// Outlines count by how near they are, in their own radii.
-Parts::Near Parts::near(const std::vector<Part>& slice, double x, double y) const {
-    constexpr double least = 0.01;  // as near as an outline itself
+/// Where two parts are equally far away, both count alike; each is almost alone near its own outline, if the
+/// other's is much farther away than what they blend over.
+Parts::Near Parts::near(const Slice& slice, double x, double y) {
+    const double core = slice.blend * slice.blend;
     Near sum;
-    for (const Part& part : slice) {
-        const double beyond = std::max(std::hypot(x - part.x, y - part.y) / part.radius - 1, 0.0);
-        const double root = least + beyond * beyond, share = 1 / (root * root);
-        sum.weight += share * part.weight * outward(x, y, part.x, part.y, part.radius);
+    for (const Part& part : slice.parts) {
+        const double root = core / (core + squared_distance(part.outline, x, y)), share = root * root;
+        sum.weight += share * part.weight * outward(x, y, part.disc);
         sum.all += share;
     }
     return sum;
@@ -192,13 +249,18 @@ Parts::Near Parts::near(const std::vector<Part>& slice, double x, double y) cons
 
 MaskValue Parts::at(const paper::Cylindrical& place) const {
     if (sound_) return {};
-    const double x = place.rho * std::cos(place.beta), y = place.rho * std::sin(place.beta);
     const double z = std::clamp(place.z, 0.0, step_ * slice_count);
     const auto first = static_cast<std::size_t>(std::max(std::ceil((z - reach_) / step_ - 0.5), 0.0));
+    const auto within = [&](std::size_t i) { return (static_cast<double>(i) + 0.5) * step_ < z + reach_; };
+    std::size_t last = first;
+    bool sound = true;
+    for (; last < slice_count && within(last); ++last) sound = sound && slices_[last].sound;
+    if (sound) return {};
+    const double x = place.rho / radius_ * std::cos(place.beta),
+                 y = place.rho / radius_ * std::sin(place.beta);
     Near sum, slope;
-    for (std::size_t i = first; i < slice_count; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
         const double t = (z - (static_cast<double>(i) + 0.5) * step_) / reach_;
-        if (t <= -1) break;
         const Near own = near(slices_[i], x, y);
         const double kernel = (1 - t * t) * (1 - t * t), kernel_slope = -4 * t * (1 - t * t) / reach_;
         sum.weight += kernel * own.weight;

@@ -7,16 +7,32 @@
 #include <goffer/fit/geometry.hpp>
 #include <goffer/paper/closed_form.hpp>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace goffer::fit {
 
+/// Where a part lies in a cross-section, and how thick it is there. Lengths are in radii of the base.
+struct Disc {
+    double x = 0, y = 0;  ///< its center
+    double radius = 0;    ///< mean distance of its outline from there
+    double beside = 0;    ///< 0: the axis runs through it; 1: beside it
+};
+
+/// Points of an outline, in radii of the base.
+struct OutlinePoints {
+    static constexpr std::size_t count = 8;  ///< one may be there more than once
+    std::array<float, count> x, y;
+};
+
 /// How much of its wrinkle each part of a body can bear. A base cylinder knows one radius at each height; a
 /// mesh may have a thin stem there, a leg beside the axis, or hairs. A wrinkle moves what lies beside
 /// the axis as a whole, so that a thin part would go to and fro by more than it is thick. Parts are what the
-/// cross-sections of the mesh fall into. A function of the place alone, so that all meshes of a rig agree. A
-/// plain value.
+/// cross-sections of the mesh fall into. Weights pass into each other over a length that grows with the
+/// wrinkle's depth, so that surfaces that lie one behind the other never pass through each other. A function
+/// of the place alone, so that all meshes of a rig agree. A plain value.
 class Parts {
 public:
     /// Neither is needed afterward.
@@ -33,12 +49,18 @@ public:
     [[nodiscard]] bool sound() const { return sound_; }
 
 private:
-    /// A part in a cross-section.
+    /// A part in a cross-section. Lengths are in radii of the base.
     struct Part {
-        double x, y;    // its center
-        double radius;  // mean distance of its outline from there
-        double moved;   // by how much of the depth of a wrinkle its center moves
-        double weight;
+        Disc disc;
+        double moved;                        // by how much of the depth of a wrinkle its center moves
+        std::vector<OutlinePoints> outline;  // all along it
+        double weight = 1;
+    };
+
+    struct Slice {
+        std::vector<Part> parts;
+        double blend = 0;   // over which weights pass into each other
+        bool sound = true;  // whether each part bears all of its wrinkle
     };
 
     /// Weights of the parts of a slice, each times how near it is, and how near all are together.
@@ -46,11 +68,12 @@ private:
         double weight = 0, all = 0;
     };
 
-    [[nodiscard]] Near near(const std::vector<Part>& slice, double x, double y) const;
+    [[nodiscard]] static Near near(const Slice& slice, double x, double y);
 
-    std::vector<std::vector<Part>> slices_;
-    double step_ = 0;   // from one to the next; the first is half of it above the base
-    double reach_ = 0;  // how far along z a weight is spread
+    std::vector<Slice> slices_;
+    double radius_ = 1;  // of the base
+    double step_ = 0;    // from one slice to the next; the first is half of it above the base
+    double reach_ = 0;   // how far along z a weight is spread
     bool sound_ = true;
 };
 
