@@ -25,19 +25,21 @@ Buffer buffer_of(GLenum target, std::span<const std::byte> bytes) {
 }
 
 /// New contents for a buffer that is bound, without waiting for who still reads the old ones. Of a large one
-/// OpenGL is asked whether there is room for it, which waits for the device: browsers refuse it by errors
-/// that say nothing.
+/// OpenGL is asked whether it got there, which waits for the device: browsers refuse it by errors that say
+/// nothing.
 void replace(GLenum target, std::span<const std::byte> bytes) {
     constexpr std::size_t large = std::size_t{1} << 28;
-    glBufferData(target, static_cast<GLsizeiptr>(bytes.size()), nullptr, GL_STREAM_DRAW);
+    const auto size = static_cast<GLsizeiptr>(bytes.size());
+    glBufferData(target, size, nullptr, GL_STREAM_DRAW);
+    bool room = true;
     if (bytes.size() >= large) {
-        GLint64 size = 0;
-        glGetBufferParameteri64v(target, GL_BUFFER_SIZE, &size);
-        if (std::cmp_not_equal(size, bytes.size()))
-            throw Error(
-                "the crowd's vertices are more than a buffer of this device holds; use fewer instances");
+        GLint64 held = 0;
+        glGetBufferParameteri64v(target, GL_BUFFER_SIZE, &held);
+        room = held == size;
     }
-    glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    if (room) glBufferSubData(target, 0, size, bytes.data());
+    if (bytes.size() >= large && (!room || glGetError() != GL_NO_ERROR))
+        throw Error("the crowd's vertices are more than a buffer of this device holds; use fewer instances");
 }
 
 GLint parameter_of(Wrap wrap) {
