@@ -86,7 +86,7 @@ TEST_CASE("refine: without a number, for the folds that suit the body") {
     CHECK(paper["warnings"] == json::array());
     // a body too short for a fold of the paper's on either side of its middle
     base(folder, "ring.ply", {"--length", "1", "--radius", "2", "--rows", "2"});
-    CHECK(report(folder, {"refine", "ring.ply", "-o", "out.ply", "--axis", "z"})["refined"]["folds"] == 1);
+    CHECK(report(folder, {"refine", "ring.ply", "-o", "out.ply", "--axis", "z"})["refined"]["folds"] == 4);
     const json ring = report(
         folder, {"bend", "ring.ply", "-o", "out.ply", "--axis", "z", "--angle", "10", "--refine", "--paper"});
     CHECK(ring["refined"]["triangles_after"] == ring["refined"]["triangles_before"]);

@@ -144,6 +144,21 @@ TEST_CASE("folds: as long and as deep as the body is thick") {
     CHECK(deepest(fit::bind(cone.geometry(), shaped(cone), fit::BindOptions::as_in_paper())) > 0.3);
 }
 
+TEST_CASE("folds: a stout body has a dozen, as its suitable folds say") {
+    std::mt19937 random(4);
+    for (const auto& [length, count] : {std::pair(4.0, 12), std::pair(5.9, 12), std::pair(8.0, 16)}) {
+        const Solid tube = test::cylinder({.rows = 320, .length = length}, random);
+        const fit::Cylinder base = fit::fit_cylinder(tube.geometry(), {{0, 0, 1}});
+        const fit::Binding binding = fit::bind(tube.geometry(), base);
+        CHECK(binding.folds() == count);
+        CHECK(fit::suitable_folds(binding.cylinder, {}) == std::vector{count});
+        CHECK(deepest(binding) < 0.25);
+        fit::BindOptions options;
+        options.fold_length = 0.5;  // is what it says
+        CHECK(fit::bind(tube.geometry(), base, options).folds() == std::lround(2 * length));
+    }
+}
+
 TEST_CASE("folds: a mesh carries as many as its rows allow, and none where they would be too long") {
     std::mt19937 random(4);
     const auto folds = [&](int rows) {

@@ -141,7 +141,7 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         .add_option("--fold-length", words.fold_length,
                     "Make folds so many radii long: the shorter, the shallower (default: " +
                         number(fit::default_fold_length(fit::Profile::even)) +
-                        "; with --profile damped or smooth " +
+                        ", and no more than a twelfth of the body; with --profile damped or smooth " +
                         number(fit::default_fold_length(fit::Profile::damped)) + ")")
         ->check(number_within(0.05, 10, "a number of radii"));
     command

@@ -41,17 +41,18 @@ double fade_of(double radii, double asked) {
     return glm::smoothstep(longest, full, excess);
 }
 
-/// The weights of wrinkles in `range`: a spline reaches two knots beyond each of its values.
+/// The weights of wrinkles in `range`, which fade within a fold: a spline reaches two knots beyond each of
+/// its values.
 std::vector<double> weights_inside(const WrinkleRange& range, const Cylinder& cylinder, double start,
-                                   double length, const std::vector<double>& radii, double in_radii) {
-    const double step = length / static_cast<double>(radii.size() - 1);
+                                   double length, const std::vector<double>& folds) {
+    const double step = length / static_cast<double>(folds.size() - 1);
     std::vector<double> weights;
-    for (std::size_t i = 0; i < radii.size(); ++i) {
+    for (std::size_t i = 0; i < folds.size(); ++i) {
         const double z = start + step * static_cast<double>(i);
         double inside = cylinder.length;
         if (range.first > 0) inside = z - range.first * cylinder.length;
         if (range.last < 1) inside = std::min(inside, range.last * cylinder.length - z);
-        weights.push_back(glm::smoothstep(0.0, 1.0, (inside - 2 * step) / (in_radii * radii[i])));
+        weights.push_back(glm::smoothstep(0.0, 1.0, (inside - 2 * step) / folds[i]));
     }
     return weights;
 }
@@ -68,6 +69,14 @@ std::vector<double> widened(const std::vector<double>& values) {
 
 }  // namespace
 
+double even_fold_length(const Cylinder& cylinder, const BindOptions& options, double radius) {
+    constexpr double least_folds = 12;    // fewer are too deep on a stout body
+    constexpr double shortest = 1.0 / 8;  // radii: on a ring nobody sees them
+    if (options.fold_length) return *options.fold_length * radius;
+    return std::min(default_fold_length(options.profile) * radius,
+                    std::max(cylinder.length / least_folds, shortest * radius));
+}
+
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
     const bool even = options.profile.kind == Profile::Kind::even;
@@ -78,6 +87,10 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
     const bool whole = start == 0 && length == cylinder.length;
     if (!cylinder.radii.empty()) shape.radius = whole ? cylinder.radii : radii;
     FoldPlan plan{asked.value_or(0)};
+    std::vector<double> wanted;  // lengths of folds
+    for (const double radius : radii)
+        wanted.push_back(even ? even_fold_length(cylinder, options, radius)
+                              : radius * options.fold_length.value_or(default_fold_length(options.profile)));
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     if (even && !asked) {
         std::vector<double> row_limit;
@@ -88,9 +101,9 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         row_limit = widened(row_limit);
         bool same = cylinder.radii.empty();
         for (std::size_t i = 0; i < knots; ++i) {
-            shape.fold_length.push_back(std::clamp(row_limit[i], in_radii * radii[i],
-                                                   std::max(longest, in_radii + longest - full) * radii[i]));
-            const double excess = std::max(row_limit[i], in_radii * radii[i]) / radii[i];
+            shape.fold_length.push_back(
+                std::clamp(row_limit[i], wanted[i], std::max(longest, in_radii + longest - full) * radii[i]));
+            const double excess = std::max(row_limit[i], wanted[i]) / radii[i];
             shape.weight.push_back(fade_of(excess, in_radii));
             same = same && std::fabs(shape.fold_length[i] / shape.fold_length[0] - 1) < 1e-3 &&
                    shape.weight[i] == shape.weight[0];
@@ -108,7 +121,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
     }
     if (!options.wrinkle_range.whole() && plan.folds > 0) {
         const std::vector<double> inside =
-            weights_inside(options.wrinkle_range, cylinder, start, length, radii, in_radii);
+            weights_inside(options.wrinkle_range, cylinder, start, length, wanted);
         shape.weight.resize(knots, 1);
         std::ranges::transform(shape.weight, inside, shape.weight.begin(), std::multiplies());
         if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;

@@ -234,13 +234,15 @@ void Parts::weigh(const std::function<double(double)>& depth) {
     }
 }
 
-/// Where two parts are equally far away, both count alike; each is almost alone near its own outline, if the
-/// other's is much farther away than what they blend over.
+/// Each part is almost alone near its own outline, if the other's is much farther away than what they blend
+/// over. Of two that are equally far away the thicker one counts for more: where a hair grows out of a body,
+/// it goes with it rather than let it be smooth.
 Parts::Near Parts::near(const Slice& slice, double x, double y) {
     const double core = slice.blend * slice.blend;
     Near sum;
     for (const Part& part : slice.parts) {
-        const double root = core / (core + squared_distance(part.outline, x, y)), share = root * root;
+        const double nearness = core / (core + squared_distance(part.outline, x, y));
+        const double share = std::sqrt(std::min(part.disc.radius, 1.0)) * nearness * nearness;
         sum.weight += share * part.weight * outward(x, y, part.disc);
         sum.all += share;
     }

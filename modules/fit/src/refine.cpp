@@ -240,11 +240,10 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
     const paper::Spline radii(cylinder.length,
                               round ? std::vector<double>(2, cylinder.radius) : cylinder.radii);
     const double step = length / pieces;
-    const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     std::vector<double> folds;
     double sum = 0;
     for (int i = 0; i < pieces; ++i) {
-        folds.push_back(step / (in_radii * radii(start + (i + 0.5) * step)));
+        folds.push_back(step / even_fold_length(cylinder, options, radii(start + (i + 0.5) * step)));
         sum += folds.back();
     }
     // A body has a whole number of them.

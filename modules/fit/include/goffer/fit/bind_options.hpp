@@ -52,7 +52,8 @@ struct BindOptions {
     /// max_folds: with the default fold_length none where a region is longer than 2057 radii.
     std::optional<int> folds = {};
     /// Length of a fold, in radii of the body where it stands, 1e-40..1e40. Depth goes with it: half as long,
-    /// half as deep. Has no effect where folds are given. Unset: default_fold_length().
+    /// half as deep. Has no effect where folds are given. Unset: default_fold_length(); with Profile::even a
+    /// twelfth of the body's length where that is less, but an eighth of a radius at least.
     std::optional<double> fold_length = {};
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::even;
@@ -100,7 +101,7 @@ void check(std::span<const RegionOptions> regions);
 /// folds of their own get BindOptions::folds. Thread-safe.
 [[nodiscard]] std::vector<RegionOptions> regions_of(const BindOptions& options);
 
-/// Returns BindOptions::fold_length where nobody says: 0.5 for Profile::even, else 1.
+/// Returns BindOptions::fold_length where nobody says: 0.5 for Profile::even (less on a stout body), else 1.
 [[nodiscard]] double default_fold_length(Profile profile);
 
 }  // namespace goffer::fit
