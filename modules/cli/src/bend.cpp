@@ -137,13 +137,13 @@ void report_smooth(Report& report, const Request& request, const BoundModel& mod
                 where + ": area " + percent(change) + " there, " + percent(cost) + " elsewhere");
 }
 
-/// Where nobody said how to wrinkle, area is kept; if it is not, this says so, unless a line before says why.
+/// Where nobody said how to wrinkle, area is kept; if it is not, this says so.
 void warn_of_area(Report& report, const Request& request, const BoundModel& model, double change) {
     constexpr double most = 0.01;
     const BindRequest& bind = request.bind;
     const bool chosen = model.baked || bind.words.folds || bind.words.amplitude != "mesh" ||
                         bind.mask_channel || !bind.options.wrinkle_range.whole();
-    if (chosen || report.json["straightens"] || !report.warnings().empty() || change >= -most) return;
+    if (chosen || report.json["straightens"] || change >= -most) return;
     report.warn("the area changes by " + percent(change) +
                 ", which the wrinkles do not make up for; cut the body into --regions, or name its folds "
                 "with --folds");
@@ -180,8 +180,10 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
     report.line("time", bind + number(bent.microseconds) + " us to deform (" +
                             std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
+    const std::size_t said = report.warnings().size();
     if (!model.baked) warn_of_folds(report, request.bind, model, used);
-    warn_of_area(report, request, model, area_after / area_before - 1);
+    if (report.warnings().size() == said)  // else it is why
+        warn_of_area(report, request, model, area_after / area_before - 1);
 }
 
 void run_bend(const BendOptions& options) {

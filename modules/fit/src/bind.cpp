@@ -272,15 +272,24 @@ bool chooses_folds(const BindOptions& options) {
     });
 }
 
-/// Weighs what parts bear of the wrinkles of `regions`.
+/// Weighs what parts bear of the wrinkles of `regions`: in a body that is bent by a right angle, but so that
+/// surfaces stay in order in any pose.
 void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> regions, Profile profile) {
-    std::vector<WrinkleDepth> depths;
-    for (const RestRegion& region : regions)
+    std::vector<WrinkleDepth> depths, deepest;
+    for (const RestRegion& region : regions) {
         depths.emplace_back(region, cylinder.radius, profile, right_angle, cylinder.length);
-    parts.weigh([&](double z) {
-        const std::size_t r = region_at(regions, z);
-        return depths[r](z - regions[r].start);
-    });
+        // Beyond it the mesh reaches past the center of the arc.
+        const double outermost = parts.outermost(region.start, region.start + region.length);
+        const double largest = region.length / (cylinder.radius + outermost);
+        deepest.emplace_back(region, cylinder.radius, profile, std::max(largest, right_angle), region.length);
+    }
+    const auto of = [regions](const std::vector<WrinkleDepth>& all) -> Parts::Depth {
+        return [regions, &all](double z) {
+            const std::size_t r = region_at(regions, z);
+            return all[r](z - regions[r].start);
+        };
+    };
+    parts.weigh(of(depths), of(deepest));
 }
 
 /// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it. None: 1.

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <unordered_map>
@@ -21,12 +22,12 @@ namespace goffer::fit {
 namespace {
 
 constexpr std::size_t slice_count = 128;
-constexpr double most_wobble = 0.1;  // of a part's radius that its center may move by
-constexpr double most_depth = 0.35;  // of the radius of a part beside the axis that a wrinkle may be deep
+constexpr double most_wobble = 0.1;  // of a part's size that its center may move by
+constexpr double most_depth = 0.35;  // of the size of a part beside the axis that its wrinkle may be deep
 constexpr double spread = 0.3;       // radii along the body that a weight passes into others in
-constexpr double blend = 1.8;        // depths of a wrinkle over which it does so across the body
-// By these, a wrinkle leaves at least a quarter of every distance away from the axis in a body that is bent
-// by a right angle: no surface passes through another, and the deeper wrinkles of larger angles have room.
+constexpr double blend = 1.5;        // greatest depths of a wrinkle over which it does so across the body
+// By these, a wrinkle leaves a part of every distance away from the axis in any pose, so that no surface
+// passes through another.
 
 /// A piece of a cross-section's outline, in radii of the base.
 struct Segment {
@@ -79,9 +80,20 @@ Disc disc_of(std::span<const Segment> outline, double length) {
         disc.x += s.length / length * s.x;
         disc.y += s.length / length * s.y;
     }
-    for (const Segment& s : outline)
-        disc.radius += s.length / length * std::hypot(s.x - disc.x, s.y - disc.y, s.length / std::sqrt(12.0));
+    double xx = 0, xy = 0, yy = 0;  // moments about the center
+    for (const Segment& s : outline) {
+        const double share = s.length / length, x = s.x - disc.x, y = s.y - disc.y;
+        disc.radius += share * std::hypot(x, y, s.length / std::sqrt(12.0));
+        disc.reach = std::max(disc.reach, std::hypot(x, y) + s.length / 2);
+        xx += share * (x * x + s.along_x * s.along_x / 12);
+        xy += share * (x * y + s.along_x * s.along_y / 12);
+        yy += share * (y * y + s.along_y * s.along_y / 12);
+    }
     disc.radius = std::max(disc.radius, 1e-9);
+    const double least = (xx + yy) / 2 - std::hypot((xx - yy) / 2, xy);
+    const double half =
+        std::clamp(std::sqrt(2 * std::max(least, 0.0)), 1e-9, disc.radius);  // of its thickness
+    disc.size = std::sqrt(half * disc.radius);
     disc.beside = glm::smoothstep(0.5, 1.0, std::hypot(disc.x, disc.y) / disc.radius);
     return disc;
 }
@@ -89,10 +101,12 @@ Disc disc_of(std::span<const Segment> outline, double length) {
 /// How much of a displacement away from the axis is away from the center of a part, too: 1 all around a part
 /// that the axis runs through, from -1 to 1 about one that lies beside it.
 double outward(double x, double y, const Disc& disc) {
-    const double rho = std::hypot(x, y), dx = x - disc.x, dy = y - disc.y;
-    const double least = 0.6 * disc.radius;  // below it a direction says little
-    if (rho == 0) return 1;
-    return glm::mix(1.0, (dx * x + dy * y) / (rho * std::max(std::hypot(dx, dy), least)), disc.beside);
+    constexpr double least = 0.6;  // of the radius: below it a direction says little
+    const double rho = std::sqrt(x * x + y * y);
+    if (disc.beside == 0 || rho == 0) return 1;
+    const double dx = x - disc.x, dy = y - disc.y;
+    const double own = std::max(std::sqrt(dx * dx + dy * dy), least * disc.radius);
+    return glm::mix(1.0, (dx * x + dy * y) / (rho * own), disc.beside);
 }
 
 /// How far the center of an outline moves where the wrinkle of the inner line is 1 deep, in the direction of
@@ -159,6 +173,12 @@ double squared_distance(std::span<const OutlinePoints> outline, double x, double
     return static_cast<double>(*std::ranges::min_element(least));
 }
 
+/// How much a part counts beside others.
+double share_of(double radius) {
+    constexpr double thick = 0.3;  // counts in full
+    return std::pow(std::min(radius / thick, 1.0), 1.25);
+}
+
 std::vector<CrossSection> cross_sections(const Geometry& geometry, const Cylinder& cylinder, double step) {
     const Straightening straightening(cylinder);
     std::vector<glm::dvec3> local;
@@ -212,21 +232,34 @@ Parts::Parts(const Geometry& geometry, const Cylinder& cylinder)
             if (!(length > 0)) return;
             const Disc disc = disc_of(outline, length);
             const double moved = std::max(response(outline, length, disc), 1e-9);
-            slices_[slice].parts.push_back({disc, moved, points_of(outline)});
+            slices_[slice].parts.push_back({disc, moved, share_of(disc.radius), points_of(outline)});
         });
+        std::ranges::stable_sort(slices_[slice].parts, std::greater{},
+                                 [](const Part& part) { return part.disc.radius; });
     }
 }
 
-void Parts::weigh(const std::function<double(double)>& depth) {
+double Parts::outermost(double low, double high) const {
+    double most = 0;
+    for (std::size_t i = 0; i < slice_count; ++i) {
+        const double z = static_cast<double>(i) * step_;
+        if (z + step_ < low || z > high) continue;
+        for (const Part& part : slices_[i].parts)
+            most = std::max(most, std::hypot(part.disc.x, part.disc.y) + part.disc.reach);
+    }
+    return most * radius_;
+}
+
+void Parts::weigh(const Depth& depth, const Depth& deepest) {
     sound_ = true;
     for (std::size_t i = 0; i < slice_count; ++i) {
         Slice& slice = slices_[i];
-        const double deep = depth((static_cast<double>(i) + 0.5) * step_) / radius_;
-        slice.blend = blend * std::max(deep, 1e-3);
+        const double z = (static_cast<double>(i) + 0.5) * step_, deep = depth(z) / radius_;
+        slice.blend = blend * std::max(deepest(z) / radius_, 1e-3);
         slice.sound = true;
         for (Part& part : slice.parts) {
             const double bearable =
-                std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.radius;
+                std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.size;
             part.weight = deep > 0 ? std::min(bearable / deep, 1.0) : 1;
             slice.sound = slice.sound && part.weight == 1 && part.disc.beside == 0;
         }
@@ -235,14 +268,24 @@ void Parts::weigh(const std::function<double(double)>& depth) {
 }
 
 /// Each part is almost alone near its own outline, if the other's is much farther away than what they blend
-/// over. Of two that are equally far away the thicker one counts for more: where a hair grows out of a body,
-/// it goes with it rather than let it be smooth.
+/// over. Of two that are equally far away the thicker one counts for more: where hairs grow out of a body,
+/// they go with it rather than let it be smooth. Thick parts come first, and what hardly counts beside them
+/// is left out.
 Parts::Near Parts::near(const Slice& slice, double x, double y) {
+    constexpr double least = 1e-3;  // of the greatest share so far
     const double core = slice.blend * slice.blend;
+    const auto share_at = [core](const Part& part, double squared) {
+        const double nearness = core / (core + squared);
+        return part.share * nearness * nearness;
+    };
+    double greatest = 0;
     Near sum;
     for (const Part& part : slice.parts) {
-        const double nearness = core / (core + squared_distance(part.outline, x, y));
-        const double share = std::sqrt(std::min(part.disc.radius, 1.0)) * nearness * nearness;
+        const double dx = x - part.disc.x, dy = y - part.disc.y;
+        const double from = std::max(std::sqrt(dx * dx + dy * dy) - part.disc.reach, 0.0);
+        if (share_at(part, from * from) < least * greatest) continue;
+        const double share = share_at(part, squared_distance(part.outline, x, y));
+        greatest = std::max(greatest, share);
         sum.weight += share * part.weight * outward(x, y, part.disc);
         sum.all += share;
     }

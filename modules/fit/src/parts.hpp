@@ -18,6 +18,8 @@ namespace goffer::fit {
 struct Disc {
     double x = 0, y = 0;  ///< its center
     double radius = 0;    ///< mean distance of its outline from there
+    double reach = 0;     ///< greatest distance
+    double size = 0;      ///< geometric mean of the radius and of half its thickness: plates are thin
     double beside = 0;    ///< 0: the axis runs through it; 1: beside it
 };
 
@@ -38,9 +40,16 @@ public:
     /// Neither is needed afterward.
     Parts(const Geometry& geometry, const Cylinder& cylinder);
 
-    /// Sets weights with which every part bears its wrinkle. `depth`: of the wrinkle of the inner line at a
-    /// height, in the pose that parts are to bear; model units.
-    void weigh(const std::function<double(double)>& depth);
+    /// How deep the wrinkle of the inner line is at a height; model units.
+    using Depth = std::function<double(double)>;
+
+    /// Sets weights with which every part bears its wrinkle. `depth`: in the pose that parts are to bear;
+    /// `deepest`: in any.
+    void weigh(const Depth& depth, const Depth& deepest);
+
+    /// Returns how far from the axis the mesh reaches between two heights; model units. At least as far as it
+    /// does.
+    [[nodiscard]] double outermost(double low, double high) const;
 
     /// Returns the weight of the wrinkle at a place, straightened: -1..1, and how it changes along z.
     [[nodiscard]] MaskValue at(const paper::Cylindrical& place) const;
@@ -53,6 +62,7 @@ private:
     struct Part {
         Disc disc;
         double moved;                        // by how much of the depth of a wrinkle its center moves
+        double share;                        // how much it counts beside others as near
         std::vector<OutlinePoints> outline;  // all along it
         double weight = 1;
     };

@@ -44,6 +44,11 @@ struct Shell {
     }
 };
 
+/// Whether the axis runs through a shell: the others are then parts of a body.
+bool is_body(const Shell& shell) {
+    return glm::length(shell.middle()) < shell.radius() / 2;
+}
+
 bool beside(const Shell& a, const Shell& b) {
     const double shared = std::min(a.high, b.high) - std::max(a.low, b.low);
     const double shorter = std::min(a.high - a.low, b.high - b.low);
@@ -127,7 +132,7 @@ Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
     for (const Shell& shell : shells) {
         whole += shell.area;
         const auto beside_it = [&](const Shell& other) { return beside(shell, other); };
-        if (!std::ranges::any_of(shells, beside_it)) continue;
+        if (is_body(shell) || !std::ranges::any_of(shells, beside_it)) continue;
         side_by_side += shell.area;
         ++found.side_by_side;
     }

@@ -17,7 +17,8 @@ namespace goffer::fit {
 struct Suitability {
     std::size_t shells = 0;
     /// How many of the shells lie beside another: at the same heights, over half of the shorter one or more,
-    /// and with their middles farther apart than both radii together.
+    /// and with their middles farther apart than both radii together. One that the axis runs through does
+    /// not: what lies beside it is a part of its.
     std::size_t side_by_side = 0;
     double side_by_side_share = 0;  ///< of the area of all shells that count, 0..1
     /// The spread of the sections along the direction in which they spread most, over that across: 1 for
