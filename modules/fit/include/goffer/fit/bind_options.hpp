@@ -59,7 +59,9 @@ struct BindOptions {
     Profile profile = Profile::even;
     /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). A body that
     /// is bent at rest and has several regions gets a cylinder in any case, and so does any with
-    /// Amplitude::area. See modules/paper/README.md, "Shaped bodies" and "Parts beside the axis".
+    /// Amplitude::area. Thin parts beside the axis hardly sway, and none passes through another, with
+    /// Profile::even and no `folds` or `fold_length` given. See modules/paper/README.md, "Shaped bodies" and
+    /// "Parts beside the axis".
     ShapeMode shape = ShapeMode::automatic;
     /// Beyond it the surface stays smooth, for a face or a label. Folds are counted as if it were the whole
     /// body; at an end that is not the body's own they fade within a fold and half a radius.
