@@ -87,11 +87,11 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
     const bool whole = start == 0 && length == cylinder.length;
     if (!cylinder.radii.empty()) shape.radius = whole ? cylinder.radii : radii;
     FoldPlan plan{asked.value_or(0)};
-    std::vector<double> wanted;  // lengths of folds
-    for (const double radius : radii)
-        wanted.push_back(even ? even_fold_length(cylinder, options, radius)
-                              : radius * options.fold_length.value_or(default_fold_length(options.profile)));
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
+    std::vector<double> wanted(knots);  // lengths of folds
+    std::ranges::transform(radii, wanted.begin(), [&](double radius) {
+        return even ? even_fold_length(cylinder, options, radius) : in_radii * radius;
+    });
     if (even && !asked) {
         std::vector<double> row_limit;
         for (std::size_t i = 0; i < knots; ++i) {
