@@ -24,15 +24,17 @@ def check_surfaces():
             count = intersections(bent(model, angle, "bent.obj"))
             print(f"{os.path.basename(model)}, {angle} degrees: {count}")
             assert count == 0, f"{count} pairs of triangles of {model} intersect at {angle} degrees"
+    count = intersections(bent(legs, "0,80,0", "bent.obj", "--angles", "--regions", "0.35,0.3,0.35"))
+    assert count == 0, f"{count} pairs of triangles of legs intersect where a bend is sharp"
     twice = tube_with_legs() + "v 0 0 5\nv 3 0.1 5\nv 3 0.3 5.1\nf -1 -2 -3\n"
     assert intersections(twice) > 0, "a triangle that is stuck through the tube is not found"
 
 
-def bent(model, angle, name):
+def bent(model, angle, name, word="--angle", *words):
     """Returns what the command wrote: the model that is bent, or a report."""
     path = os.path.join(FOLDER, name)
     report = ["--json", path, "-o", path + ".obj"] if name.endswith(".json") else ["-o", path]
-    subprocess.run([GOFFER, "bend", model, "--angle", angle, *report], check=True, capture_output=True)
+    subprocess.run([GOFFER, "bend", model, word, angle, *words, *report], check=True, capture_output=True)
     with open(path, encoding="ascii") as file:
         return file.read()
 

@@ -23,18 +23,35 @@ namespace {
 constexpr int ring_columns = 24, ring_rows = 400;
 constexpr double tube_length = 10;
 
-/// A tube of radius 1 and, for 6 of its length, another beside it.
-test::Solid tube_and_rod(double rod_radius, double distance) {
+/// Tubes beside another.
+struct Rods {
+    double radius, distance;  ///< of their middles from the axis
+    double flatness = 1;      ///< their thickness around the body over that away from it
+    int count = 1;
+    double apart = 0.2;  ///< radians
+};
+
+/// A tube of radius 1 and, for 6 of its length, others beside it.
+test::Solid tube_and_rods(const Rods& rods) {
     std::mt19937 random(5);
     test::Recipe recipe{.columns = ring_columns, .rows = ring_rows, .length = tube_length};
     test::Solid solid = test::cylinder(recipe, random);
     recipe.length = 6;
     const test::Solid rod = test::cylinder(recipe, random);
-    const auto before = static_cast<std::uint32_t>(solid.positions.size());
-    for (const glm::vec3& p : rod.positions)
-        solid.positions.emplace_back(rod_radius * p.x + distance, rod_radius * p.y, p.z + 2);
-    for (const std::uint32_t vertex : rod.triangles) solid.triangles.push_back(before + vertex);
+    for (int i = 0; i < rods.count; ++i) {
+        const auto before = static_cast<std::uint32_t>(solid.positions.size());
+        const double c = std::cos(i * rods.apart), s = std::sin(i * rods.apart);
+        for (const glm::vec3& p : rod.positions) {
+            const double x = rods.radius * p.x + rods.distance, y = rods.flatness * rods.radius * p.y;
+            solid.positions.emplace_back(c * x - s * y, s * x + c * y, p.z + 2);
+        }
+        for (const std::uint32_t vertex : rod.triangles) solid.triangles.push_back(before + vertex);
+    }
     return solid;
+}
+
+test::Solid tube_and_rod(double rod_radius, double distance) {
+    return tube_and_rods({rod_radius, distance});
 }
 
 fit::Cylinder base_of_tube() {
@@ -150,6 +167,27 @@ TEST_CASE("parts: a wrinkle moves nothing through what lies farther out") {
     MESSAGE("a distance becomes shorter by ", worst, " of it at most");
     CHECK(worst < most);
     CHECK(worst > 0.3);  // they do differ
+}
+
+TEST_CASE("parts: a plate is as thin as it is, however wide, and stands almost still") {
+    const auto deep = [](double) { return 0.2; };
+    const auto weight = [&](double flatness) {
+        const test::Solid solid = tube_and_rods({.radius = 0.6, .distance = 2.5, .flatness = flatness});
+        fit::Parts parts(solid.geometry(), base_of_tube());
+        parts.weigh(deep, deep);
+        return parts.at({0, 5, 3.05}).value;
+    };
+    CHECK(weight(1) > 0.5);
+    CHECK(weight(0.05) < 0.3);
+}
+
+TEST_CASE("parts: hairs in number do not make the body between them smooth") {
+    const test::Solid solid = tube_and_rods({.radius = 0.02, .distance = 1.05, .count = 16, .apart = 0.1});
+    fit::Parts parts(solid.geometry(), base_of_tube());
+    const auto deep = [](double) { return 0.2; };
+    parts.weigh(deep, deep);
+    CHECK_FALSE(parts.sound());
+    for (double beta = 0; beta < 1.5; beta += 0.05) CHECK(parts.at({beta, 5, 1}).value > 0.8);
 }
 
 TEST_CASE("parts: levels of one rig agree") {
