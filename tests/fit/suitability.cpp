@@ -68,12 +68,11 @@ TEST_CASE("suitability: flatness is that of an ellipse, whichever way it lies an
 }
 
 TEST_CASE("suitability: shells lie side by side where they share heights and stand apart") {
-    // The axis runs between them.
-    const auto beside = [](const Solid& solid) {
-        Solid moved = solid;
-        for (glm::vec3& p : moved.positions) p.x -= 1.05f;
-        return shape(moved).side_by_side;
+    const auto between = [](Solid solid) {  // them runs the axis
+        for (glm::vec3& p : solid.positions) p.x -= 1.05f;
+        return shape(solid);
     };
+    const auto beside = [&](const Solid& solid) { return between(solid).side_by_side; };
     CHECK(beside(with_copy(tube(), {2.1f, 0, 0})) == 2);
     CHECK(beside(with_copy(tube(), {1.9f, 0, 0})) == 0);     // into each other
     CHECK(beside(with_copy(tube(), {2.1f, 0, 4.9f})) == 2);  // over half of their length
@@ -83,6 +82,11 @@ TEST_CASE("suitability: shells lie side by side where they share heights and sta
     CHECK(beside(with_copy(tube(), {2.1f, 0, 0}, 0.1f)) == 0);  // too small to count
     CHECK(shape(with_copy(tube(), {2.1f, 0, 0}, 0.1f)).shells == 1);
     CHECK(beside(with_copy(with_copy(tube(), {0, 3, 0}), {3, 0, 0})) == 4);
+    const fit::Suitability some = between(with_copy(with_copy(tube(), {2.1f, 0, 0}), {0, 0, 11}, 1));
+    CHECK(some.side_by_side_share == doctest::Approx(1));
+    const fit::Suitability half = between(with_copy(with_copy(tube(), {0, 0, 11}), {2.1f, 0, 2.5f}, 0.5f));
+    CHECK(half.side_by_side == 2);
+    CHECK(half.side_by_side_share == doctest::Approx(1.25 / 2.5));
 }
 
 TEST_CASE("suitability: what lies beside a shell that the axis runs through is a part of a body") {

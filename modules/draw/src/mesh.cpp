@@ -31,14 +31,11 @@ void replace(GLenum target, std::span<const std::byte> bytes) {
     constexpr std::size_t large = std::size_t{1} << 28;
     const auto size = static_cast<GLsizeiptr>(bytes.size());
     glBufferData(target, size, nullptr, GL_STREAM_DRAW);
-    bool room = true;
-    if (bytes.size() >= large) {
-        GLint64 held = 0;
-        glGetBufferParameteri64v(target, GL_BUFFER_SIZE, &held);
-        room = held == size;
-    }
-    if (room) glBufferSubData(target, 0, size, bytes.data());
-    if (bytes.size() >= large && (!room || glGetError() != GL_NO_ERROR))
+    glBufferSubData(target, 0, size, bytes.data());
+    if (bytes.size() < large) return;
+    GLint64 held = 0;
+    glGetBufferParameteri64v(target, GL_BUFFER_SIZE, &held);
+    if (glGetError() != GL_NO_ERROR || held != size)
         throw Error("the crowd's vertices are more than a buffer of this device holds; use fewer instances");
 }
 

@@ -69,12 +69,13 @@ std::vector<double> widened(const std::vector<double>& values) {
 
 }  // namespace
 
-double even_fold_length(const Cylinder& cylinder, const BindOptions& options, double radius) {
+double fold_length_at(const Cylinder& cylinder, const BindOptions& options, double radius) {
     constexpr double least_folds = 12;    // fewer are too deep on a stout body
     constexpr double shortest = 1.0 / 8;  // radii: on a ring nobody sees them
     if (options.fold_length) return *options.fold_length * radius;
-    return std::min(default_fold_length(options.profile) * radius,
-                    std::max(cylinder.length / least_folds, shortest * radius));
+    const double length = default_fold_length(options.profile) * radius;
+    if (options.profile.kind != Profile::Kind::even) return length;
+    return std::min(length, std::max(cylinder.length / least_folds, shortest * radius));
 }
 
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
@@ -89,9 +90,8 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
     FoldPlan plan{asked.value_or(0)};
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     std::vector<double> wanted(knots);  // lengths of folds
-    std::ranges::transform(radii, wanted.begin(), [&](double radius) {
-        return even ? even_fold_length(cylinder, options, radius) : in_radii * radius;
-    });
+    std::ranges::transform(radii, wanted.begin(),
+                           [&](double radius) { return fold_length_at(cylinder, options, radius); });
     if (even && !asked) {
         std::vector<double> row_limit;
         for (std::size_t i = 0; i < knots; ++i) {

@@ -243,7 +243,7 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
     std::vector<double> folds;
     double sum = 0;
     for (int i = 0; i < pieces; ++i) {
-        folds.push_back(step / even_fold_length(cylinder, options, radii(start + (i + 0.5) * step)));
+        folds.push_back(step / fold_length_at(cylinder, options, radii(start + (i + 0.5) * step)));
         sum += folds.back();
     }
     // A body has a whole number of them.

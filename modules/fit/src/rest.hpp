@@ -109,8 +109,8 @@ private:
     std::vector<double> slices_;  // of those in each of so many slices
 };
 
-/// Returns how long a fold of Profile::even is to be where the body has `radius`; model units.
-[[nodiscard]] double even_fold_length(const Cylinder& cylinder, const BindOptions& options, double radius);
+/// Returns how long a fold is to be where the body has `radius`; model units.
+[[nodiscard]] double fold_length_at(const Cylinder& cylinder, const BindOptions& options, double radius);
 
 /// The shape of a region and of its folds.
 struct FoldPlan {
