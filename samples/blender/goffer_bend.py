@@ -72,7 +72,8 @@ class Base(c.Structure):
 
 
 class Folds(c.Structure):
-    _fields_ = [("made", c.c_int), ("capacity", c.c_int), ("suitable", c.c_int)]
+    _fields_ = [("made", c.c_int), ("capacity", c.c_int), ("suitable", c.c_int), ("shortage", c.c_int)]
+    ROWS, RANGE, LENGTH = 1, 2, 3  # what made there be too few
 
 
 class Stream(c.Structure):
@@ -473,21 +474,17 @@ def is_ranged(settings):
 
 
 def too_few(folds, settings):
-    """What to say of a region with too few folds, and whether more rows may mend it. The command warns of the same."""
-    even, asked = settings.profile == "EVEN", settings.folds > 0
-    wanted = settings.folds if asked else folds.suitable
-    if settings.amplitude == "NONE" or settings.folds == 0 or wanted == 0:
-        return "", False
-    if is_ranged(settings) and not asked:
-        return ("", False) if folds.made > 0 else (
-            "0 folds: what From and To leave is too short for them to fade in, or its rows are too far apart. "
-            "Take more of the length, or Add Rows", True)
-    if even and not asked and folds.made == 0 and folds.capacity >= wanted:
+    """What to say of a region with too few folds, and whether more rows may mend it."""
+    if folds.shortage == Folds.RANGE:
+        return ("0 folds: what From and To leave is too short for them to fade in, or its rows are too far apart. "
+                "Take more of the length, or Add Rows", True)
+    if folds.shortage == Folds.LENGTH:
         return "0 folds: in so long a body they would be longer than 2.5 radii. Give it Regions, under Body", False
-    if folds.capacity >= wanted if asked else 2 * folds.made >= wanted if even else folds.made > 0:
-        return "", False
-    return (f"{folds.made} folds; {wanted} need a finer mesh, this one has vertices for {folds.capacity}. Add Rows, "
-            "or Blender's Subdivide", True)
+    if folds.shortage == Folds.ROWS:
+        wanted = settings.folds if settings.folds > 0 else folds.suitable
+        return (f"{folds.made} folds; {wanted} need a finer mesh, this one has vertices for {folds.capacity}. "
+                "Add Rows, or Blender's Subdivide", True)
+    return "", False
 
 
 def lacks_folds(folds, settings):

@@ -133,6 +133,7 @@ TEST_CASE("C: what bind found is the base, and folds that are made, possible and
             const int carried = rows / 16 / regions;
             CHECK(std::abs(folds.capacity - carried) <= carried / 10);
             CHECK(folds.made == (asked > 0 ? asked : rows < 100 ? 0 : folds.suitable));
+            CHECK(folds.shortage == (rows < 100 ? GOFFER_SHORTAGE_ROWS : GOFFER_SHORTAGE_NONE));
             const goffer_folds none = goffer_body_folds(body, shares.size());
             CHECK((none.made == 0 && none.capacity == 0 && none.suitable == 0));
             goffer_body_free(body);

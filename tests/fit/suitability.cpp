@@ -106,3 +106,36 @@ TEST_CASE("suitability: broken input is refused") {
     CHECK_THROWS_AS((void)fit::suitability_of(solid.geometry(), broken), fit::Error);
     CHECK_THROWS_AS((void)fit::suitability_of({}, upright()), fit::Error);
 }
+
+TEST_CASE("suitability: what folds are missing for") {
+    std::mt19937 random(1);
+    const Solid fine = cylinder({.rows = 256}, random), coarse = cylinder({.rows = 4}, random);
+    fit::Cylinder base = upright();
+    const auto shortage = [&](const Solid& solid, const fit::BindOptions& options) {
+        return fit::fold_shortage(fit::bind(solid.geometry(), base, options), 0, options);
+    };
+    fit::BindOptions options;
+    CHECK(shortage(fine, options) == fit::FoldShortage::none);
+    CHECK(shortage(coarse, options) == fit::FoldShortage::rows);
+    for (const auto kind : {fit::Profile::Kind::even, fit::Profile::Kind::damped}) {
+        options.profile.kind = kind;
+        options.folds = 3;
+        CHECK(shortage(fine, options) == fit::FoldShortage::none);
+        CHECK(shortage(coarse, options) == fit::FoldShortage::rows);
+        options.folds = 0;
+        CHECK(shortage(coarse, options) == fit::FoldShortage::none);
+        options.folds.reset();
+        CHECK(shortage(coarse, options) == fit::FoldShortage::rows);
+        options.amplitude = fit::Amplitude::none;
+        CHECK(shortage(coarse, options) == fit::FoldShortage::none);
+        options.amplitude = fit::Amplitude::paper;
+    }
+    options = {};
+    options.wrinkle_range = {0.5, 0.51};
+    CHECK(shortage(fine, options) == fit::FoldShortage::range);
+    options.wrinkle_range = {0.2, 0.8};
+    CHECK(shortage(fine, options) == fit::FoldShortage::none);
+    base.length = 2700;  // 2.6 for each of the most folds
+    const Solid rope = cylinder({.columns = 4, .rows = 10000, .length = base.length}, random);
+    CHECK(shortage(rope, {}) == fit::FoldShortage::length);
+}

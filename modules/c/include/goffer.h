@@ -150,12 +150,18 @@ typedef struct goffer_base {
     double residual; /* how far the mesh is from the cylinder, rms, in radii */
 } goffer_base;
 
+/* Why a region has fewer folds than were asked for or, where no number was, than suit it
+ * [fit::FoldShortage]: it has enough; the mesh's rows of vertices are too far apart; the wrinkle range leaves
+ * too little of it; it is too long. */
+enum { GOFFER_SHORTAGE_NONE, GOFFER_SHORTAGE_ROWS, GOFFER_SHORTAGE_RANGE, GOFFER_SHORTAGE_LENGTH };
+
 /* How many folds a region has, over its whole length with GOFFER_PROFILE_EVEN, else over half of it.
  * [fit::RegionBinding] */
 typedef struct goffer_folds {
     int made;     /* 0: it bends without wrinkles */
     int capacity; /* the most that the mesh has vertices for */
     int suitable; /* as many as a mesh that is fine enough gets where nobody asks for a number */
+    int shortage; /* one of GOFFER_SHORTAGE_ */
 } goffer_folds;
 
 /* What was found at bind; zeros for the bodies of a file, and where there is no such region. */

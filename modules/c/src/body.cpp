@@ -3,6 +3,7 @@
 
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
+#include <goffer/fit/suitability.hpp>
 
 #include <cmath>
 #include <memory>
@@ -61,6 +62,19 @@ fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& given,
     return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest), options);
 }
 
+static_assert(GOFFER_SHORTAGE_LENGTH == static_cast<int>(fit::FoldShortage::length));
+
+std::vector<goffer_folds> folds_of(const fit::Binding& binding, const fit::BindOptions& options) {
+    const std::vector<int> suitable = fit::suitable_folds(binding.cylinder, options);
+    std::vector<goffer_folds> folds;
+    for (std::size_t r = 0; r < suitable.size(); ++r) {
+        const fit::FoldShortage shortage = fit::fold_shortage(binding, r, options);
+        folds.push_back(
+            {binding.folds(r), binding.folds_capacity(r), suitable[r], static_cast<int>(shortage)});
+    }
+    return folds;
+}
+
 }  // namespace
 
 fit::Geometry goffer::c::geometry_of(const goffer_mesh& mesh) {
@@ -103,7 +117,7 @@ goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options
         const goffer_bind_options given = options != nullptr ? *options : goffer_bind_defaults();
         const fit::BindOptions wanted = options_of(given);
         body->binding = bind(*mesh, given, wanted);
-        body->suitable_folds = fit::suitable_folds(body->binding->cylinder, wanted);
+        body->folds = folds_of(*body->binding, wanted);
         body->body = &body->binding->body;
         return body.release();
     });
@@ -166,7 +180,5 @@ goffer_base goffer_body_base(const goffer_body* body) {
 }
 
 goffer_folds goffer_body_folds(const goffer_body* body, size_t region) {
-    if (body == nullptr || region >= body->suitable_folds.size()) return {};
-    const fit::RegionBinding& found = body->binding->regions[region];
-    return {found.folds, found.folds_capacity, body->suitable_folds[region]};
+    return body != nullptr && region < body->folds.size() ? body->folds[region] : goffer_folds{};
 }

@@ -23,7 +23,7 @@
 /// A body of its own, or one of a file.
 struct goffer_body {
     std::optional<goffer::fit::Binding> binding;  ///< where it was bound here
-    std::vector<int> suitable_folds = {};         ///< of each region, then
+    std::vector<goffer_folds> folds = {};         ///< of each region, then
     const goffer::bend::Body* body = nullptr;     ///< the binding's, or the file's
 };
 

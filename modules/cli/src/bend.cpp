@@ -143,7 +143,7 @@ void warn_of_area(Report& report, const Request& request, const BoundModel& mode
     const BindRequest& bind = request.bind;
     const bool chosen = model.baked || bind.words.folds || bind.words.amplitude != "mesh" ||
                         bind.mask_channel || !bind.options.wrinkle_range.whole();
-    if (chosen || report.json["straightens"] || change >= -most) return;
+    if (chosen || change >= -most) return;
     report.warn("the area changes by " + percent(change) +
                 ", which the wrinkles do not make up for; cut the body into --regions, or name its folds "
                 "with --folds");
@@ -159,7 +159,7 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
     std::optional<double> base_change;
     if (!model.baked) base_change = fit::base_area_change(binding, used);
     nlohmann::ordered_json& json = report.json;
-    report_poses(report, request.pose, targets, model);
+    const bool straightened = report_poses(report, request.pose, targets, model);
     if (!model.baked) {
         json["amplitude"] = request.bind.words.amplitude;
         json["profile"] = request.bind.words.profile;
@@ -180,9 +180,8 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
     report.line("time", bind + number(bent.microseconds) + " us to deform (" +
                             std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
-    const std::size_t said = report.warnings().size();
-    if (!model.baked) warn_of_folds(report, request.bind, model, used);
-    if (report.warnings().size() == said)  // else it is why
+    const bool few_folds = !model.baked && warn_of_folds(report, request.bind, model, used);
+    if (!few_folds && !straightened)  // either is why
         warn_of_area(report, request, model, area_after / area_before - 1);
 }
 

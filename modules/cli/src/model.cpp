@@ -8,6 +8,7 @@
 #include <goffer/bend/body_file.hpp>
 #include <goffer/fit/base.hpp>
 #include <goffer/fit/refine.hpp>
+#include <goffer/fit/suitability.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -46,42 +47,36 @@ int parse_wrinkle_mask(const std::string& text) {
     return static_cast<int>(channel);
 }
 
-/// What to say of folds that were asked for, and that the mesh cannot carry.
-std::string too_coarse(const fit::Binding& binding, std::size_t region) {
-    const std::string area = binding.amplitude == fit::Amplitude::mesh ? "may not be" : "is not";
-    return "the mesh has vertices for " +
-           counted(static_cast<std::size_t>(binding.folds_capacity(region)), "fold") + ", not " +
-           std::to_string(binding.folds(region)) + ": wrinkles are coarse, and the area " + area +
-           " kept; goffer refine adds vertices";
-}
-
-/// What to say of a region that nobody asked a number of folds for, of which it has fewer than the `wanted`
-/// ones that would suit it. Empty: nothing.
-std::string too_few(const fit::RegionBinding& region, int wanted, bool even, bool ranged) {
-    const std::string mend = "; use a finer mesh, which goffer refine makes";
-    if (ranged) {
-        return region.folds > 0 || wanted == 0
-                   ? ""
-                   : "bent without wrinkles: what --wrinkle-range leaves of it is too short to fade them in, "
-                     "or too coarse";
-    }
-    if (even && region.folds == 0 && region.folds_capacity >= wanted)
-        return "bent without wrinkles: in so long a body folds would be longer than 2.5 radii; cut it into "
-               "--regions";
-    if (region.folds == 0 && wanted > 0) {
-        return "bent without wrinkles: " +
-               (even ? "the mesh's rows are too far apart for folds of 2.5 radii, and "
-                     : "the mesh has vertices for " +
-                           counted(static_cast<std::size_t>(region.folds_capacity), "fold") + ", and ") +
-               std::to_string(wanted) + " would suit its length" + mend + ", or --folds K to insist";
-    }
-    // Folds that are up to twice as long have their depth all the same.
-    if (even && 2 * region.folds < wanted) {
-        return "only " + counted(static_cast<std::size_t>(region.folds), "fold") + ", and " +
-               std::to_string(wanted) +
-               " would suit its length: where the mesh's rows are far apart, folds are longer or there are "
-               "none" +
-               mend;
+/// What to say of a region that has fewer folds than were `asked` for, or than suit it. Empty: nothing.
+std::string words_of(fit::FoldShortage shortage, const fit::Binding& binding, std::size_t region, bool asked,
+                     int suitable) {
+    const auto folds_of = [](int folds) { return counted(static_cast<std::size_t>(folds), "fold"); };
+    const std::string bare = "bent without wrinkles: ",
+                      finer = "; use a finer mesh, which goffer refine makes",
+                      would_suit = " and " + std::to_string(suitable) + " would suit its length";
+    const bool even = binding.profile.kind == fit::Profile::Kind::even;
+    const int folds = binding.folds(region), capacity = binding.folds_capacity(region);
+    switch (shortage) {
+        case fit::FoldShortage::none:
+            break;
+        case fit::FoldShortage::range:
+            return bare + "what --wrinkle-range leaves of it is too short to fade them in, or too coarse";
+        case fit::FoldShortage::length:
+            return bare + "in so long a body folds would be longer than 2.5 radii; cut it into --regions";
+        case fit::FoldShortage::rows:
+            if (asked) {
+                const bool kept = binding.amplitude == fit::Amplitude::mesh;
+                return "the mesh has vertices for " + folds_of(capacity) + ", not " + std::to_string(folds) +
+                       ": wrinkles are coarse, and the area " + (kept ? "may not be" : "is not") +
+                       " kept; goffer refine adds vertices";
+            }
+            if (folds > 0)
+                return "only " + folds_of(folds) + "," + would_suit +
+                       ": where the mesh's rows are far apart, folds are longer or there are none" + finer;
+            return bare +
+                   (even ? "the mesh's rows are too far apart for folds of 2.5 radii,"
+                         : "the mesh has vertices for " + folds_of(capacity) + ",") +
+                   would_suit + finer + ", or --folds K to insist";
     }
     return {};
 }
@@ -317,7 +312,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     return model;
 }
 
-void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
+bool warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
                    std::span<const double> angles, const std::string& where) {
     if (const std::vector<float>& mask = model.wrinkle_mask; !mask.empty()) {
         const auto [least, most] = std::ranges::minmax(mask);
@@ -327,25 +322,22 @@ void warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
                                    : "1 at every vertex: nothing stays smooth"));
     }
     const fit::Binding& binding = model.binding;
-    const bool even = binding.profile.kind == fit::Profile::Kind::even;
-    const bool asked = request.words.folds.has_value(), none = binding.amplitude == fit::Amplitude::none;
-    const std::vector<int> wanted = fit::suitable_folds(model.cylinder, request.options);
+    const bool asked = request.words.folds.has_value();
+    const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
+    bool few = false;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());
-        const std::string few = asked || none ? ""
-                                              : too_few(binding.regions[r], wanted[r], even,
-                                                        !request.options.wrinkle_range.whole());
-        if (asked && binding.folds(r) > binding.folds_capacity(r)) {
-            report.warn(which + too_coarse(binding, r));
-        } else if (!few.empty()) {
-            report.warn(which + few);
-        }
+        const fit::FoldShortage shortage = fit::fold_shortage(binding, r, request.options);
+        few = few || shortage != fit::FoldShortage::none;
+        const std::string said = words_of(shortage, binding, r, asked, suitable[r]);
+        if (!said.empty()) report.warn(which + said);
         if (fit::wrinkle_depth(binding, r, angles[r]) > model.cylinder.radius) {
             report.warn(which +
                         "the wrinkle is deeper than the radius, so that the squeezed side reaches past the "
                         "axis; use more folds");
         }
     }
+    return few;
 }
 
 }  // namespace goffer::cli

@@ -140,7 +140,8 @@ void put_in_model_order(std::vector<T>& values, const fit::Binding& binding) {
 /// Warns of a mask that is the same everywhere, of folds that the mesh cannot carry, of those that are
 /// missing for want of rows, and of those that reach past the axis when regions are bent by `angles`
 /// (radians, >= 0; one per region). `where` begins each warning: empty, or which of several models is meant.
-void warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
+/// Returns whether a region has too few folds to keep the area.
+bool warn_of_folds(Report& report, const BindRequest& request, const BoundModel& model,
                    std::span<const double> angles, const std::string& where = {});
 
 }  // namespace goffer::cli

@@ -94,7 +94,8 @@ bool straightens(const RestPose& rest, const Target& target) {
     return target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
 }
 
-void report_rest_pose(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+/// Returns whether a region gets straighter than it is at rest.
+bool report_rest_pose(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
                       const bend::Body& body) {
     std::size_t straightened = 0;
     double rest = 0;
@@ -104,15 +105,17 @@ void report_rest_pose(Report& report, const PoseRequest& request, const std::vec
     }
     report.json["angles_count_from"] = request.from_rest ? "rest" : "straight";
     report.json["straightens"] = straightened > 0;
-    if (rest == 0) return;
+    if (rest == 0) return false;
     report.line("angles", "are absolute: 0 is straight, and " + number(rest) + " toward " +
                               number(rest_pose(body, 0).direction) + " is the shape of the file");
-    if (straightened == 0 || request.from_rest) return;
+    if (straightened == 0) return false;
+    if (request.from_rest) return true;
     const std::string which = targets.size() == 1
                                   ? "the body"
                                   : std::to_string(straightened) + " of " + counted(targets.size(), "region");
     report.line("note", "this straightens " + which + ", bent by " + number(rest) +
                             " degrees at rest; to bend it further from there, use --by D instead of --angle");
+    return true;
 }
 
 }  // namespace
@@ -234,7 +237,7 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
                 ", where the body would fold through itself; " + then);
 }
 
-void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+bool report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
                   const BoundModel& model) {
     const fit::Binding& binding = model.binding;
     const bend::Body& body = binding.body;
@@ -284,7 +287,7 @@ void report_poses(Report& report, const PoseRequest& request, const std::vector<
     report.json["beyond_full_turn"] = beyond;
     if (beyond)
         report.line("note", "this is more than a full turn: parts of the body may go through each other");
-    report_rest_pose(report, request, targets, body);
+    return report_rest_pose(report, request, targets, body);
 }
 
 }  // namespace goffer::cli

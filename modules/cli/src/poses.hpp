@@ -88,8 +88,8 @@ void warn_of_angle(Report& report, const std::string& which, double asked, doubl
                    const std::string& then);
 
 /// Says what each region was bent to, and warns of those that were clamped. Of a body that is bent at rest it
-/// also says what angles count from, and whether it is straightened.
-void report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
+/// also says what angles count from, and whether it is straightened, which is returned.
+bool report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
                   const BoundModel& model);
 
 }  // namespace goffer::cli

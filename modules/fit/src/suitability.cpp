@@ -5,6 +5,7 @@
 #include "surface.hpp"
 #include "triangle.hpp"
 
+#include <goffer/fit/refine.hpp>
 #include <goffer/fit/suitability.hpp>
 
 #include <glm/geometric.hpp>
@@ -139,6 +140,19 @@ Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
     if (whole > 0) found.side_by_side_share = side_by_side / whole;
     found.flatness = flatness(geometry, cylinder, straightening);
     return found;
+}
+
+FoldShortage fold_shortage(const Binding& binding, std::size_t region, const BindOptions& options) {
+    using enum FoldShortage;
+    const RegionBinding& found = binding.regions[region];
+    if (binding.amplitude == Amplitude::none) return none;
+    if (regions_of(options)[region].folds) return found.folds > found.folds_capacity ? rows : none;
+    const int wanted = suitable_folds(binding.cylinder, options)[region];
+    if (wanted == 0) return none;
+    if (!options.wrinkle_range.whole()) return found.folds == 0 ? range : none;
+    if (binding.profile.kind != Profile::Kind::even) return found.folds == 0 ? rows : none;
+    if (found.folds == 0 && found.folds_capacity >= wanted) return length;
+    return 2 * found.folds < wanted ? rows : none;
 }
 
 }  // namespace goffer::fit

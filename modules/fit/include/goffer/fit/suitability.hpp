@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/bind_options.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
 
@@ -29,5 +31,19 @@ struct Suitability {
 /// Returns the shape of a body about `cylinder`, in its straightened coordinates. Throws Error as
 /// check(geometry) and check(cylinder) do. Thread-safe.
 [[nodiscard]] Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder);
+
+/// Why a region has fewer folds than were asked for or, where no number was, than suit it.
+enum class FoldShortage {
+    none,  ///< it has enough: a half of those that suit it keep their depth
+    rows,  ///< the mesh's rows of vertices are too far apart; folds that were asked for are made all the same
+    range,   ///< what BindOptions::wrinkle_range leaves of it is too short for folds, or its rows too far
+             ///< apart
+    length,  ///< it is so long that the most folds there may be are too long to wrinkle
+};
+
+/// Returns why region `region` of `binding`, which was bound with `options`, has too few folds. None with
+/// Amplitude::none and where 0 were asked for. Undefined where there is no such region. Thread-safe.
+[[nodiscard]] FoldShortage fold_shortage(const Binding& binding, std::size_t region,
+                                         const BindOptions& options);
 
 }  // namespace goffer::fit
