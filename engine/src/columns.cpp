@@ -2,6 +2,8 @@
 #include <goffer/engine/columns.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -16,14 +18,21 @@ std::size_t column_stride(std::size_t count) {
     return padded % page == 0 ? padded + widest_batch : padded;
 }
 
+/// Bytes of all columns; where no std::size_t holds these, more than any machine has, which `new` refuses.
+std::size_t bytes_of(std::size_t columns, std::size_t count, std::size_t stride) {
+    constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() - column_alignment + 1;
+    const bool fits = stride > count && stride <= most / sizeof(float) / columns;
+    return fits ? columns * stride * sizeof(float) : most;
+}
+
 }  // namespace
 
 Columns::Columns(std::size_t columns, std::size_t count)
     : columns_(columns), count_(count), stride_(column_stride(count)) {
-    const std::size_t floats = std::max<std::size_t>(columns_ * stride_, 1);
-    void* block = ::operator new (floats * sizeof(float), std::align_val_t{column_alignment});
+    if (columns == 0) return;
+    void* block = ::operator new (bytes_of(columns, count, stride_), std::align_val_t{column_alignment});
     memory_ = static_cast<float*>(block);
-    std::fill_n(memory_, floats, 0.0f);
+    std::fill_n(memory_, columns_ * stride_, 0.0f);
 }
 
 Columns::Columns(Columns&& other) noexcept

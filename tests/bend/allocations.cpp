@@ -6,6 +6,7 @@
 #include "support/rounds.hpp"
 #include "support/test_batch.hpp"
 
+#include <goffer/bend/body_table.hpp>
 #include <goffer/bend/bounds.hpp>
 #include <goffer/bend/crowd.hpp>
 #include <goffer/measure/allocations.hpp>
@@ -16,6 +17,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 /// Property P6: frames allocate nothing and take no lock. (That they open and write no file, symbols.cpp
@@ -141,6 +143,16 @@ TEST_CASE("P6: frames allocate nothing and take no lock") {
     CHECK(locked == locked_now);
     CHECK(frames.faults() == 0);
     CHECK(frames.texts() == frame_count() + 1);
+}
+
+TEST_CASE("P6: to make a body table, and to move it, allocates nothing") {
+    const auto before = measure::allocations();
+    bend::BodyTable table;
+    bend::BodyTable moved = std::move(table);
+    table = std::move(moved);
+    const auto after = measure::allocations();
+    CHECK(before == after);
+    CHECK(table.size() == 0);
 }
 
 TEST_CASE("P6: frames on the scheduler allocate nothing once it is warm") {

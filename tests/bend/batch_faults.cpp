@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -307,6 +309,26 @@ TEST_CASE("P7: columns that are not aligned to what they hold are named") {
           "transform alignment, batch 1");
     CHECK(told(crowd_fault_after([](SpoiledCrowd&, Batch& b) { b.poses.stride += 2; })) ==
           "poses alignment, batch 1");
+}
+
+TEST_CASE("P7: pages that are null or not aligned are named, and layouts that there are not") {
+    const std::array<bend::Pose, 64> poses{};
+    std::array<const void*, 2> pages{&poses[0], &poses[32]};
+    const auto fault_of_pages = [&](std::uint32_t shift = 5) {
+        return crowd_fault_after([&](SpoiledCrowd&, Batch& b) {
+            b.poses = {pages.data(), b.count,
+                       static_cast<std::uint32_t>(sizeof(bend::Pose) * b.body->region_count()), 0, shift};
+        });
+    };
+    pages[0] = reinterpret_cast<const char*>(&poses[0]) + 1;
+    CHECK(told(fault_of_pages()) == "poses alignment, batch 1");
+    pages[0] = nullptr;
+    CHECK(told(fault_of_pages()) == "poses null, batch 1");
+    for (const std::uint32_t shift : {64u, 200u})
+        CHECK(told(fault_of_pages(shift)) == "poses out_of_range, batch 1");
+    CHECK(told(crowd_fault_after([](SpoiledCrowd&, Batch& b) {
+              b.transforms.layout = static_cast<bend::TransformColumn::MatrixLayout>(7);
+          })) == "transform out_of_range, batch 1");
 }
 
 }  // namespace goffer::test

@@ -113,6 +113,25 @@ TEST_CASE("body file: levels share one rig") {
     CHECK(fault.reason == FileReason::count);
 }
 
+TEST_CASE("body file: a region of one thickness beside others is saved") {
+    LooseVertices loose = [] {
+        Random random(59);
+        return LooseVertices(random, 60, 0.11);
+    }();
+    std::vector<bend::RegionInput> regions{loose_region(20), loose_region(20), loose_region(20)};
+    for (std::size_t i = 0; i < 20; ++i) loose.vertices[i].scale = 1 + 0.01 * static_cast<double>(i % 3);
+    for (std::size_t i = 40; i < 60; ++i) loose.vertices[i].scale = 1.3;
+    regions[0].max_scale = 1.5;
+    regions[2].max_scale = 1.3;
+    for (bend::RegionInput& region : regions) region.max_angle = 2;
+    const bend::Body body = loose.body(regions);
+    const bend::LevelInput level{&body};
+    BodyFileFault fault;
+    CHECK(!bend::save({{&level, 1}, {}, {}, {}}, &fault).empty());
+    INFO(std::string(bend::describe(fault).c_str()));
+    CHECK(fault.none());
+}
+
 TEST_CASE("body file: the angle of a table without rows may be anything") {
     const bend::RestVertex vertex{.z = 5, .rho = 1};
     const bend::RestVector normal{.rho = 1};

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdio>
+#include <fstream>
+
 /// Body files that are wrong, or forged.
 
 namespace goffer::test {
@@ -203,6 +206,17 @@ TEST_CASE("body file: what cannot be read as a file is said to be") {
           "body file: there is no such file; check its name, and the working folder");
     CHECK(refused(GOFFER_SOURCE_DIR "/tests/data") == "body file: cannot be opened or read");
     CHECK(refused(GOFFER_SOURCE_DIR "/README.md") == "body file: not a body file; goffer bake makes one");
+    Random random(58);
+    const std::vector<std::byte> bytes = saved(random_body(random));
+    for (const std::size_t size : {8u, 40u, 63u, 64u, 100u}) {  // the same whether from a file or from memory
+        const std::string name = "short_" + std::to_string(size) + ".goffer";
+        std::ofstream(name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(size));
+        BodyFileFault fault;
+        CHECK(!bend::load_copy(std::span(bytes).first(size), &fault));
+        CHECK(refused(name.c_str()) == std::string(bend::describe(fault).c_str()));
+        std::remove(name.c_str());
+    }
 }
 
 }  // namespace goffer::test

@@ -163,6 +163,18 @@ TEST_CASE("P5: pieces on the caller's threads give the same bits, in any number"
     }
 }
 
+TEST_CASE("pieces may be more than there are vertices") {
+    Random random(34);
+    MixedCrowd crowd(random, 20);
+    const bend::CrowdJob job{.batches = crowd.batches};
+    for (const std::size_t pieces : {std::size_t{1} << 44, ~std::size_t{0}}) {
+        std::size_t deformed = 0;
+        for (const std::size_t piece : {std::size_t{0}, pieces / 3, pieces / 2, pieces - 1})
+            deformed += bend::run_piece(job, piece, pieces).deformed;
+        CHECK(deformed <= 1);
+    }
+}
+
 TEST_CASE("pieces share the work out by vertices") {
     Random random(33);
     MixedCrowd crowd(random, 120);

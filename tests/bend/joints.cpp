@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -318,10 +319,88 @@ TEST_CASE("what is wrong with a joint is named") {
     CHECK(bend::Body::check(input).index == 1);  // the third region is straight
     regions[1].blend = 0;
     CHECK(bend::Body::check(input).none());
+    regions[0].radius = input.radius;  // said, or the body's
+    regions[1].rest_direction = 2 * std::numbers::pi;
+    CHECK(bend::Body::check(input).none());
+    regions[1].radius = 1.01 * input.radius;
+    CHECK(bend::Body::check(input) == blend);
+    regions[1].radius = 0;
     regions[1].rest_direction = 1;
     CHECK(bend::Body::check(input) == blend);
     CHECK(std::string(bend::describe(blend).c_str())
               .starts_with("regions[0].blend: out of range; wanted: 0, or"));
+    bend::BodyFileFault in_file{bend::FileReason::number, bend::FileSection::rig};
+    in_file.body = {BodyField::blend, Reason::out_of_range, 31};
+    CHECK(std::string(bend::describe(in_file).c_str()).ends_with("onsets or without"));  // whole
+}
+
+TEST_CASE("near a joint, vertices that are not near it stay numbers, however thick they are") {
+    const bend::WrinkleTable thin{1, {bend::WrinkleRow{0.05f}, bend::WrinkleRow{0.05f}}};
+    bend::WrinkleTable steep = thin;
+    for (bend::WrinkleRow& row : steep.rows) row[row.size() - 1] = 1e-3f;  // times the highest power
+    constexpr double length = 1e7;
+    const std::vector<bend::RegionInput> regions{
+        {.length = length,
+         .max_angle = 1,
+         .table = thin,
+         .vertex_count = 71,
+         .radius = 1e3,
+         .max_scale = 1e3,
+         .blend = 100.1},
+        {.length = 200, .max_angle = 1, .table = steep, .vertex_count = 40, .radius = 1}};
+    std::vector<bend::RestVertex> vertices;
+    for (int i = 0; i < 70; ++i)
+        vertices.push_back(
+            {.beta = 0.3 * i, .z = length * i / 70, .rho = 1e6, .wrinkle = 1e-7, .scale = 1e3});
+    vertices.push_back({.z = length, .rho = 1, .wrinkle = 0.1, .scale = 1e-3});
+    for (int i = 0; i < 40; ++i)
+        vertices.push_back({.beta = 0.3 * i, .z = 200.0 * i / 39, .rho = 1, .wrinkle = 0.1});
+    const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
+    bend::BodyInput input;
+    input.radius = 1;
+    input.regions = regions;
+    input.vertices = vertices;
+    input.normals = normals;
+    INFO(std::string(bend::describe(bend::Body::check(input)).c_str()));
+    REQUIRE(bend::Body::check(input).none());
+    const bend::Body body = bend::Body::make(input).value();
+    const std::vector<bend::Pose> poses{{0.5f * body.max_angle(0), 0}, {0.5f, 0}};
+    for (const Isa isa : isas_here()) {
+        CAPTURE(name(isa));
+        Output out(body.vertex_count());
+        bend::run(make_job(body, poses, isa, out));
+        for (std::size_t c = 0; c < 6; ++c)
+            CHECK(std::ranges::all_of(out.columns[c], [](float value) { return std::isfinite(value); }));
+    }
+    std::vector<bend::RegionInput> without = regions;
+    without[0].blend = 0;
+    without[0].blend_gain = std::nan("");
+    input.regions = without;
+    CHECK(bend::Body::check(input) ==
+          bend::BodyFault{bend::BodyField::blend_gain, bend::Reason::not_finite, 0});
+}
+
+TEST_CASE("a socket that is too thick for the region beyond a joint is refused with its file") {
+    Random random(168);
+    std::vector<bend::RegionInput> regions{loose_region(20), loose_region(20)};
+    LooseVertices loose(random, 40, 0.11);
+    for (std::size_t i = 0; i < 40; ++i) loose.vertices[i].z = 0.05 * static_cast<double>(i % 20) + 0.001;
+    regions[0].blend = 0.2;
+    regions[0].max_scale = 2;
+    regions[0].max_angle = 2;
+    const bend::Body body = loose.body(regions);
+    for (const double z : {0.5, 0.99}) {
+        const bend::NamedSocket socket{"", {0, {0, z, 0.05, 0, 0, 2}}};
+        CAPTURE(z);
+        const bend::LevelInput level{&body};
+        bend::BodyFileInput input;
+        input.levels = {&level, 1};
+        input.sockets = {&socket, 1};
+        bend::BodyFileFault fault;
+        CHECK(bend::save(input, &fault).empty() == (z > 0.8));
+        CHECK(bend::Sockets::make(body, {&socket.socket, 1}).has_value() == (z < 0.8));
+        if (z > 0.8) CHECK(fault.section == bend::FileSection::sockets);
+    }
 }
 
 }  // namespace goffer::test

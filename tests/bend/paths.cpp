@@ -241,6 +241,34 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
     CHECK(sum / trials < 1e-4);
 }
 
+TEST_CASE("the error is no less than it is where the search for the nearest place does not settle") {
+    const bend::RegionInput region{.length = 1, .max_angle = 3, .vertex_count = 1};
+    const bend::RestVertex vertex{.rho = 0.05};
+    const bend::RestVector normal{.rho = 1};
+    bend::BodyInput input;
+    input.radius = 0.05;
+    input.regions = {&region, 1};
+    input.vertices = {&vertex, 1};
+    input.normals = {&normal, 1};
+    const bend::Body body = bend::Body::make(input).value();
+    Random random(96);
+    Control control{
+        {}, {-0.6350f, 1.0727f, 0.6292f}, {-0.2434f, 0.0844f, 0.0440f}, {0.8980f, -0.8217f, -0.6875f}};
+    double understated = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        bend::Pose pose;
+        const bend::PathFit fit = bend::poses_along_bezier(body, control, {&pose, 1});
+        const double exact = error_of(body, fit, {&pose, 1}, line_of(control, 300));
+        understated = std::max(understated, exact - static_cast<double>(fit.error));
+        for (std::size_t i = 1; i < 4; ++i) {
+            for (int axis = 0; axis < 3; ++axis)
+                control[i][axis] = static_cast<float>(uniform(random, -1.2, 1.2));
+        }
+    }
+    MESSAGE("understated by ", understated, " lengths at most");
+    CHECK(understated < 0.01);
+}
+
 TEST_CASE("the first region ends in the direction that the path has there") {
     Random random(96);
     double worst = 0, sum = 0;

@@ -108,7 +108,7 @@ TEST_CASE("C: a crowd gives the bits of single jobs, whole, in parallel and in p
 
     batch.poses.page_size = 3;
     CHECK(goffer_crowd_set(crowd, 0, &batch, &error) == 0);
-    CHECK(std::string(error.text) == "page_size: not a power of two");
+    CHECK(std::string(error.text) == "page_size: not a power of two up to 2^32");
     batch.poses.page_size = 4;
     batch.transform_layout = 3;
     CHECK(goffer_crowd_set(crowd, 0, &batch, &error) == 0);

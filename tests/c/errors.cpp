@@ -122,6 +122,9 @@ TEST_CASE("C: handles that are null, and indices of what is not there, give zero
         CHECK(goffer_file_socket_name(of, 0).size == 0);
     }
     CHECK(goffer_file_notes(nullptr).size == 0);
+    const goffer_job job = {};
+    CHECK(goffer_job_bounds(nullptr).high[0] == 0);
+    CHECK(goffer_job_bounds(&job).high[0] == 0);
     goffer_file_free(file);
 
     CHECK(goffer_body_vertex_layout(nullptr).stride == 0);

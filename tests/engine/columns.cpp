@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/sanitized.hpp"
+
 #include <goffer/engine/columns.hpp>
 
 #include <doctest/doctest.h>
@@ -6,6 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <new>
 #include <utility>
 
 /// Columns: aligned, padded with zeros, apart from each other.
@@ -49,6 +53,23 @@ TEST_CASE("columns move with their memory") {
     CHECK(to[1][3] == 7);
     CHECK(Columns().columns() == 0);
     CHECK(Columns().bytes() == 0);
+    CHECK(Columns(0, 5).bytes() == 0);
+}
+
+// Sanitizers end the program there.
+TEST_CASE("columns of more bytes than there are numbers for are refused, as any without memory for them" *
+          doctest::skip(sanitized)) {
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    for (const auto& [columns, count] : {std::pair{std::size_t{1}, most - 10},
+                                         {std::size_t{4}, most / 8},
+                                         {most / 64, std::size_t{100}},
+                                         {most, std::size_t{1}},
+                                         {std::size_t{1}, most / 8},
+                                         {std::size_t{1}, most}}) {
+        CAPTURE(columns);
+        CAPTURE(count);
+        CHECK_THROWS_AS(Columns(columns, count), std::bad_alloc);
+    }
 }
 
 }  // namespace goffer::test

@@ -15,9 +15,10 @@
  * leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to const may
  * be called from several threads at the same time, if they write to different memory. Objects that
  * goffer_.._free takes belong to the caller; null may be freed. A handle that is null, and an index of what
- * is not there, do no harm: the result is zeros, or nothing is done, unless a function asks for what
- * validates. Angles are radians, lengths are in the mesh's units. Structs may grow: set one to 0, or to its
- * defaults, before you fill it, and build against the header of the library that you load. */
+ * is not there, do no harm: the result is zeros, or nothing is done, except in functions whose argument
+ * must validate. Angles are radians, lengths are in the mesh's units. Structs may grow: set one to its
+ * defaults, where there is a function for these, or else to 0, before you fill it, and build against the
+ * header of the library that you load. */
 
 #ifdef _WIN32
 #ifdef GOFFER_BUILDING
@@ -46,7 +47,7 @@ enum {
     GOFFER_ERROR_SYSTEM,   /* the file cannot be opened or read */
     GOFFER_ERROR_FILE,     /* no body file, or one that is damaged */
     GOFFER_ERROR_VERSION,  /* a body file of an unknown version or of the other byte order: bake it again */
-    GOFFER_ERROR_OTHER
+    GOFFER_ERROR_OTHER     /* nothing of these: the text says what */
 };
 
 /* What went wrong; of a call that did not fail, no text and GOFFER_ERROR_NONE. */
@@ -55,7 +56,7 @@ typedef struct goffer_error {
     int code;       /* the error, one of the numbers above */
 } goffer_error;
 
-/* Characters that no 0 ends. */
+/* Characters, not null-terminated. */
 typedef struct goffer_string {
     const char* data;
     size_t size;
@@ -185,13 +186,13 @@ GOFFER_API void goffer_file_free(goffer_file* file);
 
 /* What is drawn of a level. `uvs` and `source` may be null. The memory is the file's. */
 typedef struct goffer_file_draw {
-    const uint32_t* triangles; /* 3 vertices of the body each */
+    const uint32_t* triangles; /* 3 vertices of the body each, counterclockwise from outside */
     size_t triangle_count;
     const float* uvs; /* 2 floats per vertex, v up */
     const uint32_t*
         source; /* which vertex of the model each vertex is; nothing looks whether it has that many */
     size_t part_count;
-    goffer_bounds rest_bounds;
+    goffer_bounds rest_bounds; /* of all vertices at rest, as the file has it: nothing looks whether it is */
 } goffer_file_draw;
 
 typedef struct goffer_part {
@@ -262,7 +263,7 @@ GOFFER_API int goffer_job_validate(const goffer_job* job, goffer_error* error);
 GOFFER_API goffer_job_result goffer_job_run(const goffer_job* job);
 /* The same on all threads, with oneTBB if the library has it: for one large body. */
 GOFFER_API goffer_job_result goffer_job_run_parallel(const goffer_job* job);
-/* From the poses alone; streams are not looked at. job->body and poses must be given. */
+/* From poses, transform and wrinkle weight; streams are not looked at. job->body and poses must be given. */
 GOFFER_API goffer_bounds goffer_job_bounds(const goffer_job* job);
 
 typedef struct goffer_capsule {
@@ -277,7 +278,8 @@ GOFFER_API void goffer_job_capsules(const goffer_job* job, size_t pieces, goffer
 
 /* `count` elements, `stride` bytes apart, the first one `offset` bytes behind `data`. `data` null: not given.
  * In pages of a power of two, `data` is an array of the pages' addresses, and page_size how many elements
- * each holds; 0: no pages. A stride of 0: the same for all. */
+ * each holds; 0: no pages. A stride of 0: the same for all, and `count` is the number of instances all the
+ * same. */
 typedef struct goffer_column {
     const void* data;
     size_t count;
@@ -291,25 +293,28 @@ typedef struct goffer_batch {
     const goffer_body* body;
     size_t count;            /* instances */
     const uint32_t* indices; /* null, or `count` of them: the element that each one reads */
-    /* goffer_pose; those of further regions behind the first one's: each element has at least as many as the
-     * body has regions, which nothing can check. */
+    /* goffer_pose; those of further regions behind the first one's: the stride has room for as many as the
+     * body has regions. */
     goffer_column poses;
-    goffer_column transforms; /* floats, as transform_layout says; not given: the identity */
-    int transform_layout;
+    goffer_column transforms;      /* floats, as transform_layout says; not given: the identity */
+    int transform_layout;          /* of previous_transforms too */
     goffer_column wrinkle_weights; /* float; not given: 1 */
+    /* With previous_positions: the poses must be given then; without transforms the identity is taken. */
     goffer_column previous_poses, previous_transforms;
     goffer_column visible, changed, update_intervals; /* uint8_t; not given: 1 */
     goffer_stream positions, normals, tangents;
     goffer_packed_stream packed;
     goffer_stream previous_positions;
-    goffer_bounds* bounds;        /* null, or `count` of them, which a run sets */
+    goffer_bounds* bounds;        /* null, or `count` of them, set by a run for those that it does not skip */
     goffer_column vertex_offsets; /* uint32_t; not given: instance i begins at i * vertex_step */
     size_t vertex_step;
     int scratch_gaps;
 } goffer_batch;
 
 typedef struct goffer_crowd_result {
-    size_t deformed, clamped, at_rest;
+    size_t deformed; /* instances that were not skipped */
+    size_t clamped;  /* those among them with an angle beyond the largest */
+    size_t at_rest;  /* those among them with a pose that was not finite */
 } goffer_crowd_result;
 
 typedef struct goffer_crowd goffer_crowd;
@@ -332,13 +337,13 @@ GOFFER_API void goffer_crowd_set_isa(goffer_crowd* crowd, int isa);
  * those of indices and vertex offsets. */
 GOFFER_API int goffer_crowd_validate(const goffer_crowd* crowd, goffer_error* error);
 /* These three deform all batches: on the calling thread, on all threads, or piece by piece on threads of the
- * caller's. The crowd must validate. The bits are the same. `piece` is below `pieces`: of any other nothing
+ * caller's. The crowd must validate. The bits are the same. For a `piece` that is not below `pieces` nothing
  * is done. */
 GOFFER_API goffer_crowd_result goffer_crowd_run(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_parallel(const goffer_crowd* crowd);
 GOFFER_API goffer_crowd_result goffer_crowd_run_piece(const goffer_crowd* crowd, size_t piece, size_t pieces);
-/* The bounds of each instance of a batch, from its poses alone; `result` holds as many. The batch has a body,
- * and columns as for a crowd that validates; its streams are not looked at. */
+/* The bounds of each instance of a batch, from its poses, transforms and wrinkle weights; `result` holds as
+ * many. The batch has a body, and columns as for a crowd that validates; its streams are not looked at. */
 GOFFER_API void goffer_crowd_bounds(const goffer_crowd* crowd, size_t index, goffer_bounds* result);
 
 /* ---- Shaders [modules/gpu/README.md, goffer/gpu/vertices.hpp, goffer/bend/kernel_input.hpp] ---- */

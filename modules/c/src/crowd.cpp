@@ -23,7 +23,8 @@ StridedView<T> view_of(const goffer_column& column) {
     view.stride = column.stride;
     view.offset = column.offset;
     if (column.page_size == 0) return view;
-    if (!std::has_single_bit(column.page_size)) throw std::invalid_argument("page_size: not a power of two");
+    if (!std::has_single_bit(column.page_size) || column.page_size > std::size_t{1} << 32)
+        throw std::invalid_argument("page_size: not a power of two up to 2^32");
     view.page_shift = static_cast<std::uint32_t>(std::countr_zero(column.page_size));
     return view;
 }

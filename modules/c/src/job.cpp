@@ -111,6 +111,7 @@ goffer_job_result goffer_job_run_parallel(const goffer_job* job) {
 }
 
 goffer_bounds goffer_job_bounds(const goffer_job* job) {
+    if (job == nullptr || job->body == nullptr) return {};
     return bounds_of(bend::bounds(job_of(*job)));
 }
 

@@ -27,7 +27,8 @@ public:
     Columns& operator=(Columns&& other) noexcept;
     ~Columns();
 
-    /// Allocates zero-filled columns: less than columns * (count + 96) * 4 bytes. May throw std::bad_alloc.
+    /// Allocates zero-filled columns: less than columns * (count + 96) * 4 bytes, or nothing where columns is
+    /// 0. Throws std::bad_alloc, also where that is more than a std::size_t holds.
     Columns(std::size_t columns, std::size_t count);
 
     [[nodiscard]] std::size_t columns() const noexcept { return columns_; }

@@ -53,7 +53,8 @@ struct Bands {
 [[nodiscard]] inline float bands_per_height(const Bands& bands) noexcept {
     constexpr float least = 1e-18f;  // below it heights were not made from doubles
     const float extent = bands.highest - bands.lowest;
-    return extent > least ? static_cast<float>(Bands::count) / extent : 0.0f;
+    // Compilers may divide before they compare: not by 0, so that traps may be set.
+    return extent > least ? static_cast<float>(Bands::count) / std::max(extent, least) : 0.0f;
 }
 
 /// D / L at a place between the edges of bands: j at edge j.

@@ -19,7 +19,7 @@ BodyTable& BodyTable::operator=(BodyTable&& other) noexcept {
 
 const BodyTable::Place* BodyTable::place_of(BodyHandle handle) const noexcept {
     if (handle.index >= places_.size()) return nullptr;
-    const Place& place = places_[handle.index];
+    const Place& place = *places_[handle.index];
     return place.revision != 0 && place.generation == handle.generation ? &place : nullptr;
 }
 
@@ -32,11 +32,11 @@ BodyHandle BodyTable::add(Body body) {
     std::uint32_t index = first_free_;
     if (index == none) {
         index = static_cast<std::uint32_t>(places_.size());
-        places_.emplace_back();
+        places_.push_back(std::make_unique<Place>());
     } else {
-        first_free_ = places_[index].next_free;
+        first_free_ = places_[index]->next_free;
     }
-    Place& place = places_[index];
+    Place& place = *places_[index];
     place.body = std::move(body);
     place.revision = 1;
     ++size_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace goffer::bend {
 namespace {
@@ -160,17 +161,19 @@ BodyFault check_counts(const BodyInput& input) noexcept {
 }
 
 /// Whether two regions are bent along the same arc at rest, as neighbors whose squeezes are compared must be.
-bool share_rest_arc(const RegionInput& a, const RegionInput& b) noexcept {
+bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept {
     if (a.rest_angle == 0 && b.rest_angle == 0) return true;
     constexpr double tolerance = 1e-6;
     const double curvature = a.rest_angle / a.length, other = b.rest_angle / b.length;
-    return std::fabs(curvature - other) <= tolerance * curvature &&
-           std::fabs(a.rest_direction - b.rest_direction) <= tolerance && a.radius == b.radius;
+    const double turned = std::remainder(a.rest_direction - b.rest_direction, 2 * std::numbers::pi);
+    return std::fabs(curvature - other) <= tolerance * curvature && std::fabs(turned) <= tolerance &&
+           radius_of(a, radius) == radius_of(b, radius);
 }
 
 /// Checks what region `r` says of its joint with the next one.
 BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     const RegionInput& own = input.regions[r];
+    if (!std::isfinite(own.blend_gain)) return {BodyField::blend_gain, Reason::not_finite, r};
     if (own.blend == 0) return {};
     const BodyFault blend{BodyField::blend, Reason::out_of_range, r};
     if (!std::isfinite(own.blend)) return {BodyField::blend, Reason::not_finite, r};
@@ -183,8 +186,8 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
                       own.blend + next.blend <= next.length * (1 + 1e-9);
     const double radius = radius_of(own, input.radius), next_radius = radius_of(next, input.radius);
     const bool similar = radius <= next_radius * Range::max_scale && next_radius <= radius * Range::max_scale;
-    const bool alike =
-        similar && compares_with_rest(own) == compares_with_rest(next) && share_rest_arc(own, next);
+    const bool alike = similar && compares_with_rest(own) == compares_with_rest(next) &&
+                       share_rest_arc(own, next, input.radius);
     if (!fits || !alike || own.table.empty() || next.table.empty()) return blend;
     const double most = Range::max_blend_gain;
     const Limited gain{BodyField::blend_gain, own.blend_gain, 1 / most, most};
@@ -194,22 +197,24 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     return below && above ? BodyFault{} : BodyFault{BodyField::blend_gain, Reason::out_of_range, r};
 }
 
+float height_of(const RestVertex& v, double length) noexcept {
+    return static_cast<float>(v.z / length - 0.5);
+}
+
 /// Checks that vertices near one joint of region `r` do not lie among those near the other, and are not too
 /// thick for the region beyond. `first`: of the region's vertices.
 BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first) noexcept {
     const RegionInput& region = input.regions[r];
-    const auto [below, above] = joints_of(input.regions, r, input.radius);
-    if (!below.blends() && !above.blends()) return {};
+    const Joints joints = joints_of(input.regions, r, input.radius);
+    if (!joints.below.blends() && !joints.above.blends()) return {};
     bool beyond = false;
     for (std::size_t i = first; i < first + region.vertex_count; ++i) {
-        const auto height = static_cast<float>(input.vertices[i].z / region.length - 0.5);
-        const bool low = below.blends() && below.nears(height), high = above.blends() && above.nears(height);
-        beyond = beyond || high;
-        if (beyond && low) return {BodyField::vertices, Reason::out_of_range, i};
-        const Joint& joint = low ? below : above;
-        const double max_scale = input.regions[joint.neighbor].max_scale;
-        if ((low || high) && !bears_scale(joint.blend, input.vertices[i].scale, max_scale))
-            return {BodyField::scale, Reason::out_of_range, i};
+        const RestVertex& vertex = input.vertices[i];
+        beyond = beyond || joints.above.nears(height_of(vertex, region.length));
+        if (beyond && joints.below.nears(height_of(vertex, region.length)))
+            return {BodyField::vertices, Reason::out_of_range, i};
+        const BodyFault fault = check_near_joints(vertex, i, region.length, joints, input.regions);
+        if (!fault.none()) return fault;
     }
     return {};
 }
@@ -295,12 +300,12 @@ BodyFault check_rig(const BodyInput& input) noexcept {
 
 BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region, double radius,
                        double depth) noexcept {
-    constexpr double most = std::numeric_limits<double>::max(), max_wrinkle = Range::max_wrinkle;
+    constexpr double max_wrinkle = Range::max_wrinkle;
     const double slack = 1e-3 * region.length;
     const double growth = depth * std::fabs(v.wrinkle);
     const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
     const double max_drift = region.length * radius * region.max_scale;
-    const Limited numbers[] = {{BodyField::beta, v.beta, -most, most},
+    const Limited numbers[] = {{BodyField::beta, v.beta, -Range::max_angle, Range::max_angle},
                                {BodyField::z, v.z, -slack, region.length + slack},
                                {BodyField::rho, v.rho, 0, Range::max_length},
                                {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
@@ -313,6 +318,16 @@ BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput
                                 -Range::max_taper, Range::max_taper},
                                {BodyField::drift, v.drift, -max_drift, max_drift}};
     return first_fault(numbers, index);
+}
+
+BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length, const Joints& joints,
+                            std::span<const RegionInput> regions) noexcept {
+    for (const Joint* joint : {&joints.below, &joints.above}) {
+        if (joint->nears(height_of(v, length)) &&
+            !bears_scale(joint->blend, v.scale, regions[joint->neighbor].max_scale))
+            return {BodyField::scale, Reason::out_of_range, index};
+    }
+    return {};
 }
 
 BodyFault check_unit(BodyField field, const RestVector& vector, std::size_t index) noexcept {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "body/joint.hpp"
+
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/body_input.hpp>
 
@@ -22,6 +24,12 @@ namespace goffer::bend {
 /// Checks vertex `index`, which is one of `region`; `depth` is the deepest_wrinkle() there.
 [[nodiscard]] BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,
                                      double radius, double depth) noexcept;
+
+/// Checks that vertex `index` is not too thick for the region beyond a joint of its own region that it is
+/// near. `joints`: of that region, of which `regions` are the neighbors.
+[[nodiscard]] BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length,
+                                          const Joints& joints,
+                                          std::span<const RegionInput> regions) noexcept;
 
 /// Checks that a normal or a tangent, which `field` says, is of unit length.
 [[nodiscard]] BodyFault check_unit(BodyField field, const RestVector& vector, std::size_t index) noexcept;

@@ -43,15 +43,15 @@ Words words_of(BodyField field) noexcept {
             return {"regions", ".onset", "0 to 1"};
         case BodyField::table:
             return {"regions", ".table",
-                    "no rows or two and more, of finite numbers, up to 1e-12 radians or more, of wrinkles no "
-                    "deeper than 1e15"};
+                    "no rows, or at least two of finite numbers, with a max_angle of at least 1e-12 and "
+                    "wrinkles no deeper than 1e15"};
         case BodyField::factors:
             return {"regions", ".factors",
-                    "no rows or two and more, of finite numbers, up to 1e-12 radians or more"};
+                    "no rows, or at least two of finite numbers, with a max_angle of at least 1e-12"};
         case BodyField::blend:
             return {"regions", ".blend",
-                    "0, or 1e-5 of both lengths and more, with room for it in both regions, which wrinkle, "
-                    "and have one rest arc or none, and both an onset or neither"};
+                    "0, or from 1e-5 of both lengths to the room in both regions, which wrinkle; on one rest "
+                    "arc, or straight with onsets or without"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};
@@ -61,7 +61,7 @@ Words words_of(BodyField field) noexcept {
             return {"vertices", "",
                     "at least one; those near one joint of a region before those near the other"};
         case BodyField::beta:
-            return {"vertices", ".beta", "a number"};
+            return {"vertices", ".beta", "within 1000 radians"};
         case BodyField::z:
             return {"vertices", ".z", "0 to its region's length, within a thousandth of that"};
         case BodyField::rho:

@@ -55,7 +55,7 @@ bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first
     below.max_scale = above.max_scale = columns.scale != nullptr ? 0.0f : 1.0f;
     for (std::size_t i = first; i < last && (below.blends() || above.blends()); ++i) {
         for (Joint* joint : {&below, &above}) {
-            if (!joint->blends() || !joint->nears(columns.height[i])) continue;
+            if (!joint->nears(columns.height[i])) continue;
             if (joint == &below) below.last = i + 1;
             if (joint == &above) above.first = std::min(above.first, i);
             if (columns.scale != nullptr) joint->max_scale = std::max(joint->max_scale, columns.scale[i]);

@@ -21,8 +21,11 @@ struct Joint {
     float max_scale = 1;       ///< largest s of vertices near it; 0: there is none
 
     [[nodiscard]] bool blends() const noexcept { return blend.per_height != 0; }
-    /// Whether a vertex of the region at height v = z / L - 1/2 is near it. Rounds as kernels do.
-    [[nodiscard]] bool nears(float v) const noexcept { return blend.per_height * v + blend.at > 0; }
+    /// Whether a vertex of the region at height v = z / L - 1/2 is near it, and wrinkles pass over it. Rounds
+    /// as kernels do.
+    [[nodiscard]] bool nears(float v) const noexcept {
+        return blends() && blend.per_height * v + blend.at > 0;
+    }
 };
 
 /// The joints where a region begins and ends.

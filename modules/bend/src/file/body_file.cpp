@@ -63,6 +63,7 @@ std::optional<BodyFile> load_file(const char* name, BodyFileFault* fault, Verify
     // A folder opens and has a size, but cannot be read: reading comes first.
     FileHeader header = {};
     const bool whole = std::fread(&header, sizeof header, 1, file.get()) == 1;
+    if (!whole) header = {};
     if (std::ferror(file.get()) != 0) return refused(FileReason::unreadable);
     const std::int64_t size = whole ? size_of(file.get()) : 0;
     if (size < 0) return refused(FileReason::unreadable);

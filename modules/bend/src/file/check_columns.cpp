@@ -156,7 +156,7 @@ private:
         low.rho = static_cast<double>(plain[rho].low());
         high.rho = static_cast<double>(plain[rho].high()) * inward;
         if (shape != nullptr) {
-            low.scale = static_cast<double>(shape[scale].low()) * outward;
+            low.scale = std::min(static_cast<double>(shape[scale].low()) * outward, region_.max_scale);
             high.scale = static_cast<double>(shape[scale].high()) * inward;
             low.drift = static_cast<double>(shape[drift].low()) * inward * region_.length;
             high.drift = static_cast<double>(shape[drift].high()) * inward * region_.length;

@@ -49,7 +49,8 @@ const char* name_of(FileSection section) noexcept {
                                      "factor_rows", "materials", "sockets", "names",     "notes",
                                      "level",       "bands",     "columns", "triangles", "uvs",
                                      "source",      "parts"};
-    return names[static_cast<std::size_t>(section)];
+    const auto number = static_cast<std::size_t>(section);
+    return number < std::size(names) ? names[number] : "unknown";
 }
 
 }  // namespace

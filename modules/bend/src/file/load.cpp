@@ -193,7 +193,9 @@ private:
         BodyFault fault = check_vertex(socket.vertex, index, region, radius_of(region, rig_.radius), depth);
         if (fault.none()) fault = check_unit(BodyField::normals, socket.normal, index);
         if (fault.none()) fault = check_unit(BodyField::tangents, socket.tangent, index);
-        return fault;
+        if (!fault.none()) return fault;
+        const Joints joints = joints_of(regions_, socket.region, rig_.radius);
+        return check_near_joints(socket.vertex, index, region.length, joints, regions_);
     }
 
     [[nodiscard]] BodyFileFault load_level(std::size_t index) {

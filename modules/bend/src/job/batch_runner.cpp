@@ -80,10 +80,11 @@ void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last)
     const std::size_t vertex = batch_.vertex_offsets.empty() ? instance * batch_.vertex_step
                                                              : std::size_t{batch_.vertex_offsets[element]};
     gathered_[gathered_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
-    gather(element, first == 0);
+    const bool begins = first == 0 && last != 0;
+    gather(element, begins);
     if (whole && gathered_count_ < group_size_) return;
     deform_group(0, body_.vertex_count);
-    set_up(first == 0);
+    set_up(begins);
     if (!whole) deform_group(first, last);
 }
 

@@ -4,8 +4,11 @@
 #include "pose/matrix_layout.hpp"
 #include "pose/posed_group.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace goffer::bend {
@@ -73,7 +76,8 @@ struct Bytes {
 
 Bytes bytes_of(const StreamMemory& stream, std::size_t component) noexcept {
     const auto first = reinterpret_cast<std::uintptr_t>(stream.component[component]);
-    return {first, first + (stream.count - 1) * stream.stride + sizeof(float)};
+    const std::uintptr_t room = std::numeric_limits<std::uintptr_t>::max() - sizeof(float) - first;
+    return {first, first + std::min(stream.count - 1, room / stream.stride) * stream.stride + sizeof(float)};
 }
 
 /// Whether two components write to the same bytes. Exact if their strides are equal; otherwise true if their
@@ -155,12 +159,24 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     return {};
 }
 
+/// Checks where a column's first `elements` lie: each of its pages, if it has these.
 template <class T>
-bool misaligned(const StridedView<T>& view) noexcept {
-    if (view.empty()) return false;
-    const bool paged = view.page_shift != StridedView<T>::unpaged;
-    const std::size_t first = paged ? 0 : reinterpret_cast<std::uintptr_t>(view.data);
-    return (first + view.offset) % alignof(T) != 0 || view.stride % alignof(T) != 0;
+Reason check_addresses(const StridedView<T>& view, std::size_t elements) noexcept {
+    const auto check_array = [&](const void* array) {
+        if (array == nullptr) return Reason::null;
+        const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(array) + view.offset;
+        return first % alignof(T) != 0 ? Reason::alignment : Reason::none;
+    };
+    if (view.stride % alignof(T) != 0) return Reason::alignment;
+    if (view.page_shift == StridedView<T>::unpaged) return check_array(view.data);
+    if (view.page_shift > StridedView<T>::unpaged) return Reason::out_of_range;
+    const std::size_t pages = elements == 0 ? 0 : ((elements - 1) >> view.page_shift) + 1;
+    for (std::size_t i = 0; i < pages; ++i) {
+        const void* page = nullptr;
+        std::memcpy(&page, static_cast<const std::byte*>(view.data) + i * sizeof page, sizeof page);
+        if (const Reason reason = check_array(page); reason != Reason::none) return reason;
+    }
+    return Reason::none;
 }
 
 /// Checks that columns hold as many elements as are read, and that each has room for what is read of it.
@@ -177,8 +193,8 @@ struct ColumnCheck {
             fault = fault_of(field, Reason::stride);
         } else if (view.count < elements) {
             fault = fault_of(field, Reason::count);
-        } else if (misaligned(view)) {
-            fault = fault_of(field, Reason::alignment);
+        } else if (const Reason reason = check_addresses(view, elements); reason != Reason::none) {
+            fault = fault_of(field, reason);
         }
     }
 };
@@ -198,16 +214,17 @@ Fault check_columns(const Batch& batch) noexcept {
     const bool previous = !batch.previous_positions.empty();
     if (previous && batch.previous_poses.empty()) return fault_of(Field::previous_poses, Reason::null);
     const std::size_t poses = batch.body->region_count() * sizeof(Pose);
-    const auto matrix = [](const TransformColumn& column) {
-        return static_cast<std::size_t>(steps_of(column.layout).floats()) * sizeof(float);
+    const auto take_matrices = [&](Field field, const TransformColumn& column) {
+        if (columns.fault.none() && !column.empty() && column.layout > TransformColumn::MatrixLayout::rows4)
+            columns.fault = fault_of(field, Reason::out_of_range);
+        const auto floats = static_cast<std::size_t>(steps_of(column.layout).floats());
+        columns.take(field, column.first, floats * sizeof(float));
     };
     columns.take(Field::poses, batch.poses, poses);
-    columns.take(Field::transform, batch.transforms.first, matrix(batch.transforms));
+    take_matrices(Field::transform, batch.transforms);
     columns.take(Field::wrinkle_weight, batch.wrinkle_weights);
     if (previous) columns.take(Field::previous_poses, batch.previous_poses, poses);
-    if (previous)
-        columns.take(Field::previous_transform, batch.previous_transforms.first,
-                     matrix(batch.previous_transforms));
+    if (previous) take_matrices(Field::previous_transform, batch.previous_transforms);
     columns.take(Field::visible, batch.visible);
     columns.take(Field::changed, batch.changed);
     columns.take(Field::update_intervals, batch.update_intervals);

@@ -122,8 +122,8 @@ public:
     [[nodiscard]] Place begin_of(std::size_t piece) noexcept {
         const Place end = {job_.batches.size(), 0, 0};
         if (piece == pieces_) return end;
-        // In two parts, since vertices_ * piece might overflow.
-        const std::size_t wanted = vertices_ / pieces_ * piece + vertices_ % pieces_ * piece / pieces_;
+        // What is left over goes to the first pieces, one vertex each: vertices_ * piece might overflow.
+        const std::size_t wanted = vertices_ / pieces_ * piece + std::min(vertices_ % pieces_, piece);
         for (; place_.batch < job_.batches.size(); place_ = {place_.batch + 1, 0, 0}) {
             if (found(wanted)) return place_;
         }

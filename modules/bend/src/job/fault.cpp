@@ -85,7 +85,7 @@ std::string_view reason_of_stride(Field field) noexcept {
         case Field::vertex_offsets:
             return "elements are nearer to each other than the size of one";
         default:
-            return "the stride is not a multiple of 4, or below what one vertex takes";
+            return "the stride is not a multiple of 4, or components of it write to the same bytes";
     }
 }
 
@@ -95,8 +95,8 @@ std::string_view words(Field field, Reason reason) noexcept {
             return "no fault";
         case Reason::null:
             return field == Field::body || field == Field::poses || field == Field::previous_poses
-                       ? "not given"
-                       : "a component is null beside others that are not";
+                       ? "not given, or a page of it is not"
+                       : "a component is null beside others that are not, or a page of it is";
         case Reason::empty:
             return reason_of_empty(field);
         case Reason::not_finite:
@@ -106,7 +106,8 @@ std::string_view words(Field field, Reason reason) noexcept {
         case Reason::out_of_range:
             return field == Field::vertex_offsets   ? "the instance would end behind the end of a stream"
                    : field == Field::wrinkle_weight ? "not in 0..1"
-                                                    : "beyond the end of poses";
+                   : field == Field::indices        ? "beyond the end of poses"
+                                                    : "a layout or a page_shift that there is not";
         case Reason::count:
             return reason_of_count(field);
         case Reason::too_short:

@@ -61,11 +61,17 @@ GOFFER_FLATTENED void blend_wrinkles(const RestColumns& columns, const Coefficie
         set_wrinkle<L, squeeze, directions>(rest, k, b, i);
         set_wrinkle<L, squeeze, directions>(rest, other_k, other, i);
         const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
+        // Of vertices that are not near the joint the other region's wrinkle may be no number.
+        const Vec zero = L::splat(0.0f);
+        other.amplitude = L::where_less(zero, share.value, other.amplitude, zero);
         const Vec difference = other.amplitude - b.amplitude;
         b.amplitude = L::madd(share.value, difference, b.amplitude);
         const Vec offset = L::load(rest.radial_offset + i);
         L::store(out.rho + j, L::madd(b.amplitude, offset, L::load(rest.rho + i)));
         if constexpr (directions) {
+            other.slope = L::where_less(zero, share.value, other.slope, zero);
+            if (has_shape<squeeze>(rest))
+                other.less_by_scale = L::where_less(zero, share.value, other.less_by_scale, zero);
             b.slope = L::madd(share.value, other.slope - b.slope, b.slope);
             if (has_shape<squeeze>(rest))
                 b.less_by_scale =

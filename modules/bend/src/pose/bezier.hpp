@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace goffer::bend {
 
@@ -52,14 +53,18 @@ struct BezierStretch {
         }
         return away;
     }
-    /// Moves `parameters` to the feet of the perpendiculars on the curve's tangents there, and returns the
-    /// squared distances from these feet. `seen` is away() of `from`.
-    [[nodiscard]] Float4 step(const Vec3x4& seen, Float4& parameters) const noexcept;
+    /// Squared distances of four samples from the curve, and from the feet of the perpendiculars on its
+    /// tangents there.
+    struct Squares {
+        Float4 from_curve, from_feet;
+    };
+    /// Moves `parameters` to these feet. `seen` is away() of `from`.
+    [[nodiscard]] Squares step(const Vec3x4& seen, Float4& parameters) const noexcept;
     /// The squared distances from the line. `seen` is away() of `end`.
     [[nodiscard]] Float4 from_line(const Vec3x4& seen) const noexcept;
 };
 
-inline Float4 BezierStretch::step(const Vec3x4& seen, Float4& parameters) const noexcept {
+inline BezierStretch::Squares BezierStretch::step(const Vec3x4& seen, Float4& parameters) const noexcept {
     const Float4 u = min(max(parameters, least), most);
     Vec3x4 away, slope;
     Float4 dot = splat(0);
@@ -69,10 +74,10 @@ inline Float4 BezierStretch::step(const Vec3x4& seen, Float4& parameters) const 
         away.c[c] = seen.c[c] + u * k1;
         dot = dot + away.c[c] * slope.c[c];
     }
-    const Float4 foot = u - dot / max(slope.square(), splat(1e-30f));
+    const Float4 foot = u - dot / max(slope.square(), splat(1e-30f)), from_curve = away.square();
     parameters = min(max(foot, least), most);
     for (int c = 0; c < 3; ++c) away.c[c] = away.c[c] + (parameters - u) * slope.c[c];
-    return away.square();
+    return {from_curve, away.square()};
 }
 
 inline Float4 BezierStretch::from_line(const Vec3x4& seen) const noexcept {
@@ -154,9 +159,10 @@ inline void Bezier::measure() noexcept {
     for (int i = 0; i < pieces; ++i, at += 2) {
         const double mean = (at[0] + 4 * at[1] + at[2]) / 6;
         before_[i + 1] = before_[i] + mean / pieces;
-        pace_[i] = 1 / std::max(at[0], min_square);
     }
-    pace_[pieces] = 1 / std::max(at[0], min_square);
+    // Where control points coincide the speed is 0: at() limits paces to far less than this.
+    const double least = std::max(1e-12 * before_[pieces], min_square);
+    for (int i = 0; i <= pieces; ++i) pace_[i] = 1 / std::max(speed[2 * i], least);
 }
 
 /// Within a piece, the parameter is a cubic polynomial of the length, given by values and paces at both ends.
@@ -198,7 +204,7 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& sa
 }
 
 inline double Bezier::advance(const CenterSamples& samples) noexcept {
-    constexpr int max_steps = 4;
+    constexpr int max_steps = 8;
     // Steps this small end the search: the error that remains is about their square.
     constexpr float near = 0.004f;
     constexpr int fours = CenterSamples::fours;
@@ -207,20 +213,27 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
     const BezierStretch stretch = stretch_to(to, samples);
     here_ = to;
     Vec3x4 seen[fours];
-    Float4 feet[fours], squares[fours];
+    Float4 feet[fours], squares[fours], nearest[fours];
     for (int i = 0; i < fours; ++i) {
         const Float4 shares = {0.0625f, 0.125f, 0.1875f, 0.25f};
         seen[i] = stretch.away(stretch.from, samples, i);
         feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
+        nearest[i] = splat(std::numeric_limits<float>::max());
     }
     Float4 moved = splat(1);
     for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
         moved = splat(0);
         for (int i = 0; i < fours; ++i) {
             const Float4 before = feet[i];
-            squares[i] = stretch.step(seen[i], feet[i]);
+            const BezierStretch::Squares found = stretch.step(seen[i], feet[i]);
+            squares[i] = found.from_feet;
+            nearest[i] = min(nearest[i], found.from_curve);
             moved = max(moved, abs(feet[i] - before));
         }
+    }
+    if (largest(moved) > near) {  // feet on tangents may be far from the curve, and nearer than it is
+        for (int i = 0; i < fours; ++i)
+            squares[i] = min(nearest[i], stretch.step(seen[i], feet[i]).from_curve);
     }
     drift_ = feet[fours - 1][3] - 1;
     Float4 worst = splat(0);

@@ -56,8 +56,8 @@ NeighborShare neighbor_share(const Body& body, std::size_t region, float height)
         return {neighbor, x * x * (1.5f - x), 3 * blend.per_length * (x - x * x), blend.gain[0],
                 blend.squeeze};
     };
-    if (below.blends() && below.nears(height)) return share_of(below, -1);
-    if (above.blends() && above.nears(height)) return share_of(above, 1);
+    if (below.nears(height)) return share_of(below, -1);
+    if (above.nears(height)) return share_of(above, 1);
     return {};
 }
 

@@ -49,8 +49,9 @@ public:
     /// From base to tip; at least one, unless the body is empty.
     [[nodiscard]] std::span<const Region> regions() const noexcept;
     /// What the regions were made from, unrounded. Together with origin(), axes() and radius() this is all of
-    /// a BodyInput but its vertices. A body made from it deforms a vertex with the same rest coordinates to
-    /// the same bits.
+    /// a BodyInput but what it has of its vertices. A body made from it deforms a vertex with the same rest
+    /// coordinates to the same position, bit for bit; normals differ in last bits where one body has vertices
+    /// of another scale than 1, and the other none.
     [[nodiscard]] std::span<const RegionInput> region_inputs() const noexcept;
     [[nodiscard]] std::size_t region_count() const noexcept { return regions().size(); }
     /// Length of all regions together, model units.

@@ -62,7 +62,7 @@ struct DrawMesh {
     std::span<const DrawPart> parts;  ///< none, or covering all triangles, in order
 };
 
-/// A socket with a name. Sockets::make takes the sockets of any level.
+/// A socket with a name. Sockets::make makes them for the body of any level.
 struct NamedSocket {
     std::string_view name;  ///< may be empty
     Socket socket;
@@ -112,11 +112,12 @@ private:
 /// How much of a file is looked at before it is used.
 enum class Verify : std::uint8_t {
     /// All of it: the checksum, and each number, so that a file from anywhere does no harm. The runs of its
-    /// bodies are as safe as those of Body::make's, and triangles, parts and sockets refer to what is there.
+    /// bodies are as safe as those of Body::make's, and triangles, parts and sockets refer to what is there;
+    /// only rest_bounds are taken as they are, if they are finite: do not cull by those of files from
+    /// anywhere.
     /// In the default floating-point environment, or with subnormal numbers taken as 0.
     everything,
-    /// That no byte has changed since it was written, and what takes no time: for files that come from where
-    /// nobody means harm.
+    /// The checksum, and what can be checked in constant time: for files from a source that is trusted.
     checksum,
     /// What takes no time in proportion to the vertices: loading does not touch columns, triangles or texture
     /// coordinates, which a mapped file then reads when they are first used. For files that were verified

@@ -59,14 +59,15 @@ struct BodyFileFault {
     FileReason reason = FileReason::none;
     FileSection section = FileSection::header;
     std::size_t level = nowhere;  ///< `nowhere`: a section that all levels share
-    std::size_t index = nowhere;  ///< entry of the section; `nowhere`: all of it
+    std::size_t index = nowhere;  ///< entry of the section (of columns the vertex, of triangles the
+                                  ///< triangle); `nowhere`: all of it
     BodyFault body = {};          ///< more of it, where the fault is a body's or a socket's number
 
     [[nodiscard]] bool none() const noexcept { return reason == FileReason::none; }
 };
 
 /// Says in one line what is wrong and where, as in "levels[1].triangles[7]: refers to what is not there".
-/// Says "no fault" of none. Does not allocate.
+/// Says "no fault" of none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const BodyFileFault& fault) noexcept;
 
 }  // namespace goffer::bend

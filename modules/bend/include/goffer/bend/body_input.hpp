@@ -40,7 +40,7 @@ struct WorkingRange {
     static constexpr double max_length = 1e12;    ///< largest length of a region, radius, and rho of a vertex
     static constexpr double max_origin = 1e15;    ///< largest |origin| on each axis
     static constexpr double min_angle = 1e-12;    ///< least max_angle of a region and of its tables, radians
-    static constexpr double max_angle = 1000;     ///< largest max_angle and |rest_direction|, radians
+    static constexpr double max_angle = 1000;     ///< largest max_angle, |rest_direction| and |beta|, radians
     static constexpr double max_rest = 1 - 1e-5;  ///< largest rest_angle over length / (2 radius max_scale)
     static constexpr double max_wrinkle = 1e18;   ///< largest |wrinkle| and |slope|, 1 / model units
     static constexpr double max_scale = 1e3;      ///< largest scale of a vertex, and of 1 / scale

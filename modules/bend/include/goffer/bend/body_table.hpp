@@ -5,7 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
+#include <vector>
 
 /// Bodies behind handles, for engines that load, reload and unload them while instances refer to them:
 ///
@@ -68,7 +69,7 @@ private:
     [[nodiscard]] const Place* place_of(BodyHandle handle) const noexcept;
     [[nodiscard]] Place* place_of(BodyHandle handle) noexcept;
 
-    std::deque<Place> places_;
+    std::vector<std::unique_ptr<Place>> places_;  // which stay where they are
     std::size_t size_ = 0;
     std::uint32_t first_free_ = none;
     static constexpr std::uint32_t none = ~std::uint32_t{0};

@@ -33,7 +33,7 @@ struct TransformColumn {
     /// How the matrix that takes column vectors to the outputs' space lies in memory.
     enum class MatrixLayout : std::uint8_t {
         columns3,  ///< four columns of 3 floats: glm::mat4x3
-        columns4,  ///< four columns of 4 floats: glm::mat4; the last float is not read
+        columns4,  ///< four columns of 4 floats: glm::mat4; the fourth of each is not read
         rows4,     ///< three rows of 4 floats: the usual instance buffer of a GPU
     };
 
@@ -75,12 +75,13 @@ struct Batch {
     /// Each element is the pose of the first region; those of the other regions follow it in memory, so that
     /// the stride is at least region_count() poses, or 0: the same for all. Must be given. (A member of type
     /// Pose has one: for a body of n regions the struct needs Pose[n], or an array that is as long as that of
-    /// the body with the most regions.)
+    /// the body with the most regions. Of a plain array of n poses for each instance, `count` is the number
+    /// of instances, and the stride n times that of strided().)
     StridedView<Pose> poses = {};
-    TransformColumn transforms = {};          ///< as DeformJob::transform; default: the identity
-    StridedView<float> wrinkle_weights = {};  ///< as DeformJob::wrinkle_weight; default: 1
-    StridedView<Pose> previous_poses = {};    ///< as `poses`; must be given with previous_positions
-    TransformColumn previous_transforms = {};
+    TransformColumn transforms = {};           ///< as DeformJob::transform; default: the identity
+    StridedView<float> wrinkle_weights = {};   ///< as DeformJob::wrinkle_weight; default: 1
+    StridedView<Pose> previous_poses = {};     ///< as `poses`; must be given with previous_positions
+    TransformColumn previous_transforms = {};  ///< likewise; default: the identity, not `transforms`
 
     /// 0: the instance is not seen in this frame and is skipped (see bounds()). Default: 1.
     StridedView<std::uint8_t> visible = {};
@@ -113,11 +114,6 @@ struct Batch {
     /// instance's first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
 };
-
-/// Bytes per instance that a batch's optional columns take at most, without poses and transforms.
-inline constexpr std::size_t instance_bytes =
-    2 * sizeof(std::uint32_t) + sizeof(float) + 3 * sizeof(std::uint8_t);
-static_assert(instance_bytes <= 32);
 
 /// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is.
 /// job.isa is lost: CrowdJob::isa takes its place. Does not allocate. Thread-safe.
@@ -172,8 +168,9 @@ struct CrowdResult {
 
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
-/// taken as at rest, and transforms that are not give outputs that are not. Does not allocate, lock or log;
-/// takes up to 56 KB of stack. Thread-safe where outputs do not overlap.
+/// taken as at rest, and transforms that are not give positions that are not. Does not allocate or log,
+/// nor lock but in the first run of a process; takes up to 60 KB of stack. Thread-safe where outputs do not
+/// overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
 /// split, the number of threads, an instance's neighbors or `stores`.

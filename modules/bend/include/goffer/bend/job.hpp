@@ -86,8 +86,8 @@ struct DeformResult {
 
 /// Deforms all vertices on the calling thread. `job` must validate, except for its poses, weight and
 /// transforms, which may hold any bits: a weight counts as the nearest in 0..1 (a NaN as 0), and transforms
-/// that are not finite give outputs that are not. Does not allocate, lock or log; takes up to 56 KB of stack.
-/// Thread-safe where outputs do not overlap.
+/// that are not finite give positions that are not. Does not allocate or log, nor lock but in the first run
+/// of a process; takes up to 60 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone. Processors of
 /// different makers may differ in the last bits, unless the isa is scalar: see modules/README.md,
@@ -96,7 +96,7 @@ DeformResult run(const DeformJob& job) noexcept;
 
 /// Deforms the vertices [first, last), first <= last <= body->vertex_count(), on the calling thread, for
 /// schedulers other than oneTBB. Ranges that cover all vertices leave the same bits as run(), in any order
-/// and also at the same time. `bounds` is written by the range that begins at 0. Otherwise as run().
+/// and also at the same time. `bounds` is written by the range that has vertex 0. Otherwise as run().
 DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last) noexcept;
 
 /// Deforms all vertices with oneTBB in the caller's arena (GOFFER_TBB=OFF: on the calling thread), in ranges

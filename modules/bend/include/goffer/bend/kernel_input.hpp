@@ -16,9 +16,9 @@ namespace goffer::bend {
 class Body;
 struct Batch;
 
-/// The columns of a body, one value per vertex, as plain pointers. S is the scale of a
-/// vertex's column at rest, s the radius about the vertex over that of its region. In regions that do not
-/// compare_with_rest, sqrt(s) stands for S in the first columns, and 1 in the last three. For g and w see
+/// The columns of a body, one value per vertex, as plain pointers. S is the scale of a vertex's column at
+/// rest, s the radius about the vertex over that of its region. In regions with neither a rest arc nor an
+/// onset, sqrt(s) stands for S in the first columns, and 1 in the last three. For g and w see
 /// modules/paper/README.md, "Wrinkle", for s and D "Shaped bodies".
 struct RestColumns {
     const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
@@ -34,9 +34,9 @@ struct RestColumns {
     /// These three are null unless the body has a shape.
     const float* scale = nullptr;  ///< s
     const float* drift = nullptr;  ///< D / L
-    /// g w (ds / dz) / s, times -1 in regions that compare_with_rest, and times sqrt(s) in others.
+    /// g w (ds / dz) / s, times -1 in regions with a rest arc or an onset, and times sqrt(s) in others.
     const float* taper = nullptr;
-    /// These five are null unless a region of the body compares_with_rest.
+    /// These five are null unless a region of the body has a rest arc or an onset.
     const float* cos_beta = nullptr;
     const float* sin_beta = nullptr;
     const float* rest_cosine = nullptr;  ///< s cos(beta) / S
@@ -64,6 +64,7 @@ struct alignas(16) Coefficients {
     float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
     float offset[4];          ///< the arc's middle in the streams' space
     float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
+    /// With h = sqrt(2) cos((beta - theta) / 2), h' = sqrt(2) sin((beta - theta) / 2) and T = h^2:
     /// Plain, with x = s T: A = |h| sqrt(s) sum of amplitude[n] x^n, and dA/dbeta = sign(h) h' sqrt(s) sum of
     /// amplitude_slope[n] x^n.
     /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of

@@ -20,7 +20,8 @@ struct PackedVertex {
     std::uint16_t position[3];
     std::uint16_t unused;  ///< 0
     /// The unit normal in octahedral coordinates: (x, y) / (|x| + |y| + |z|), the lower half folded outward,
-    /// in steps of 1 / 32767. Off by less than 0.004 degrees.
+    /// in steps of 1 / 32767. Off by less than 0.004 degrees. Where a transform leaves a normal no length, it
+    /// is that of z.
     std::int16_t normal[2];
 };
 

@@ -39,7 +39,7 @@ struct PathFit {
 
 /// Sets poses[r] to the pose of region r, so that the body's center line runs along the polyline `points`,
 /// which has the unit of the body. `poses` is the caller's and should hold one per region; if it is shorter,
-/// the remaining regions are ignored.
+/// the remaining regions are ignored; what it has beyond is left alone or set to 0.
 ///
 /// Each region ends in the direction that the path has at that length along it; positions follow from the
 /// directions. On a smooth path, the error falls with the square of the regions' lengths. Corners are not

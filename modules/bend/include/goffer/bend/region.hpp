@@ -19,7 +19,7 @@ inline constexpr std::size_t max_regions = 32;
 /// What a region is made from. WorkingRange limits the numbers further.
 struct RegionInput {
     double length = 0;             ///< L > 0 of its outer line, model units
-    double max_angle = 0;          ///< radians, > 0, at most 1 + 1e-6 times length / (2 radius max_scale)
+    double max_angle = 0;          ///< radians, > 0, at most (1 + 1e-6) length / (2 radius max_scale)
     double rest_angle = 0;         ///< alpha_0 of its arc at rest, radians, 0..max_angle
     double rest_direction = 0;     ///< theta_0 of its arc at rest, radians
     double onset = 0;              ///< q0, 0..1: see WrinkleRow
@@ -30,10 +30,11 @@ struct RegionInput {
     double max_scale = 1;          ///< >= 1, largest RestVertex::scale of its vertices
     /// How far on both sides of the joint with the next region the wrinkles of both pass into each other,
     /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
-    /// table; their radii are within a factor of 1000; either both or neither have an onset or a rest arc,
-    /// which is one arc; and the blend is from 1e-5 of the longer region to what both have room for. Among a
-    /// region's vertices, those within that distance of the joint below come before those of the joint above;
-    /// kernels are fastest if the former come first of all and the latter last.
+    /// table; their radii are within a factor of 1000; either both or neither have an onset or a rest arc;
+    /// rest arcs are parts of one, with the same curvature, direction and radius; and the blend is from 1e-5
+    /// of the longer region to what both have room for. Among a region's vertices, those within that distance
+    /// of the joint below come before those of the joint above; kernels are fastest if the former come first
+    /// of all and the latter last.
     double blend = 0;
     /// The wave g of the next region over that of this one at the joint. Used with a blend.
     double blend_gain = 1;

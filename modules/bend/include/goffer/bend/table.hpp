@@ -56,9 +56,8 @@ struct WrinkleTable {
 /// Factors on the amplitude by angle and direction, with which the bound mesh keeps its own area (amplitude
 /// mode `mesh`). Rows stand at the same angles as those of a WrinkleTable. Value j of a row is for the
 /// direction 2 pi j / directions, counted from the direction of the region's rest arc, toward e2. The values
-/// are squares of factors, in which area is nearly linear; negative ones count as 0. A plain value. Empty:
-/// all factors are 1.
-/// See modules/paper/README.md, "Amplitude modes".
+/// are squares of factors, in which area is nearly linear; where they, interpolated, are negative, the factor
+/// is 0. A plain value. Empty: all factors are 1. See modules/paper/README.md, "Amplitude modes".
 struct FactorTable {
     static constexpr std::size_t directions = 16;  ///< values in a row
 
