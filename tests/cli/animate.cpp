@@ -218,6 +218,15 @@ TEST_CASE("animate: pictures are taken from one place, from which all frames are
     CHECK(bytes_of(folder / "p1.png") != bytes_of(folder / "p3.png"));
 }
 
+TEST_CASE("animate: a folder in the place of a frame is found before any is written") {
+    const Folder folder;
+    base(folder);
+    std::filesystem::create_directory(folder / "q_0002.obj");
+    refused(folder, 1, {"animate", "base.ply", "--swing", "30", "--frames", "3", "-o", "q_%04d.obj"},
+            {"q_0002.obj", "is a folder"});
+    CHECK(!std::filesystem::exists(folder / "q_0001.obj"));
+}
+
 TEST_CASE("animate: a sequence replaces its own frames, and is not left in front of another's") {
     const Folder folder;
     base(folder);

@@ -55,7 +55,7 @@ TEST_CASE("from rest: by 0 is the shape of the file") {
     const Bent bent;
     const json all = bent.bend({"--by", "0"});
     check_pose(all["pose"], 70, 30);
-    CHECK(all["angles_count_from"] == "rest");
+    CHECK(all["asked_from"] == "rest");
     CHECK(all["straightens"] == false);
     CHECK(farthest(mesh::load(bent.folder / "bent.ply"), mesh::load(bent.folder / "out.ply")) < 1e-5);
 }

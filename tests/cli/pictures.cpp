@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 
+using namespace goffer;
 using namespace goffer::test;
 
 namespace {
@@ -159,4 +160,22 @@ TEST_CASE("pictures: vertices have the colors that the file gives them, one by o
     CHECK(count(red, blue) == 0);
     well(folder, {"bend", "white.obj", "-o", "out.obj", "--png", "out.png", "--size", "320x240"});
     CHECK(count(red, blue) > 2000);  // clay
+}
+
+TEST_CASE("pictures: vertices of a glTF have their colors whatever the name of its file") {
+    const Folder folder;
+    base(folder, "tube.ply");
+    mesh::Mesh mesh = mesh::load(folder / "tube.ply");
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        mesh.colors.emplace_back(0.2f + 0.5f * static_cast<float>(i % 2), 0.3f, 0.1f, 1.0f);
+    mesh.source = nullptr;
+    mesh::save(mesh, folder / "tube.glb");
+    std::filesystem::copy_file(folder / "tube.glb", folder / "tube.GLB");
+    std::filesystem::copy_file(folder / "tube.glb", folder / "tube.bin");
+    const auto picture = [&](const std::string& name) {
+        well(folder, {"bend", name, "-o", "out.obj", "--png", "out.png", "--size", "160x120"});
+        return bytes_of(folder / "out.png");
+    };
+    CHECK(picture("tube.GLB") == picture("tube.glb"));
+    CHECK(picture("tube.bin") == picture("tube.glb"));
 }

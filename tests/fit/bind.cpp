@@ -108,6 +108,13 @@ TEST_CASE("the largest angle lies just below where the outermost vertex meets th
             CHECK(room(limit * 1.003) < 0);
         }
     }
+    // With the factor of `area` at the limit, the outermost vertex just has room.
+    const double limit = fit::largest_angle(Profile::damped, Amplitude::area, 2, 10, 1, 3),
+                 factor = paper::area_factor(Profile::damped, 2, 10, 1, limit),
+                 with_factor = fit::largest_angle(Profile::damped, Amplitude::paper, 2, 10, 1, 3, factor);
+    CHECK(std::fabs(factor - 1) > 0.02);
+    CHECK(limit <= with_factor);
+    CHECK(limit > 0.999 * with_factor);
 }
 
 TEST_CASE("a vertex that no triangle uses does not limit the angle, wherever it is") {
@@ -207,7 +214,16 @@ TEST_CASE("bind refuses what it cannot use, and names it") {
     CHECK(refused([](TestMesh& s, Options&) {
               s.cylinder.radii = {1, 2};
           }).find("radii have the mean 1.5") != std::string::npos);
-    CHECK(refused([](TestMesh&, Options& o) { o.folds = -1; }).find("folds") != std::string::npos);
+    for (const int bad : {-1, 1025, std::numeric_limits<int>::max()}) {
+        for (const auto amplitude : {fit::Amplitude::paper, fit::Amplitude::none})
+            CHECK(refused([&](TestMesh&, Options& o) {
+                      o.folds = bad, o.amplitude = amplitude;
+                  }).find("folds: " + std::to_string(bad) + " is outside 0..1024") == 0);
+    }
+    CHECK(refused([](TestMesh& s, Options&) {
+              s.cylinder.radii = {0.01, 0.19};
+              s.cylinder.rest_angle = 4;
+          }).find("too thick for the rest_angle of 4") != std::string::npos);
     CHECK(refused([](TestMesh&, Options& o) { o.table_rows = 1; }).find("table_rows") != std::string::npos);
     CHECK(refused([](TestMesh& s, Options&) { s.cylinder.length = 0.5; }).find("vertex") !=
           std::string::npos);

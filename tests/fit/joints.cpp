@@ -77,4 +77,17 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("folds over joints: they run on between folds of which one is at most three times as long") {
+    std::mt19937 random(12);
+    const test::Solid solid = test::cylinder({.columns = 12, .rows = 400}, random);
+    for (const auto& [folds, runs_on] : {std::pair{17, true}, std::pair{19, false}}) {
+        for (const bool longer_first : {false, true}) {
+            fit::BindOptions options;
+            options.regions = {{0.5, longer_first ? 6 : folds}, {0.5, longer_first ? folds : 6}};
+            const fit::Binding binding = fit::bind(solid.geometry(), test::upright(), options);
+            CHECK((binding.regions[0].blend > 0) == runs_on);
+        }
+    }
+}
+
 }  // namespace goffer

@@ -190,6 +190,28 @@ TEST_CASE("parts: hairs in number do not make the body between them smooth") {
     for (double beta = 0; beta < 1.5; beta += 0.05) CHECK(parts.at({beta, 5, 1}).value > 0.8);
 }
 
+TEST_CASE("parts: what is turned about the axis has the same weights, turned") {
+    const test::Solid solid = tube_and_rod(0.15, 2.5);
+    const auto deep = [](double) { return 0.2; };
+    fit::Parts parts(solid.geometry(), base_of_tube());
+    parts.weigh(deep, deep);
+    for (const double turn : {0.4, std::numbers::pi / 2, 2.8}) {
+        test::Solid turned = solid;
+        const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+        for (glm::vec3& p : turned.positions) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        fit::Parts other(turned.geometry(), base_of_tube());
+        other.weigh(deep, deep);
+        double worst = 0;
+        for (double beta = 0; beta < 6.2; beta += 0.2) {
+            for (double rho = 0.1; rho < 2.8; rho += 0.1)
+                worst = std::max(
+                    worst, std::fabs(parts.at({beta, 5, rho}).value - other.at({beta + turn, 5, rho}).value));
+        }
+        MESSAGE("weights differ by ", worst, " at most");
+        CHECK(worst < 0.02);  // points of outlines stand for cells that do not turn
+    }
+}
+
 TEST_CASE("parts: levels of one rig agree") {
     const test::Solid solid = tube_and_rod(0.15, 1.5);
     const fit::Binding rig = fit::bind(solid.geometry(), base_of_tube());

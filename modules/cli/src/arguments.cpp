@@ -4,6 +4,7 @@
 #include "json.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/ending.hpp>
 #include <goffer/io/error.hpp>
 #include <goffer/mesh/mesh.hpp>
 
@@ -215,8 +216,7 @@ void check_model_output(const std::filesystem::path& file) {
 }
 
 void check_picture_output(const std::filesystem::path& file) {
-    const std::string ending = file.extension().string();
-    if (ending != ".png" && ending != ".PNG") {
+    if (io::ending_of(file) != ".png") {
         throw UsageError("--png: " + file.string() + " does not end in .png; the picture is a PNG");
     }
     check_output(file);
@@ -230,10 +230,7 @@ namespace {
 
 /// Those of a .gltf. Where it cannot be read, reading it says why.
 std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending != ".gltf") return {};
+    if (io::ending_of(file) != ".gltf") return {};
     try {
         return mesh::named_buffers(file, {.allow_outside = true});
     } catch (const mesh::Error&) {
@@ -266,8 +263,7 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
         taken.push_back(output);
         std::filesystem::path materials = output.file;  // that an OBJ may have beside it
         materials.replace_extension(".mtl");
-        const std::string ending = output.file.extension().string();
-        if (ending == ".obj" || ending == ".OBJ") taken.push_back({"-o's materials", materials});
+        if (io::ending_of(output.file) == ".obj") taken.push_back({"-o's materials", materials});
     }
 }
 

@@ -213,8 +213,8 @@ void run_bend(const BendOptions& options) {
         PictureStyle style = request.style;
         style.settings.progress = progress.listener();
         const bool show = !options.show.empty();
-        const std::vector<glm::vec4> colors = show ? area_colors(model, bent.records.positions)
-                                                   : vertex_colors(options.model, model.mesh, model.rest);
+        const std::vector<glm::vec4> colors =
+            show ? area_colors(model, bent.records.positions) : vertex_colors(model.mesh, model.rest);
         const Textures textures = show ? Textures{} : textures_of(model.mesh, options.bind.load.limits);
         for (const std::string& warning : textures.warnings) report.warn(warning);
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,
@@ -248,7 +248,7 @@ void add_bend(CLI::App& app, Action& action) {
         command->get_option("--path")->excludes(option);
     command
         ->add_option("--path-start", options->path.start,
-                     "Put the base so far behind the beginning of the path, in the model's units [0]")
+                     "Put the base this far along the path, in the model's units [0]")
         ->check(number_within(0, 1e9, "a length"));
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "auto");

@@ -6,6 +6,7 @@
 #include "progress.hpp"
 
 #include <goffer/bend/job.hpp>
+#include <goffer/io/ending.hpp>
 #include <goffer/io/read_file.hpp>
 
 #include <CLI/CLI.hpp>
@@ -137,7 +138,7 @@ BoundModel baked_model(const std::filesystem::path& file, bend::BodyFile loaded,
 bool is_body_file(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe's bytes come once
-    if (file.extension() == ".goffer") return true;                    // or is meant to be one
+    if (io::ending_of(file) == ".goffer") return true;                 // or is meant to be one
     std::array<char, 8> first{};
     std::ifstream stream(file, std::ios::binary);
     return stream.read(first.data(), first.size()) && bend::is_body_file(std::as_bytes(std::span(first)));

@@ -42,17 +42,15 @@ glm::vec4 plain_color(std::size_t model) {
     return {colors[model % colors.size()], 1};
 }
 
-std::vector<glm::vec4> vertex_colors(const std::filesystem::path& file, const mesh::Mesh& mesh,
-                                     const mesh::VertexArrays& rest) {
+std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexArrays& rest) {
     const auto white = [](const glm::vec4& color) { return color == glm::vec4(1, 1, 1, color.a); };
     std::vector<glm::vec4> colors;
     if (std::ranges::all_of(mesh.colors, white)) return colors;
-    const std::string ending = file.extension().string();
-    const bool encoded = ending != ".glb" && ending != ".gltf";
     colors.reserve(rest.vertex.size());
     for (const std::uint32_t vertex : rest.vertex) {
         glm::vec4 color = mesh.colors[vertex];
-        for (int c = 0; encoded && c < 3; ++c) color[c] = view::linear_of(std::clamp(color[c], 0.0f, 1.0f));
+        for (int c = 0; !mesh.linear_colors && c < 3; ++c)
+            color[c] = view::linear_of(std::clamp(color[c], 0.0f, 1.0f));
         colors.push_back(dimmed(color));
     }
     return colors;

@@ -103,7 +103,7 @@ bool report_rest_pose(Report& report, const PoseRequest& request, const std::vec
         straightened += straightens(rest_pose(body, i), targets[i]) ? 1 : 0;
         rest += rest_pose(body, i).angle;
     }
-    report.json["angles_count_from"] = request.from_rest ? "rest" : "straight";
+    report.json["asked_from"] = request.from_rest ? "rest" : "straight";
     report.json["straightens"] = straightened > 0;
     if (rest == 0) return false;
     report.line("angles", "are absolute: 0 is straight, and " + number(rest) + " toward " +

@@ -7,6 +7,7 @@
 #include <goffer/clip/frames.hpp>
 #include <goffer/clip/vertex_texture.hpp>
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/ending.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <glm/common.hpp>
@@ -32,7 +33,7 @@ struct Names {
     fs::path json, positions, normals, mesh, glsl, hlsl;
 
     explicit Names(const fs::path& file) : json(file) {
-        if (file.extension() != ".json") fail(file, "the ending is not .json; give a name that ends so");
+        if (io::ending_of(file) != ".json") fail(file, "the ending is not .json; give a name that ends so");
         const auto beside = [&](const char* ending) {
             fs::path name = file;
             name.replace_extension();

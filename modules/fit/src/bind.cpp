@@ -40,6 +40,12 @@ void check_options(const BindOptions& options, const Cylinder& cylinder, double 
         throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
     check_range(options.wrinkle_range);
     check(options.profile);
+    const int most =
+        options.profile.kind == Profile::Kind::even ? 2 * BindOptions::max_folds : BindOptions::max_folds;
+    for (const RegionOptions& region : regions_of(options)) {
+        if (region.folds && (*region.folds < 0 || *region.folds > most))
+            throw Error("folds: " + std::to_string(*region.folds) + " is outside 0.." + std::to_string(most));
+    }
     const bool whole = options.wrinkle_range.whole();
     if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +

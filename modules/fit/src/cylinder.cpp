@@ -152,9 +152,16 @@ void check_radii(const Cylinder& cylinder) {
     const std::size_t count = cylinder.radii.size();
     if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
     const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();
-    if (std::abs(mean / cylinder.radius - 1) <= 1e-3) return;
-    throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " + text(cylinder.radius) +
-                "; make them the same");
+    if (!(std::abs(mean / cylinder.radius - 1) <= 1e-3)) {
+        throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " +
+                    text(cylinder.radius) + "; make them the same");
+    }
+    const double thickest = *std::ranges::max_element(cylinder.radii);
+    if (cylinder.rest_angle < cylinder.length / (2 * thickest)) return;
+    throw Error("cylinder: radii of " + text(thickest) + " are too thick for the rest_angle of " +
+                text(cylinder.rest_angle) +
+                ", which has room for less than length / (2 rest_angle); give a " +
+                "smaller angle, or no radii");
 }
 
 void check_finite(const Vector3d& value, std::string_view name) {

@@ -118,9 +118,12 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, FoldRan
     constexpr double inside = 0.999;  // so that a pose at the limit still has room for rounding
     const double angle = inside * search(factor);
     if (amplitude != paper::Amplitude::area || !wrinkles(amplitude, folds)) return angle;
-    // m grows with the angle, so the factor at the plain limit is no smaller than the one at the limit that
-    // it gives.
-    return inside * search(factor * paper::area_factor(profile, folds.total, length, radius, angle));
+    // m grows with the angle, so that its value at a larger angle is safe at a smaller one.
+    const auto with_area_factor = [&](double alpha) {
+        return inside * search(factor * paper::area_factor(profile, folds.total, length, radius, alpha));
+    };
+    const double corrected = with_area_factor(angle);
+    return corrected <= angle ? corrected : with_area_factor(corrected);
 }
 
 double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude,

@@ -4,6 +4,7 @@
 #include "text.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/ending.hpp>
 #include <goffer/io/read_file.hpp>
 #include <goffer/mesh/mesh.hpp>
 
@@ -23,7 +24,7 @@ constexpr double bytes_read = 0.1, mesh_read = 0.95;
 constexpr const char* known_endings = ".obj, .ply, .stl, .glb or .gltf";
 
 Format format_of_ending(const fs::path& file) {
-    const std::string ending = lower(file.extension().string());
+    const std::string ending = io::ending_of(file);
     if (ending == ".obj") return Format::obj;
     if (ending == ".ply") return Format::ply;
     if (ending == ".stl") return Format::stl;

@@ -6,6 +6,7 @@
 #include <goffer/clip/gltf.hpp>
 #include <goffer/clip/point_cache.hpp>
 #include <goffer/clip/vertex_texture.hpp>
+#include <goffer/io/ending.hpp>
 
 #include <system_error>
 
@@ -36,7 +37,7 @@ private:
 
 /// Whether a program that imports the model's own file gets the vertices that the cache has, in their order.
 bool fits_its_file(const BoundModel& model) {
-    const std::string ending = model.file.extension().string();
+    const std::string ending = io::ending_of(model.file);
     return !model.growth && (ending == ".obj" || ending == ".ply");
 }
 

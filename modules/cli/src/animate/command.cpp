@@ -113,7 +113,8 @@ constexpr const char* keys_help =
     "\"angle\"\n"
     "is shared by regions. Instead of angles each key may have a \"path\" that the body lies on. Or they "
     "are\n"
-    "a table with a first line: time,angle,direction or time,angle1,direction1,angle2,direction2,..\n\n";
+    "a table with a first line: time,angle,direction or time,angle1,direction1,angle2,direction2,..\n"
+    "\"angles_count_from\": \"rest\" beside \"keys\" adds the angles to the shape of the file.\n\n";
 
 constexpr const char* output_help =
     "\n\n-o decides what is written: NAME.glb or .gltf, in which few shapes are blended to all frames; a "
@@ -123,7 +124,7 @@ constexpr const char* output_help =
     "the frame's number from 1. Files with these numbers are replaced, one by one; the command stops if\n"
     "there are files of the same pattern with other numbers. Ended early, it leaves only whole frames.\n"
     "Frames are not kept: as many are in memory at a time as --max-memory has room for beside the model,\n"
-    "and at most one a thread.";
+    "and at most one a thread; animated glTF compares frames, and keeps what half of it holds.";
 
 }  // namespace
 
@@ -148,13 +149,14 @@ void add_animate(CLI::App& app, Action& action) {
     command
         ->add_option("--max-error", options->max_error,
                      "Blend as many shapes in animated glTF as it takes for no vertex to be off by more than "
-                     "this, per cent of the model's size [0.4, as far as 12 shapes can]")
+                     "this, per cent of the model's size [" +
+                         number(100 * usual_max_error) + ", as far as " + std::to_string(usual_targets) +
+                         " shapes can]")
         ->check(number_within(0, 100, "a share in per cent"));
     command
-        ->add_option(
-            "--targets", options->targets,
-            "Blend at most so many shapes in animated glTF; the report says how far off that is [12, or "
-            "with --max-error any number]")
+        ->add_option("--targets", options->targets,
+                     "Blend at most so many shapes in animated glTF; the report says how far off that is [" +
+                         std::to_string(usual_targets) + ", or with --max-error any number]")
         ->check(CLI::Range(std::size_t{1}, std::size_t{65535}));
     add_isa_word(*command, options->isa);
     add_threads_word(*command, options->threads);

@@ -68,6 +68,8 @@ void Pattern::refuse_longer(std::size_t frames) const {
                                                            file(0).filename().string() + " to " +
                                                            file(frames - 1).filename().string() +
                                                            "; remove it, or give -o another name"));
+        if (number && entry->is_directory(error))
+            throw InputError(io::about(folder_ / name, "is a folder; remove it, or give -o another name"));
     }
 }
 

@@ -17,8 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t usual_targets = 12;  // whose folds still look right, in files of a handy size
-
 /// Degrees as JSON has them: "max" for an infinity.
 json angle_as_json(double angle) {
     if (std::isinf(angle)) return angle > 0 ? "max" : "-max";
@@ -81,9 +79,8 @@ clip::GltfOptions gltf_options(const AnimateOptions& options) {
     } else if (options.targets) {
         gltf.max_error = 0;  // as close as so many can
     } else {
-        constexpr double usual_error = 5e-4;  // folds of a body that should be straight are not seen
         gltf.targets = usual_targets;
-        gltf.max_error = usual_error;
+        gltf.max_error = usual_max_error;
     }
     return gltf;
 }
@@ -123,9 +120,10 @@ void add_motion_words(CLI::App& command, AnimateOptions& options) {
     command.add_flag("--from-rest", options.from_rest, "Swing from the rest pose instead of from straight")
         ->needs(swing);
     command
-        .add_option("--frames", options.frames,
-                    "Make this many frames (default: as many as the keys last; 48 of a swing, 96 of a walk, "
-                    "which last as long as their frames)")
+        .add_option(
+            "--frames", options.frames,
+            "Make this many frames, of animated glTF that ends as it begins one more (default: as many "
+            "as the keys last; 48 of a swing, 96 of a walk, which last as long as their frames)")
         ->check(CLI::Range(std::uint64_t{1}, most_frames));
     command.add_option("--fps", options.fps, "Play so many frames a second [24]")
         ->check(number_within(0.01, 1000, "a number"));

@@ -16,6 +16,11 @@
 
 namespace goffer::cli {
 
+/// Shapes of animated glTF where nobody says: as many as it takes for vertices to be off by no more than
+/// this, a share of the model's size, but not more than these.
+constexpr double usual_max_error = 5e-4;   // folds of a body that should be straight are not seen
+constexpr std::size_t usual_targets = 12;  // whose folds still look right, in files of a handy size
+
 struct AnimateOptions {
     std::filesystem::path model;
     std::filesystem::path output;

@@ -4,21 +4,11 @@
 #include "arguments.hpp"
 #include "memory.hpp"
 
+#include <goffer/io/ending.hpp>
+
 #include <algorithm>
-#include <cctype>
 
 namespace goffer::cli {
-namespace {
-
-std::string ending_of_file(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
-}  // namespace
-
 const std::vector<Writer>& writers() {
     static const std::vector<Writer> all = {
         {{".obj", ".ply", ".stl", ".glb", ".gltf"}, true, "a model for each frame", write_models},
@@ -32,7 +22,7 @@ const std::vector<Writer>& writers() {
 }
 
 const Writer& writer_for(const std::filesystem::path& output, bool pattern) {
-    const std::string ending = ending_of_file(output);
+    const std::string ending = io::ending_of(output);
     const auto knows = [&](const Writer& writer) { return std::ranges::count(writer.endings, ending) != 0; };
     const auto fits = [&](const Writer& writer) { return knows(writer) && writer.sequence == pattern; };
     const auto found = std::ranges::find_if(writers(), fits);

@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 
+#include <goffer/io/ending.hpp>
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
 
@@ -40,7 +41,7 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
 
 NumberFile::NumberFile(const std::filesystem::path& file, std::uint64_t most) : file_(file) {
     const std::uint64_t size = io::size_of_file(file);
-    if (file.extension() == ".csv") {
+    if (io::ending_of(file) == ".csv") {
         if (size > most / 4)  // the text, and at most two bytes for every byte of it
             throw InputError(io::about(file, "takes more memory than the " + io::size_text(most) +
                                                  " that are allowed; give its numbers as floats, not as "

@@ -134,20 +134,21 @@ void add_shape_words(CLI::App& command, CacheOptions& options) {
 void add_cache(CLI::App& app, Action& action) {
     const auto options = std::make_shared<CacheOptions>();
     CLI::App* command = app.add_subcommand(
-        "cache",
-        "Bake a crowd over time to files, in shards that several machines can share. What is there and right "
-        "is kept; what is not said is as the folder has it");
+        "cache", "Bake a crowd over time to files, in shards that several machines can share");
     command->footer(
         "A scene is {\"version\": 1, \"fps\": 24, \"frames\": 48,\n"
         "\"bodies\": {\"worm\": {\"file\": \"worm.glb\"}},\n"
         "\"motions\": {\"sway\": {\"swing\": 60, \"seconds\": 2}},\n"
         "\"instances\": [{\"body\": \"worm\", \"motion\": \"sway\", \"grid\": [10, 10], \"spacing\": [3, "
         "3]}]}.\n"
-        "samples/farm/README.md has all of its fields, and the format of the files.");
+        "samples/farm/README.md has all of its fields, and the format of the files.\n\n"
+        "Shards that are there and whole are kept. Options that are left out are those that the folder was\n"
+        "made with.");
     command->add_option("input", options->input, "Scene: JSON; with --verify or --extract the cache's folder")
         ->required();
-    command->add_option("-o,--output", options->output,
-                        "Write the cache into this folder; with --extract a model: .glb, .obj, .ply or .stl");
+    command->add_option(
+        "-o,--output", options->output,
+        "Write the cache into this folder; with --extract a model: .glb, .gltf, .obj, .ply or .stl");
     add_shape_words(*command, *options);
     command->add_option("--shard", options->shard,
                         "Bake the I-th of N shares of the shards alone, as 1/8, and no manifest");
@@ -155,10 +156,7 @@ void add_cache(CLI::App& app, Action& action) {
     command->add_flag("--verify", options->verify,
                       "Read the whole cache; one line for each fault, and exit code 1 if there is any");
     command->add_option("--extract", options->extract, "Write instance I in frame F as a model: F,I");
-    command
-        ->add_option("--threads", options->threads,
-                     "Use this many threads, at most the machine's (default: all of them)")
-        ->check(CLI::Range(1, 1024));
+    add_threads_word(*command, options->threads);
     add_load_words(*command, options->load);
     add_json_word(*command, options->json);
     command->callback(

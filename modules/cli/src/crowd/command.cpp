@@ -264,10 +264,7 @@ void add_crowd(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"automatic", "cached", "streaming"}))
         ->capture_default_str();
     add_isa_word(*command, options->isa);
-    command
-        ->add_option("--threads", options->threads,
-                     "Use this many threads, at most the machine's (default: all of them)")
-        ->check(CLI::Range(1, 1024));
+    add_threads_word(*command, options->threads);
     add_picture_words(*command, options->picture, " of the last frame");
     add_json_word(*command, options->json);
     command->callback([options, &action] { action = [options] { run_crowd(*options); }; });

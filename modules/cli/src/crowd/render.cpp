@@ -108,8 +108,7 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     const std::vector<std::size_t> chosen = choose(crowd, models);
     const std::vector<PictureTextures> pictured(textures.begin(), textures.end());
     std::vector<std::vector<glm::vec4>> colors;
-    for (const BoundModel& model : models)
-        colors.push_back(vertex_colors(model.file, model.mesh, model.rest));
+    for (const BoundModel& model : models) colors.push_back(vertex_colors(model.mesh, model.rest));
     std::vector<Vertices> vertices;
     std::vector<view::Model> parts;
     vertices.reserve(chosen.size());

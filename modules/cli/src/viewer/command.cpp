@@ -112,7 +112,14 @@ void add_view(CLI::App& app, Action& action) {
     command->footer(
         "A body that is bent in its file is shown as it is there, unless an angle is given.\n"
         "Drag: turn; with the right button: shift; wheel: zoom. Drag an orange end to bend. Files that are\n"
-        "dropped on the window are opened. What the panel saves goes into the current folder.");
+        "dropped on the window are opened. What the panel saves goes into the current folder.\n"
+        "Keys: 1 to 9 choose a region; up, down: its angle, left, right: its direction (with Shift by "
+        "less);\n"
+        "Space: in motion; C: a crowd; D: deformed by processor or shader; L: look at all again. W, N, A, "
+        "B,\n"
+        "F, R: show wires, normals, change of area, base, frames, rest shape; F1: the panel. Ctrl+S, P, B: "
+        "save\n"
+        "model, picture, body file; Ctrl+C: copy the command; Ctrl+Q, Esc: close.");
     command->callback([options, &action] { action = [options] { run_view(*options); }; });
 }
 

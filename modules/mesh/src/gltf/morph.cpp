@@ -5,6 +5,7 @@
 #include "text.hpp"
 
 #include <goffer/io/atomic_file.hpp>
+#include <goffer/io/ending.hpp>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -223,7 +224,7 @@ void check(const Morphing& morphing, std::size_t entries) {
 
 MorphingFile save_morphing(const Mesh& mesh, const Morphing& morphing, const std::filesystem::path& file,
                            io::AtomicFiles& files) {
-    const std::string ending = lower(file.extension().string());
+    const std::string ending = io::ending_of(file);
     if (ending != ".glb" && ending != ".gltf")
         fail(file,
              "the ending is not that of a format with morph targets; give a name that ends in .glb or "

@@ -338,6 +338,7 @@ void SceneReader::read_colors(const Block& block, const Value& attributes) {
     const std::size_t width = accessor["type"].text() == "VEC4" ? 4 : 3;
     const std::vector<float> values = stream(attributes, "COLOR_0", width, block.count);
     budget_.take((mesh_.positions.size() - mesh_.colors.size()) * 2 * sizeof(glm::vec4));
+    mesh_.linear_colors = true;
     mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
     for (std::size_t i = 0; i < values.size(); ++i) {
         mesh_.colors[block.first[position] + i / width][static_cast<int>(i % width)] = values[i];

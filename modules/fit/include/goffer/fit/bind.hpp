@@ -69,7 +69,8 @@ struct Binding {
 /// the order that it has in the geometry (Binding::order).
 /// Normals and tangents are taken from the geometry, at unit length. Normals that it does not have, or that
 /// have no length, are made (make_normals); a tangent without length becomes a direction orthogonal to the
-/// normal. A vertex that no triangle uses and that lies beyond an end is bound at that end.
+/// normal. A vertex that no triangle uses is bound at the nearer end where it lies beyond one, and 1000
+/// radii from the axis where it is farther away: at rest it is not where it was.
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
@@ -120,10 +121,11 @@ struct Binding {
                                                     double max_scale = 1);
 
 /// Returns the largest usable |angle| of a region (radians): 0.999 times the one at which L / alpha - r =
-/// rho_max + A(alpha), where the outermost vertex, lifted by the wrinkle, reaches the center of the arc and
-/// the body begins to fold through itself; with Profile::even at most the one at which the most squeezed
-/// column keeps a tenth of its length. `rho_max` is the largest distance of a vertex from the axis (counted
-/// as the radius if less); `factor` >= 0 multiplies the amplitude, beside the factor of Amplitude::area.
+/// rho_max + crest A(alpha), where the outermost vertex, lifted by the wrinkle, reaches the center of the arc
+/// and the body begins to fold through itself (crest: the largest value of the wave, 1 but for
+/// Profile::even); with Profile::even at most the one at which the most squeezed column keeps a tenth of its
+/// length. `rho_max` is the largest distance of a vertex from the axis (counted as the radius if less);
+/// `factor` >= 0 multiplies the amplitude, beside the factor of Amplitude::area.
 ///
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
 /// Profile::even 0..2 max_folds), roundness is outside 0..0.5, or rho_max

@@ -27,7 +27,8 @@ struct Cylinder {
     double residual = 0;        ///< area-weighted rms of (rho - r) / r over the lateral surface: how far the
                                 ///< mesh is from the cylinder. For information
     /// Radii of a body that is thicker here than there, model units: control values of paper::Spline at equal
-    /// steps from base to tip, whose mean is `radius`. Empty: a cylinder.
+    /// steps from base to tip, whose mean is `radius`, and all of them below length / (2 rest_angle). Empty:
+    /// a cylinder.
     std::vector<double> radii = {};
 };
 

@@ -69,6 +69,7 @@ struct Mesh {
     Attribute<glm::vec4> tangents;          ///< w: sign of the bitangent
     std::vector<Attribute<glm::vec2>> uvs;  ///< sets 0, 1, ...; v points up, as in OBJ (glTF's is flipped)
     std::vector<glm::vec4> colors;          ///< empty, or RGBA per vertex; white is 1
+    bool linear_colors = false;             ///< as glTF's are; those of other files are sRGB's
     std::vector<std::uint32_t> corners;     ///< the faces' vertex indices, face after face
     std::vector<std::uint32_t> faces;       ///< how many corners each face has, 3 or more
     std::vector<Part> parts;                ///< empty, or covering all faces, in order
