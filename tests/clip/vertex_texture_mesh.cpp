@@ -45,6 +45,7 @@ TEST_CASE("vertex texture: the mesh beside it has the parts of polygons, and col
     model.parts = {{"square", 1, 0, 1}, {"triangle", 0, 1, 1}};
     model.colors.assign(5, glm::vec4(1));
     model.colors[4] = {0, 0.5f, 0, 1};
+    model.linear_colors = true;
     MovingPoints points(5, 2, false);
     saved_texture(points, model, mesh::vertex_arrays(model), folder / "a.json");
     const mesh::Mesh still = mesh::load(folder / "a.mesh.glb");

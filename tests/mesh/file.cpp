@@ -98,6 +98,14 @@ TEST_CASE("file: every format goes into every other") {
             CHECK(second.normals.empty() == is_soup);
             CHECK(second.uvs.empty() == is_soup);
             CHECK(second.colors.empty() == is_soup);
+            // The light of the sRGB values 0.2, 0.4 and 0.6.
+            const bool linear = to == "a.glb" || to == "a.gltf";
+            const glm::vec3 color =
+                linear ? glm::vec3(0.033105f, 0.132868f, 0.318547f) : glm::vec3(0.2f, 0.4f, 0.6f);
+            if (!is_soup) {
+                CHECK(second.linear_colors == linear);
+                CHECK(glm::distance(glm::vec3(second.colors[0]), color) < 1e-4f);
+            }
             REQUIRE(second.materials.size() == (has_materials ? 2 : 0));
             if (!has_materials) continue;
             if (!mtl_is_gone) CHECK(second.materials == mesh.materials);

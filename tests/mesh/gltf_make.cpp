@@ -38,6 +38,7 @@ TEST_CASE("gltf made: corners that differ in any stream are vertices, in the ord
 TEST_CASE("gltf made: parts, names, materials and colors are carried") {
     Mesh mesh = folded();
     mesh.colors.assign(7, {0.25f, 2, std::nanf(""), 1});
+    mesh.linear_colors = true;
     const Mesh again = reloaded(mesh, "o.gltf");
     REQUIRE(again.parts.size() == 2);
     CHECK(again.parts[0].name == "floor");

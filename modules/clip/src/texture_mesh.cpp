@@ -36,6 +36,7 @@ mesh::Mesh texture_mesh(const mesh::Mesh& model, const mesh::VertexArrays& array
     if (!model.colors.empty()) {
         result.colors.reserve(count);
         for (const std::uint32_t vertex : arrays.vertex) result.colors.push_back(model.colors[vertex]);
+        result.linear_colors = model.linear_colors;
     }
     result.corners = arrays.triangles;
     result.faces.assign(arrays.triangles.size() / 3, 3);

@@ -250,8 +250,8 @@ void check(const Mesh& mesh, const std::filesystem::path& file) {
 bool only_bent(const Mesh& mesh, const Mesh& read) {
     return mesh.positions.size() == read.positions.size() && same_shape(mesh.normals, read.normals) &&
            same_shape(mesh.tangents, read.tangents) && mesh.uvs == read.uvs && mesh.colors == read.colors &&
-           mesh.corners == read.corners && mesh.faces == read.faces && mesh.parts == read.parts &&
-           mesh.materials == read.materials;
+           mesh.linear_colors == read.linear_colors && mesh.corners == read.corners &&
+           mesh.faces == read.faces && mesh.parts == read.parts && mesh.materials == read.materials;
 }
 
 }  // namespace goffer::mesh

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "color.hpp"
 #include "face_cutter.hpp"
 #include "format.hpp"
 #include "gltf.hpp"
@@ -208,8 +209,8 @@ Json Maker::attributes() {
         std::vector<glm::vec4> colors;
         for (const Key& key : split_.keys) {
             const glm::vec4& c = mesh_.colors[key[0]];
-            colors.push_back(
-                glm::clamp(glm::vec4(finite(c.r), finite(c.g), finite(c.b), finite(c.a)), 0.0f, 1.0f));
+            const glm::vec4 cleaned(finite(c.r), finite(c.g), finite(c.b), finite(c.a));
+            colors.push_back(glm::clamp(color_as(true, mesh_, cleaned), 0.0f, 1.0f));
         }
         result["COLOR_0"] = add_stream(colors);
     }

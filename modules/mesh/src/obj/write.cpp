@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "color.hpp"
 #include "format.hpp"
 #include "obj.hpp"
 
@@ -143,7 +144,10 @@ std::string write_anew(const Mesh& mesh, const std::filesystem::path& file) {
     std::string out = mesh.materials.empty() ? "" : "mtllib " + mtl_beside(file).filename().string() + '\n';
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         append_vector(out, "v", mesh.positions[i]);
-        if (!mesh.colors.empty()) append_all(out, mesh.colors[i].r, mesh.colors[i].g, mesh.colors[i].b);
+        if (!mesh.colors.empty()) {
+            const glm::vec4 color = color_as(false, mesh, mesh.colors[i]);
+            append_all(out, color.r, color.g, color.b);
+        }
         out += '\n';
     }
     if (!mesh.uvs.empty())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "color.hpp"
 #include "format.hpp"
 #include "ply.hpp"
 
@@ -93,11 +94,14 @@ public:
     explicit PlyWriter(const Mesh& mesh)
         : mesh_(mesh),
           normals_(vertex_normals(mesh)),
-          byte_colors_(are_bytes(mesh.colors)),
+          colors_(mesh.colors),
           vertex_uvs_(!mesh.uvs.empty() && mesh.uvs[0].per_vertex()),
           face_uvs_(!mesh.uvs.empty() && !mesh.uvs[0].per_vertex()),
           // A texcoord list has two numbers for each corner, and a byte counts to 255.
-          byte_counts_(*std::ranges::max_element(mesh.faces) <= 127) {}
+          byte_counts_(*std::ranges::max_element(mesh.faces) <= 127) {
+        for (glm::vec4& color : colors_) color = color_as(false, mesh, color);
+        byte_colors_ = are_bytes(colors_);
+    }
 
     std::string write() {
         add_header();
@@ -118,7 +122,7 @@ private:
         add_properties("float", {"x", "y", "z"});
         if (!normals_.empty()) add_properties("float", {"nx", "ny", "nz"});
         if (vertex_uvs_) add_properties("float", {"s", "t"});
-        if (!mesh_.colors.empty())
+        if (!colors_.empty())
             add_properties(byte_colors_ ? "uchar" : "float", {"red", "green", "blue", "alpha"});
         out_ += "element face " + std::to_string(mesh_.faces.size()) + '\n';
         out_ += "property list " + count_type + " int vertex_indices\n";
@@ -135,9 +139,9 @@ private:
         append_bytes(out_, order, p.x, p.y, p.z);
         if (!normals_.empty()) append_bytes(out_, order, normals_[v].x, normals_[v].y, normals_[v].z);
         if (vertex_uvs_) append_bytes(out_, order, mesh_.uvs[0].values[v].x, mesh_.uvs[0].values[v].y);
-        if (mesh_.colors.empty()) return;
+        if (colors_.empty()) return;
         for (int i = 0; i < 4; ++i) {
-            const float channel = mesh_.colors[v][i];
+            const float channel = colors_[v][i];
             if (byte_colors_)
                 append_bytes(out_, order, static_cast<std::uint8_t>(std::lround(channel * 255.0)));
             else
@@ -167,7 +171,8 @@ private:
 
     const Mesh& mesh_;
     std::vector<glm::vec3> normals_;
-    bool byte_colors_, vertex_uvs_, face_uvs_, byte_counts_;
+    std::vector<glm::vec4> colors_;
+    bool byte_colors_ = false, vertex_uvs_, face_uvs_, byte_counts_;
     std::string out_;
 };
 

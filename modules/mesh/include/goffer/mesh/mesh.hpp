@@ -69,7 +69,7 @@ struct Mesh {
     Attribute<glm::vec4> tangents;          ///< w: sign of the bitangent
     std::vector<Attribute<glm::vec2>> uvs;  ///< sets 0, 1, ...; v points up, as in OBJ (glTF's is flipped)
     std::vector<glm::vec4> colors;          ///< empty, or RGBA per vertex; white is 1
-    bool linear_colors = false;             ///< as glTF's are; those of other files are sRGB's
+    bool linear_colors = false;             ///< as glTF's are, else encoded as sRGB, as those of other files
     std::vector<std::uint32_t> corners;     ///< the faces' vertex indices, face after face
     std::vector<std::uint32_t> faces;       ///< how many corners each face has, 3 or more
     std::vector<Part> parts;                ///< empty, or covering all faces, in order
@@ -119,10 +119,10 @@ struct LoadOptions {
 ///
 /// A mesh that differs from the file that it came from in positions, normals and tangents only is given back
 /// as that file with these replaced, if the format is the same (.glb and .gltf are one). Any other mesh is
-/// written anew, with what the format can carry; an OBJ then gets its materials in a file of the same name
-/// with the ending .mtl, or, where that is there and was not written by save(), with a number behind the
-/// name. Files are written beside their place and renamed: on failure an existing file stays
-/// as it was.
+/// written anew, with what the format can carry, and colors as it has them, linear or sRGB; an OBJ then gets
+/// its materials in a file of the same name with the ending .mtl, or, where that is there and was not written
+/// by save(), with a number behind the name. Files are written beside their place and renamed: on failure an
+/// existing file stays as it was.
 ///
 /// Throws Error if the ending is unknown, the mesh does not fit together (see load), or a value cannot be
 /// written into its glTF node; and io::Error if a file cannot be written.
