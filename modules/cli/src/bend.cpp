@@ -137,6 +137,14 @@ void report_smooth(Report& report, const Request& request, const BoundModel& mod
                 where + ": area " + percent(change) + " there, " + percent(cost) + " elsewhere");
 }
 
+/// What was squeezed at rest is stretched where the body gets straighter, and wrinkles take no area away.
+void warn_of_stretch(Report& report, double change) {
+    constexpr double most = 0.01;
+    if (change > most)
+        report.warn("the area changes by " + percent(change) +
+                    ": straightening stretches the inner side, which wrinkles cannot make up for");
+}
+
 /// Where nobody said how to wrinkle, area is kept; if it is not, this says so.
 void warn_of_area(Report& report, const Request& request, const BoundModel& model, double change) {
     constexpr double most = 0.01;
@@ -181,8 +189,12 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
                             std::string(name(resolve(request.isa))) +
                             ", threads: " + std::to_string(request.threads) + ")");
     const bool few_folds = !model.baked && warn_of_folds(report, request.bind, model, used);
-    if (!few_folds && !straightened)  // either is why
-        warn_of_area(report, request, model, area_after / area_before - 1);
+    const double change = area_after / area_before - 1;
+    if (straightened) {
+        warn_of_stretch(report, change);
+    } else if (!few_folds) {  // which would be why
+        warn_of_area(report, request, model, change);
+    }
 }
 
 void run_bend(const BendOptions& options) {
