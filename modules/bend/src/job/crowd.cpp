@@ -18,6 +18,12 @@ namespace {
 constexpr std::size_t max_pieces = 256;
 constexpr std::size_t min_vertices = 8192;  // per piece: handing it out must cost less than the work on it
 
+/// What an instance costs in a frame beside its pose and its transform: an element of each other column.
+constexpr std::size_t bytes_per_instance = sizeof(Batch::indices[0]) + sizeof(Batch::vertex_offsets[0]) +
+                                           sizeof(Batch::wrinkle_weights[0]) + sizeof(Batch::visible[0]) +
+                                           sizeof(Batch::changed[0]) + sizeof(Batch::update_intervals[0]);
+static_assert(bytes_per_instance <= 32);
+
 /// A place in the crowd: a vertex of an instance of a batch.
 struct Place {
     std::size_t batch = 0;
