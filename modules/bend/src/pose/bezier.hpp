@@ -34,7 +34,7 @@ struct Vec3x4 {
 /// length. The parameter runs from 0 to 1 along the region.
 struct BezierStretch {
     Vec3x4 from, linear, square, cubic;
-    Vec3x4 end, onward;          // where the line begins, and its direction; set only if `ends`
+    Vec3x4 end, onward;          // where the line begins, and its direction; 0 unless it `ends`
     float begin_pace, end_pace;  // d parameter / d length
     Float4 least, most;          // the range of parameters on the curve that is searched
     bool ends;                   // the line is near
@@ -196,10 +196,9 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& sa
     stretch.least = splat(static_cast<float>(std::max(-t * per_span, -1.0)));
     stretch.most = splat(static_cast<float>(std::min(left, 2.0)));
     stretch.ends = left < 2;
-    if (stretch.ends) {
-        stretch.end.set(glm::vec3(unit * (point(1) - samples.begin)));
-        stretch.onward.set(glm::vec3(unit * span * onward_));
-    }
+    // Compilers may square the line's direction before they ask whether the line is near.
+    stretch.end.set(stretch.ends ? glm::vec3(unit * (point(1) - samples.begin)) : glm::vec3(0));
+    stretch.onward.set(stretch.ends ? glm::vec3(unit * span * onward_) : glm::vec3(0));
     return stretch;
 }
 
