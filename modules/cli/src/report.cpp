@@ -57,6 +57,10 @@ std::string percent(double fraction) {
     return formatted("%+.4f %%", 100 * fraction);
 }
 
+std::string hex(std::uint64_t number) {
+    return formatted("%016llx", static_cast<unsigned long long>(number));
+}
+
 std::string counted(std::size_t count, const std::string& thing) {
     return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }

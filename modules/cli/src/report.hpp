@@ -52,6 +52,9 @@ private:
 /// A fraction in per cent with a sign, to four decimals.
 [[nodiscard]] std::string percent(double fraction);
 
+/// 16 hexadecimal digits.
+[[nodiscard]] std::string hex(std::uint64_t number);
+
 /// "1 fold", "2 folds".
 [[nodiscard]] std::string counted(std::size_t count, const std::string& thing);
 

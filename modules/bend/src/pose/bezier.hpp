@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 
 namespace goffer::bend {
@@ -162,7 +164,7 @@ inline void Bezier::measure() noexcept {
     }
     // Where control points coincide the speed is 0: at() limits paces to far less than this.
     const double least = std::max(1e-12 * before_[pieces], min_square);
-    for (int i = 0; i <= pieces; ++i) pace_[i] = 1 / std::max(speed[2 * i], least);
+    for (std::size_t i = 0; i < std::size(pace_); ++i) pace_[i] = 1 / std::max(speed[2 * i], least);
 }
 
 /// Within a piece, the parameter is a cubic polynomial of the length, given by values and paces at both ends.

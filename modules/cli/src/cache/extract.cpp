@@ -4,16 +4,12 @@
 #include "cache/cache.hpp"
 #include "cache/members.hpp"
 #include "deformed.hpp"
+#include "packed_vertices.hpp"
 #include "report.hpp"
 
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/error.hpp>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-
-#include <cmath>
 #include <cstring>
 
 namespace goffer::cli {
@@ -73,25 +69,10 @@ BoundModel read_body(const ExtractRequest& request, const PlanBody& body) {
     return bind_model(std::move(model), BindRequest(words, regions));
 }
 
-/// As packed.glsl decodes them.
-glm::vec3 decoded_normal(const std::int16_t (&octant)[2]) {
-    constexpr float steps = 32767;
-    glm::vec2 side = glm::max(glm::vec2(octant[0], octant[1]) / steps, glm::vec2(-1));
-    const float up = 1 - std::fabs(side.x) - std::fabs(side.y), fold = std::max(-up, 0.0f);
-    side.x += side.x >= 0 ? -fold : fold;
-    side.y += side.y >= 0 ? -fold : fold;
-    return glm::normalize(glm::vec3(side, up));
-}
-
 void unpack(const Block& block, mesh::VertexArrays& records) {
-    constexpr float steps = 65535;
     const auto low = block.at<glm::vec3>(0), high = block.at<glm::vec3>(sizeof(glm::vec3));
-    for (std::size_t i = 0; i < records.positions.size(); ++i) {
-        const auto vertex = block.at<bend::PackedVertex>(bounds_bytes + i * vertex_bytes);
-        const glm::vec3 share = glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / steps;
-        records.positions[i] = low + share * (high - low);
-        records.normals[i] = decoded_normal(vertex.normal);
-    }
+    unpack_vertices(block.bytes.data() + bounds_bytes, vertex_bytes, low, high, records.positions,
+                    records.normals);
 }
 
 void deform(const Block& block, const BoundModel& model, Isa isa, mesh::VertexArrays& records) {

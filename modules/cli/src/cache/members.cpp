@@ -125,10 +125,4 @@ std::optional<std::vector<double>> list_of(const nlohmann::json& list, std::size
     return numbers;
 }
 
-std::string hex(std::uint64_t number) {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
-    return text;
-}
-
 }  // namespace goffer::cli

@@ -66,7 +66,4 @@ private:
 /// The finite numbers of a list, of which there are `count`; nothing where it is no such list.
 [[nodiscard]] std::optional<std::vector<double>> list_of(const nlohmann::json& list, std::size_t count);
 
-/// 16 hexadecimal digits.
-[[nodiscard]] std::string hex(std::uint64_t number);
-
 }  // namespace goffer::cli

@@ -3,6 +3,7 @@
 #include "cache/members.hpp"
 #include "cache/plan.hpp"
 #include "motion/motion.hpp"
+#include "report.hpp"
 
 #include <goffer/bend/region.hpp>
 #include <goffer/io/error.hpp>

@@ -2,6 +2,7 @@
 #include "cache/shard.hpp"
 
 #include "cache/members.hpp"
+#include "report.hpp"
 
 #include <goffer/io/error.hpp>
 

@@ -148,8 +148,7 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
     const double per_vertex = timing.frame_median * 1e6 / static_cast<double>(crowd.scene().vertices());
     const bool normals = request.plan.layout.normals || request.plan.layout.packed;
     const std::string isa(name(resolve(request.plan.isa)));
-    char hash[17];
-    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(crowd.scene().hash()));
+    const std::string hash = hex(crowd.scene().hash());
 
     nlohmann::ordered_json& json = report.json;
     json["instances"] = options.instances;

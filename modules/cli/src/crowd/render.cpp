@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/render.hpp"
 
+#include "packed_vertices.hpp"
 #include "picture.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/view/picture.hpp>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/packing.hpp>
-#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +16,6 @@
 
 namespace goffer::cli {
 namespace {
-
-/// What a GPU does with packed vertices; the same text.
-namespace shader {
-using namespace glm;
-#include <goffer/bend/packed.glsl>
-}  // namespace shader
 
 constexpr std::size_t max_instances = 400;
 constexpr std::size_t max_triangles = 4'000'000;
@@ -56,14 +48,9 @@ std::vector<glm::vec3> read(const Stream3& stream) {
 
 Vertices read_packed(const bend::DeformJob& job) {
     const auto [low, high] = bend::bounds(job);
-    Vertices vertices;
-    for (std::size_t i = 0; i < job.packed.count; ++i) {
-        glm::uvec3 words;
-        std::memcpy(&words, reinterpret_cast<const std::byte*>(job.packed.first) + i * job.packed.stride,
-                    sizeof words);
-        vertices.positions.push_back(shader::goffer_position(words, low, high));
-        vertices.normals.push_back(shader::goffer_normal(words));
-    }
+    Vertices vertices{std::vector<glm::vec3>(job.packed.count), std::vector<glm::vec3>(job.packed.count)};
+    unpack_vertices(reinterpret_cast<const std::byte*>(job.packed.first), job.packed.stride, low, high,
+                    vertices.positions, vertices.normals);
     return vertices;
 }
 
