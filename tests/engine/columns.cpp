@@ -60,15 +60,15 @@ TEST_CASE("columns move with their memory") {
 TEST_CASE("columns of more bytes than there are numbers for are refused, as any without memory for them" *
           doctest::skip(sanitized)) {
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    for (const auto& [columns, count] : {std::pair{std::size_t{1}, most - 10},
-                                         {std::size_t{4}, most / 8},
-                                         {most / 64, std::size_t{100}},
-                                         {most, std::size_t{1}},
-                                         {std::size_t{1}, most / 8},
-                                         {std::size_t{1}, most}}) {
-        CAPTURE(columns);
-        CAPTURE(count);
-        CHECK_THROWS_AS(Columns(columns, count), std::bad_alloc);
+    for (const std::pair<std::size_t, std::size_t>& size : {std::pair{std::size_t{1}, most - 10},
+                                                            {std::size_t{4}, most / 8},
+                                                            {most / 64, std::size_t{100}},
+                                                            {most, std::size_t{1}},
+                                                            {std::size_t{1}, most / 8},
+                                                            {std::size_t{1}, most}}) {
+        CAPTURE(size.first);
+        CAPTURE(size.second);
+        CHECK_THROWS_AS(Columns(size.first, size.second), std::bad_alloc);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <goffer/io/error.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 
