@@ -13,8 +13,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <string>
+#include <string_view>
 
 #ifndef _WIN32
 #include <CLI/CLI.hpp>
@@ -70,6 +72,25 @@ void heed_signals() {
     }
 }
 
+struct Subcommand {
+    std::string_view name;
+    void (*add)(CLI::App& app, Action& action);
+};
+
+// In the order of the help.
+constexpr Subcommand subcommands[] = {
+    {"base", add_base},       {"inspect", add_inspect}, {"refine", add_refine}, {"bend", add_bend},
+    {"animate", add_animate}, {"bake", add_bake},       {"crowd", add_crowd},   {"cache", add_cache},
+    {"figures", add_figures}, {"view", add_view}};
+
+/// Adds the one that the first word names, or all of them: to set up all options takes longer than many a
+/// run.
+void add_subcommands(CLI::App& app, Action& action, std::string_view first_word) {
+    const auto named = std::ranges::find(subcommands, first_word, &Subcommand::name);
+    if (named != std::end(subcommands)) return named->add(app, action);
+    for (const Subcommand& subcommand : subcommands) subcommand.add(app, action);
+}
+
 int run(int argc, char** argv) {
     CLI::App app(
         "Bends soft, roughly cylindrical meshes and keeps their surface area: the squeezed side wrinkles.",
@@ -78,16 +99,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     Action action;
-    add_base(app, action);
-    add_inspect(app, action);
-    add_refine(app, action);
-    add_bend(app, action);
-    add_animate(app, action);
-    add_bake(app, action);
-    add_crowd(app, action);
-    add_cache(app, action);
-    add_figures(app, action);
-    add_view(app, action);
+    add_subcommands(app, action, argc > 1 ? argv[1] : "");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -2,19 +2,26 @@
 #include <goffer/bend/body_table.hpp>
 
 #include <cassert>
+#include <memory>
 #include <utility>
 
 namespace goffer::bend {
 
-BodyTable::BodyTable(BodyTable&& other) noexcept {
-    *this = std::move(other);
-}
+BodyTable::BodyTable(BodyTable&& other) noexcept
+    : places_(std::exchange(other.places_, {})),
+      size_(std::exchange(other.size_, 0)),
+      first_free_(std::exchange(other.first_free_, none)) {}
 
 BodyTable& BodyTable::operator=(BodyTable&& other) noexcept {
-    places_ = std::exchange(other.places_, {});
-    size_ = std::exchange(other.size_, 0);
-    first_free_ = std::exchange(other.first_free_, none);
+    BodyTable taken(std::move(other));
+    std::swap(places_, taken.places_);
+    std::swap(size_, taken.size_);
+    std::swap(first_free_, taken.first_free_);
     return *this;
+}
+
+BodyTable::~BodyTable() {
+    for (const Place* place : places_) delete place;
 }
 
 const BodyTable::Place* BodyTable::place_of(BodyHandle handle) const noexcept {
@@ -32,7 +39,9 @@ BodyHandle BodyTable::add(Body body) {
     std::uint32_t index = first_free_;
     if (index == none) {
         index = static_cast<std::uint32_t>(places_.size());
-        places_.push_back(std::make_unique<Place>());
+        auto made = std::make_unique<Place>();
+        places_.push_back(made.get());
+        static_cast<void>(made.release());
     } else {
         first_free_ = places_[index]->next_free;
     }

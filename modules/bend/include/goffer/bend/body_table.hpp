@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 /// Bodies behind handles, for engines that load, reload and unload them while instances refer to them:
@@ -34,6 +33,7 @@ public:
     BodyTable() = default;
     BodyTable(BodyTable&& other) noexcept;
     BodyTable& operator=(BodyTable&& other) noexcept;
+    ~BodyTable();
 
     /// Takes a body, which must not be empty, and returns its handle. Bodies that are there keep their
     /// addresses. Allocates; may throw std::bad_alloc.
@@ -69,7 +69,7 @@ private:
     [[nodiscard]] const Place* place_of(BodyHandle handle) const noexcept;
     [[nodiscard]] Place* place_of(BodyHandle handle) noexcept;
 
-    std::vector<std::unique_ptr<Place>> places_;  // which stay where they are
+    std::vector<Place*> places_;  // its own, which stay where they are; <memory> takes long to compile
     std::size_t size_ = 0;
     std::uint32_t first_free_ = none;
     static constexpr std::uint32_t none = ~std::uint32_t{0};
