@@ -242,15 +242,9 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
 }
 
 TEST_CASE("the error is no less than it is where the search for the nearest place does not settle") {
-    const bend::RegionInput region{.length = 1, .max_angle = 3, .vertex_count = 1};
     const bend::RestVertex vertex{.rho = 0.05};
     const bend::RestVector normal{.rho = 1};
-    bend::BodyInput input;
-    input.radius = 0.05;
-    input.regions = {&region, 1};
-    input.vertices = {&vertex, 1};
-    input.normals = {&normal, 1};
-    const bend::Body body = bend::Body::make(input).value();
+    const bend::Body body = bare_body({&vertex, 1}, {&normal, 1});
     Random random(96);
     Control control{
         {}, {-0.6350f, 1.0727f, 0.6292f}, {-0.2434f, 0.0844f, 0.0440f}, {0.8980f, -0.8217f, -0.6875f}};

@@ -112,7 +112,7 @@ TEST_CASE("suitability: what folds are missing for") {
     const Solid fine = cylinder({.rows = 256}, random), coarse = cylinder({.rows = 4}, random);
     fit::Cylinder base = upright();
     const auto shortage = [&](const Solid& solid, const fit::BindOptions& options) {
-        return fit::fold_shortage(fit::bind(solid.geometry(), base, options), 0, options);
+        return fit::fold_shortages(fit::bind(solid.geometry(), base, options), options).at(0);
     };
     fit::BindOptions options;
     CHECK(shortage(fine, options) == fit::FoldShortage::none);

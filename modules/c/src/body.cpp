@@ -66,11 +66,11 @@ static_assert(GOFFER_SHORTAGE_LENGTH == static_cast<int>(fit::FoldShortage::leng
 
 std::vector<goffer_folds> folds_of(const fit::Binding& binding, const fit::BindOptions& options) {
     const std::vector<int> suitable = fit::suitable_folds(binding.cylinder, options);
+    const std::vector<fit::FoldShortage> shortages = fit::fold_shortages(binding, options);
     std::vector<goffer_folds> folds;
     for (std::size_t r = 0; r < suitable.size(); ++r) {
-        const fit::FoldShortage shortage = fit::fold_shortage(binding, r, options);
         folds.push_back(
-            {binding.folds(r), binding.folds_capacity(r), suitable[r], static_cast<int>(shortage)});
+            {binding.folds(r), binding.folds_capacity(r), suitable[r], static_cast<int>(shortages[r])});
     }
     return folds;
 }

@@ -324,12 +324,12 @@ bool warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
     const fit::Binding& binding = model.binding;
     const bool asked = request.words.folds.has_value();
     const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
+    const std::vector<fit::FoldShortage> shortages = fit::fold_shortages(binding, request.options);
     bool few = false;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());
-        const fit::FoldShortage shortage = fit::fold_shortage(binding, r, request.options);
-        few = few || shortage != fit::FoldShortage::none;
-        const std::string said = words_of(shortage, binding, r, asked, suitable[r]);
+        few = few || shortages[r] != fit::FoldShortage::none;
+        const std::string said = words_of(shortages[r], binding, r, asked, suitable[r]);
         if (!said.empty()) report.warn(which + said);
         if (fit::wrinkle_depth(binding, r, angles[r]) > model.cylinder.radius) {
             report.warn(which +

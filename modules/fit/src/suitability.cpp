@@ -120,6 +120,19 @@ double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straig
     return std::sqrt((middle + off) / std::max(middle - off, 1e-6 * middle));
 }
 
+FoldShortage shortage_of(const Binding& binding, std::size_t region, const BindOptions& options, bool asked,
+                         int suitable) {
+    using enum FoldShortage;
+    const RegionBinding& found = binding.regions[region];
+    if (binding.amplitude == Amplitude::none) return none;
+    if (asked) return found.folds > found.folds_capacity ? rows : none;
+    if (suitable == 0) return none;
+    if (!options.wrinkle_range.whole()) return found.folds == 0 ? range : none;
+    if (binding.profile.kind != Profile::Kind::even) return found.folds == 0 ? rows : none;
+    if (found.folds == 0 && found.folds_capacity >= suitable) return length;
+    return 2 * found.folds < suitable ? rows : none;
+}
+
 }  // namespace
 
 Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
@@ -142,17 +155,13 @@ Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
     return found;
 }
 
-FoldShortage fold_shortage(const Binding& binding, std::size_t region, const BindOptions& options) {
-    using enum FoldShortage;
-    const RegionBinding& found = binding.regions[region];
-    if (binding.amplitude == Amplitude::none) return none;
-    if (regions_of(options)[region].folds) return found.folds > found.folds_capacity ? rows : none;
-    const int wanted = suitable_folds(binding.cylinder, options)[region];
-    if (wanted == 0) return none;
-    if (!options.wrinkle_range.whole()) return found.folds == 0 ? range : none;
-    if (binding.profile.kind != Profile::Kind::even) return found.folds == 0 ? rows : none;
-    if (found.folds == 0 && found.folds_capacity >= wanted) return length;
-    return 2 * found.folds < wanted ? rows : none;
+std::vector<FoldShortage> fold_shortages(const Binding& binding, const BindOptions& options) {
+    const std::vector<RegionOptions> asked = regions_of(options);
+    const std::vector<int> suitable = suitable_folds(binding.cylinder, options);
+    std::vector<FoldShortage> shortages;
+    for (std::size_t r = 0; r < binding.regions.size(); ++r)
+        shortages.push_back(shortage_of(binding, r, options, asked[r].folds.has_value(), suitable[r]));
+    return shortages;
 }
 
 }  // namespace goffer::fit

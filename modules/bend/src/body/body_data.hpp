@@ -7,6 +7,7 @@
 
 #include <goffer/bend/body.hpp>
 #include <goffer/bend/file_memory.hpp>
+#include <goffer/bend/rest_vertex.hpp>
 #include <goffer/bend/table.hpp>
 #include <goffer/engine/columns.hpp>
 
@@ -48,6 +49,11 @@ struct Bands {
     float max_scale = 1;       ///< largest s
     bool shaped = false;       ///< the body has a shape
 };
+
+/// The height of a vertex in a region of `length`, as its column has it.
+[[nodiscard]] inline float height_of(const RestVertex& v, double length) noexcept {
+    return static_cast<float>(v.z / length - 0.5);
+}
 
 /// How many bands a step of 1 in v is: 0 where all vertices lie at one height.
 [[nodiscard]] inline float bands_per_height(const Bands& bands) noexcept {

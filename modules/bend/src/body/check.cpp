@@ -197,10 +197,6 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     return below && above ? BodyFault{} : BodyFault{BodyField::blend_gain, Reason::out_of_range, r};
 }
 
-float height_of(const RestVertex& v, double length) noexcept {
-    return static_cast<float>(v.z / length - 0.5);
-}
-
 /// Checks that vertices near one joint of region `r` do not lie among those near the other, and are not too
 /// thick for the region beyond. `first`: of the region's vertices.
 BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first) noexcept {

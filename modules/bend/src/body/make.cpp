@@ -53,7 +53,7 @@ void write_vertices(Columns& storage, const Making& making, std::span<const Rest
         storage[sin_half_beta][i] = static_cast<float>(std::numbers::sqrt2 * std::sin(v.beta / 2));
         storage[rho][i] = static_cast<float>(v.rho);
         storage[radial_offset][i] = static_cast<float>(factor * v.wrinkle * v.rho);
-        storage[height][i] = static_cast<float>(v.z / making.region.length - 0.5);
+        storage[height][i] = height_of(v, making.region.length);
         storage[wrinkle][i] = static_cast<float>(factor * v.wrinkle);
         storage[slope][i] = static_cast<float>(factor * v.slope + factor_slope * v.wrinkle * v.rho);
     }

@@ -81,7 +81,7 @@ void run_animate(const AnimateOptions& options) {
     Report report(options.json);
     const BoundModel model = bind_model(std::move(file), bind);
     MovingModel frames(model, *request.motion, request.frames, options.fps, isa);
-    if (request.pattern) request.pattern->refuse_longer(request.frames);
+    if (request.pattern) request.pattern->check_places(request.frames);
     const Survey seen = survey(frames, request.pictures ? &*request.pictures : nullptr);
     report_model(report, options.model, model.mesh, seen.area_before);
     if (!model.baked) report_suitability(report, model);

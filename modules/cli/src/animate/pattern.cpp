@@ -57,7 +57,7 @@ bool Pattern::holds(const std::filesystem::path& file) const {
     return number_of(file.filename().string()) && folder_of(file.parent_path()) == folder_of(folder_);
 }
 
-void Pattern::refuse_longer(std::size_t frames) const {
+void Pattern::check_places(std::size_t frames) const {
     std::error_code error;
     std::filesystem::directory_iterator entry(folder_.empty() ? "." : folder_, error);
     for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {

@@ -22,8 +22,8 @@ public:
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
 
     /// Throws InputError if there are files of the sequence beyond `frames`, which would be taken for its
-    /// end.
-    void refuse_longer(std::size_t frames) const;
+    /// end, or a folder in the place of a frame.
+    void check_places(std::size_t frames) const;
 
 private:
     /// The number of a frame, from 1, that a file of this name would have.

@@ -7,6 +7,7 @@
 #include <goffer/fit/geometry.hpp>
 
 #include <cstddef>
+#include <vector>
 
 /// How a body differs from what the method is made for, which is one roughly round thing along one axis.
 /// Offline: functions may allocate and throw.
@@ -41,9 +42,8 @@ enum class FoldShortage {
     length,  ///< it is so long that the most folds there may be are too long to wrinkle
 };
 
-/// Returns why region `region` of `binding`, which was bound with `options`, has too few folds. None with
-/// Amplitude::none and where 0 were asked for. Undefined where there is no such region. Thread-safe.
-[[nodiscard]] FoldShortage fold_shortage(const Binding& binding, std::size_t region,
-                                         const BindOptions& options);
+/// Returns why each region of `binding`, which was bound with `options`, has too few folds. None with
+/// Amplitude::none and where 0 were asked for. Thread-safe.
+[[nodiscard]] std::vector<FoldShortage> fold_shortages(const Binding& binding, const BindOptions& options);
 
 }  // namespace goffer::fit
