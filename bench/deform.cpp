@@ -155,6 +155,12 @@ void register_deform(Fixture& fixture) {
             }
         }
     }
+    // Within the cache, for pairs.
+    for (const Isa isa : built_isas()) {
+        if (runs_here(isa))
+            register_case(fixture, "deform", "crowd500x200-joints8",
+                          {stream_layout("positions+normals"), {500, 200}, isa, 1, Shape::joints, 1});
+    }
 }
 
 void register_sweep(Fixture& fixture) {

@@ -24,6 +24,7 @@ PAIRED = (
     # depends on which pages a process was given, and one process after the other is given the same ones.
     "sweep/positions/100x200/{widest}/1",
     "sweep/positions+normals/1000x200/{widest}/1",
+    "deform/positions+normals/crowd500x200-joints8/{widest}/1",
 )
 
 

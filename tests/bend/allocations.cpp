@@ -31,7 +31,7 @@ class Frames {
 public:
     Frames() {
         Random random(91);
-        bodies_.reserve(2);
+        bodies_.reserve(3);
         jobs_.reserve(24);
         for (const std::size_t count : {150u, 5000u}) bodies_.push_back(loose_body(random, count));
         for (std::size_t i = 0; i < 24; ++i) {
@@ -55,6 +55,10 @@ public:
         const BatchStyle style{
             .storage = Storage::paged_members, .indices = true, .places = true, .masks = true};
         batches_.push_back(test_batch_.emplace(random, bodies_[0], 30, style).batch());
+        const BatchStyle small{.bounds = false, .picture = "xyz.uvw."};
+        constexpr std::size_t counts[] = {20, 0, 31, 5};
+        bodies_.push_back(loose_chain(random, counts));
+        batches_.insert(batches_.begin(), small_bodies_.emplace(random, bodies_[2], 40, small).batch());
     }
 
     /// On the calling thread.
@@ -102,8 +106,8 @@ private:
     std::vector<bend::Bounds> boxes_{30};
     std::vector<bend::DeformJob> jobs_;
     std::vector<std::uint8_t> visible_;
-    std::optional<TestBatch> test_batch_;
-    std::vector<bend::Batch> batches_;  // of one job each; and of the test_batch
+    std::optional<TestBatch> test_batch_, small_bodies_;
+    std::vector<bend::Batch> batches_;  // of small bodies; of one job each; and of the test_batch
     int faults_ = 0, texts_ = 0;
 };
 

@@ -51,6 +51,7 @@ struct PoseOutputs {
         path.error += bend::poses_along_bezier(*job.body, curve, poses).error;
         const glm::vec3 standing[4] = {{0, 0, 0}, {0, 0, 0}, {10, 0, 20}, {10, 0, 20}};
         path.error += bend::poses_along_bezier(*job.body, standing, poses).error;
+        run_many(job);
     }
 
     /// How many vertices have a number of `streams` that differs by more than `much`, or is a NaN.
@@ -65,6 +66,21 @@ struct PoseOutputs {
                          : 1;
         }
         return found;
+    }
+
+    /// Runs instances of the job in a batch that asks for what many at a time are deformed for.
+    static void run_many(const bend::DeformJob& job) {
+        constexpr std::size_t count = 9;
+        OutputBuffer many("x y z u v w", count * job.body->vertex_count());
+        const std::vector<std::uint32_t> all_the_same(count, 0);
+        bend::Batch batch = bend::batch_of(job);
+        batch.count = count;
+        batch.indices = all_the_same;
+        batch.vertex_step = job.body->vertex_count();
+        batch.bounds = {};
+        many.attach(batch);
+        REQUIRE(bend::validate({.batches = {&batch, 1}, .isa = job.isa}).none());
+        bend::run({.batches = {&batch, 1}, .isa = job.isa});
     }
 
     /// The largest difference between numbers of `streams`, bounds and frames; infinite where one is NaN.

@@ -336,7 +336,7 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
 
 void BatchRunner::write_staged() noexcept {
     const auto [mode, vertex, count, ends] = std::exchange(staged_, {});
-    if (count != 0) stage_.write(plan_, kernels_, mode, vertex, count, ends);
+    if (count != 0) stage_.planes().write(plan_, kernels_, mode, vertex, count, ends);
 }
 
 }  // namespace goffer::bend

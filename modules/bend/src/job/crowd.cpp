@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "job/batch_runner.hpp"
 #include "job/check.hpp"
+#include "job/lane_runner.hpp"
 #include "kernel/kernels.hpp"
 #include "pose/matrix_layout.hpp"
 
@@ -90,9 +91,28 @@ bool is_non_temporal(const CrowdJob& job, std::size_t bytes) noexcept {
            (job.stores == Stores::automatic && bytes >= non_temporal_threshold);
 }
 
-/// Deforms a batch from one of its places to another.
-CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
+/// Deforms the whole instances [first, last), many at a time.
+CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, std::size_t first, std::size_t last,
                       bool non_temporal) noexcept {
+    const Activity active(batch, job.frame);
+    CrowdResult result;
+    for (const bool wrinkled : {true, false}) {
+        if (!wrinkled && batch.wrinkle_weights.empty()) continue;
+        LaneRunner runner(batch, kernels(job.isa), non_temporal, wrinkled);
+        for (std::size_t i = first; i < last; ++i) {
+            const bool wrinkles =
+                batch.wrinkle_weights.empty() || batch.wrinkle_weights[element_of(batch, i)] > 0;
+            if (wrinkles == wrinkled && active[i]) runner.add(i);
+        }
+        runner.finish();
+        result += runner.result();
+    }
+    return result;
+}
+
+/// Deforms a batch from one of its places to another, one instance at a time.
+CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, Place to,
+                           bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
     const std::size_t vertices = batch.body->vertex_count();
     BatchRunner runner(batch, kernels(job.isa), non_temporal);
@@ -103,6 +123,18 @@ CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place
     }
     runner.finish();
     return runner.result();
+}
+
+CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
+                      bool non_temporal) noexcept {
+    const std::size_t first = from.instance + (from.vertex != 0 ? 1 : 0);
+    if (!LaneRunner::suits(batch, kernels(job.isa)) || first >= to.instance)
+        return run_one_by_one(batch, job, from, to, non_temporal);
+    CrowdResult result;
+    if (from.vertex != 0) result += run_one_by_one(batch, job, from, {from.batch, first, 0}, non_temporal);
+    result += run_lanes(batch, job, first, to.instance, non_temporal);
+    if (to.vertex != 0) result += run_one_by_one(batch, job, {to.batch, to.instance, 0}, to, non_temporal);
+    return result;
 }
 
 CrowdResult run_between(const CrowdJob& job, Place from, Place to, bool non_temporal) noexcept {

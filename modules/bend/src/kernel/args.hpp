@@ -71,6 +71,17 @@ struct BlendColumns {
     alignas(64) float tangent[3][places];
 };
 
+/// The most instances that are set up together.
+constexpr std::size_t setup_width = 16;
+
+/// A number of each of many instances.
+using InstanceLanes = float[setup_width];
+
+/// The coefficients of one region of several instances.
+struct alignas(64) LaneCoefficients : CoefficientsOf<InstanceLanes> {
+    InstanceLanes most_doublings;  ///< the largest of `doublings`, in each lane
+};
+
 /// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
 struct PlaneOutput {
     float* position[3];
@@ -111,9 +122,6 @@ using CopyLines = void (*)(const float* from, float* to, std::size_t count, bool
 /// register beyond the end of planes.
 using WriteRows = void (*)(const float* const* planes, std::size_t count, float* first, std::size_t stride);
 
-/// The most instances that are set up together.
-constexpr std::size_t setup_width = 16;
-
 /// A region as set-up reads it.
 struct SetupRegion {
     float length, per_length, radius, max_angle;
@@ -142,6 +150,33 @@ struct SetupColumns {
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 
+/// The same for kernels that deform many instances at a time. Sets all lanes; those behind `count` are of no
+/// use. `wrinkled`: of all instances.
+using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count, bool wrinkled,
+                           LaneCoefficients& k);
+
+/// Vertices in a tile, which holds some vertices of many instances: value c of vertex v is at
+/// tile[c * tile_vertices + v]. Values are those of a kernel's vectors, one after the other.
+constexpr std::size_t tile_vertices = line_floats;
+
+/// Deforms the vertices [first, first + count) of all instances into the first `count` places of `tile`. May
+/// be called with a pointer to another place of a tile: there must be room for all of the vertices behind it.
+using LaneKernel = void (*)(const RestColumns& rest, const LaneCoefficients& k, std::size_t first,
+                            std::size_t count, InstanceLanes* tile);
+
+/// The same for vertices of which some are near the joint that `joint` tells of. `neighbor` has what
+/// set_as_own() sets of the region beyond it.
+using LaneBlendKernel = void (*)(const RestColumns& rest, const LaneCoefficients& own,
+                                 const LaneCoefficients& neighbor, const JointBlend& joint, std::size_t first,
+                                 std::size_t count, InstanceLanes* tile);
+
+/// Writes one value of a tile, the first vertex's of which is `*value`, to a plane of each instance: that of
+/// instance i begins at to[i]. Writes tile_vertices floats to each.
+using Untile = void (*)(const InstanceLanes* value, float* const* to);
+
+/// Asks for the line that holds `at`, which will be written in part.
+using Prefetch = void (*)(const float* at);
+
 /// One instruction set's kernels.
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
@@ -152,12 +187,24 @@ struct KernelSet {
     CopyLines copy_lines;
     WriteRows write_rows[max_woven + 1];  ///< indexed by the floats of a row; null where there is none
     Setup setup;
+    /// These are null where instances are always deformed one at a time, and for packed vertices.
+    LaneKernel lanes[squeeze_count][stream_set_count];
+    LaneBlendKernel lane_blending[squeeze_count][stream_set_count];
+    LaneSetup lane_setup;
+    Untile untile;
+    Prefetch prefetch;
 
     [[nodiscard]] PlaneKernel plane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
     }
     [[nodiscard]] WeavingKernel weaving_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
+    }
+    [[nodiscard]] LaneKernel lane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
+        return lanes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
+    }
+    [[nodiscard]] LaneBlendKernel lane_blend_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
+        return lane_blending[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
     }
     [[nodiscard]] BlendKernel blend_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return blending[static_cast<unsigned char>(squeeze)][streams == StreamSet::positions ? 0 : 1];

@@ -29,8 +29,8 @@ Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
 }
 
 /// Sets what the columns of `b` have of their wrinkle.
-template <class L, Squeeze squeeze, bool directions>
-void set_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+template <class L, Squeeze squeeze, bool directions, class K>
+void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i) {
     if constexpr (squeeze == Squeeze::relative) {
         set_relative_wrinkle<L, directions>(rest, k, b, i);
     } else {
@@ -38,55 +38,74 @@ void set_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std
     }
 }
 
+/// Rest columns that have their wrinkle. Directions are set only if they are wanted.
 template <class L>
-void store_vector(const Vector<L>& vector, float (&planes)[3][BlendColumns::places], std::size_t j) {
-    for (std::size_t c = 0; c < 3; ++c) L::store(planes[c] + j, vector.component[c]);
-}
+struct Wrinkled {
+    typename L::Vec rho;
+    Vector<L> normal, tangent;
+};
 
 template <class L>
 Vector<L> load_vector(const float* const (&planes)[3], std::size_t i) {
     return {{L::load(planes[0] + i), L::load(planes[1] + i), L::load(planes[2] + i)}};
 }
 
+/// Wrinkles the batch that begins at vertex `i`.
+template <class L, Squeeze squeeze, bool directions, class K>
+Wrinkled<L> blend_batch(const RestColumns& rest, const K& k, const K& other_k, const JointBlend& joint,
+                        bool tangents, std::size_t i) {
+    using Vec = typename L::Vec;
+    Wrinkled<L> result;
+    Bent<L> b, other;
+    set_wrinkle<L, squeeze, directions>(rest, k, b, i);
+    set_wrinkle<L, squeeze, directions>(rest, other_k, other, i);
+    const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
+    // Of vertices that are not near the joint the other region's wrinkle may be no number.
+    const Vec zero = L::splat(0.0f);
+    other.amplitude = L::where_less(zero, share.value, other.amplitude, zero);
+    const Vec difference = other.amplitude - b.amplitude;
+    b.amplitude = L::madd(share.value, difference, b.amplitude);
+    const Vec offset = L::load(rest.radial_offset + i);
+    result.rho = L::madd(b.amplitude, offset, L::load(rest.rho + i));
+    if constexpr (directions) {
+        other.slope = L::where_less(zero, share.value, other.slope, zero);
+        if (has_shape<squeeze>(rest))
+            other.less_by_scale = L::where_less(zero, share.value, other.less_by_scale, zero);
+        b.slope = L::madd(share.value, other.slope - b.slope, b.slope);
+        if (has_shape<squeeze>(rest))
+            b.less_by_scale = L::madd(share.value, other.less_by_scale - b.less_by_scale, b.less_by_scale);
+        Jacobian<L> jacobian = bend::jacobian<L, squeeze>(rest, k, b, i);
+        jacobian.d = L::madd(share.slope * difference, offset, jacobian.d);
+        const auto& [growth, a, across, d] = jacobian;
+        const auto [n_rho, n_beta, n_z] = load_vector<L>(rest.normal, i).component;
+        result.normal = {
+            {growth * n_rho, L::nmadd(across, n_rho, a * n_beta), growth * L::nmadd(d, n_rho, a * n_z)}};
+        if (!tangents) return result;
+        const auto [t_rho, t_beta, t_z] = load_vector<L>(rest.tangent, i).component;
+        result.tangent = {{L::madd(a, t_rho, L::madd(across, t_beta, d * t_z)), growth * t_beta, t_z}};
+    }
+    return result;
+}
+
+template <class L>
+void store_vector(const Vector<L>& vector, float (&planes)[3][BlendColumns::places], std::size_t j) {
+    for (std::size_t c = 0; c < 3; ++c) L::store(planes[c] + j, vector.component[c]);
+}
+
 template <class L, Squeeze squeeze, bool directions>
 GOFFER_FLATTENED void blend_wrinkles(const RestColumns& columns, const Coefficients& own,
                                      const Coefficients& neighbor, const JointBlend& joint, std::size_t first,
                                      std::size_t count, bool tangents, BlendColumns& out) {
-    using Vec = typename L::Vec;
     const RestColumns rest = columns;
     const Coefficients k = own, other_k = neighbor;
     for (std::size_t at = 0; at < count; at += L::width) {
-        const std::size_t j = at + L::width <= count ? at : count - L::width, i = first + j;
-        Bent<L> b, other;
-        set_wrinkle<L, squeeze, directions>(rest, k, b, i);
-        set_wrinkle<L, squeeze, directions>(rest, other_k, other, i);
-        const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
-        // Of vertices that are not near the joint the other region's wrinkle may be no number.
-        const Vec zero = L::splat(0.0f);
-        other.amplitude = L::where_less(zero, share.value, other.amplitude, zero);
-        const Vec difference = other.amplitude - b.amplitude;
-        b.amplitude = L::madd(share.value, difference, b.amplitude);
-        const Vec offset = L::load(rest.radial_offset + i);
-        L::store(out.rho + j, L::madd(b.amplitude, offset, L::load(rest.rho + i)));
+        const std::size_t j = at + L::width <= count ? at : count - L::width;
+        const Wrinkled<L> batch =
+            blend_batch<L, squeeze, directions>(rest, k, other_k, joint, tangents, first + j);
+        L::store(out.rho + j, batch.rho);
         if constexpr (directions) {
-            other.slope = L::where_less(zero, share.value, other.slope, zero);
-            if (has_shape<squeeze>(rest))
-                other.less_by_scale = L::where_less(zero, share.value, other.less_by_scale, zero);
-            b.slope = L::madd(share.value, other.slope - b.slope, b.slope);
-            if (has_shape<squeeze>(rest))
-                b.less_by_scale =
-                    L::madd(share.value, other.less_by_scale - b.less_by_scale, b.less_by_scale);
-            Jacobian<L> jacobian = bend::jacobian<L, squeeze>(rest, k, b, i);
-            jacobian.d = L::madd(share.slope * difference, offset, jacobian.d);
-            const auto& [growth, a, across, d] = jacobian;
-            const auto [n_rho, n_beta, n_z] = load_vector<L>(rest.normal, i).component;
-            store_vector<L>(
-                {{growth * n_rho, L::nmadd(across, n_rho, a * n_beta), growth * L::nmadd(d, n_rho, a * n_z)}},
-                out.normal, j);
-            if (!tangents) continue;
-            const auto [t_rho, t_beta, t_z] = load_vector<L>(rest.tangent, i).component;
-            store_vector<L>({{L::madd(a, t_rho, L::madd(across, t_beta, d * t_z)), growth * t_beta, t_z}},
-                            out.tangent, j);
+            store_vector<L>(batch.normal, out.normal, j);
+            if (tangents) store_vector<L>(batch.tangent, out.tangent, j);
         }
     }
 }

@@ -14,16 +14,16 @@
 
 namespace goffer::bend {
 
-template <class L, std::size_t N>
-typename L::Vec polynomial(const float (&coefficients)[N], typename L::Vec x) {
+template <class L, class Number, std::size_t N>
+typename L::Vec polynomial(const Number (&coefficients)[N], typename L::Vec x) {
     typename L::Vec sum = L::splat(coefficients[N - 1]);
     for (std::size_t n = N - 1; n-- > 0;) sum = L::madd(sum, x, L::splat(coefficients[n]));
     return sum;
 }
 
 /// The same for an even N, with even and odd powers side by side: one operation more, but half the latency.
-template <class L, std::size_t N>
-typename L::Vec long_polynomial(const float (&coefficients)[N], typename L::Vec x) {
+template <class L, class Number, std::size_t N>
+typename L::Vec long_polynomial(const Number (&coefficients)[N], typename L::Vec x) {
     const typename L::Vec xx = x * x;
     typename L::Vec even = L::splat(coefficients[N - 2]);
     typename L::Vec odd = L::splat(coefficients[N - 1]);
@@ -52,8 +52,8 @@ struct Bent {
 
 /// Sine and cosine of the columns' angles minus the instance's. A factor on those of the columns, such as the
 /// root of two, carries over.
-template <class L>
-SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction) {
+template <class L, class Number>
+SinCos<L> rotated_by(SinCos<L> columns, const Number& cos_direction, const Number& sin_direction) {
     const typename L::Vec ct = L::splat(cos_direction);
     const typename L::Vec st = L::splat(sin_direction);
     return {L::nmadd(columns.cosine, st, columns.sine * ct), L::madd(columns.sine, st, columns.cosine * ct)};
@@ -61,14 +61,14 @@ SinCos<L> rotated_by(SinCos<L> columns, float cos_direction, float sin_direction
 
 /// Whether a body has a shape. Only kernels of relative squeezes have to ask: a branch costs the plain ones
 /// up to a fifth of their speed, in registers.
-template <Squeeze squeeze>
-bool has_shape(const RestColumns& rest) {
+template <Squeeze squeeze, class Rest>
+bool has_shape(const Rest& rest) {
     return squeeze == Squeeze::shaped || (squeeze == Squeeze::relative && rest.scale != nullptr);
 }
 
 /// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa T.
-template <class L, Squeeze squeeze, bool slope>
-void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+template <class L, Squeeze squeeze, bool slope, class Rest, class K>
+void set_plain_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     const auto [h_prime, h] =
         rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
@@ -91,8 +91,8 @@ void set_plain_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& 
 }
 
 /// The same for columns whose squeeze is relative to that at rest.
-template <class L, bool slope>
-void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+template <class L, bool slope, class Rest, class K>
+void set_relative_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},
                                          k.cos_direction, k.sin_direction);
@@ -123,8 +123,8 @@ void set_relative_wrinkle(const RestColumns& rest, const Coefficients& k, Bent<L
 }
 
 /// Computes what depends on the column of a vertex. `slope`: normals or tangents are wanted.
-template <class L, Squeeze squeeze, bool slope>
-Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i) {
+template <class L, Squeeze squeeze, bool slope, class Rest, class K>
+Bent<L> turn_batch(const Rest& rest, const K& k, std::size_t i) {
     using Vec = typename L::Vec;
     Bent<L> b;
     if constexpr (squeeze == Squeeze::relative) {
@@ -139,9 +139,21 @@ Bent<L> turn_batch(const RestColumns& rest, const Coefficients& k, std::size_t i
     return b;
 }
 
+/// Takes the arc of alpha / 2^doublings to that of alpha.
+template <class L>
+void double_arc(const Coefficients& k, Bent<L>& b) {
+    float curvature = k.first_curvature;
+    for (float n = 0; n < k.doublings; ++n) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
+        const typename L::Vec cosine = L::nmadd(L::splat(curvature), b.arc_x, L::splat(1.0f));
+        b.arc_x = L::splat(curvature) * b.arc_z * b.arc_z;
+        b.arc_z = b.arc_z * cosine;
+        curvature += curvature;
+    }
+}
+
 /// Adds what also depends on its height.
-template <class L, Squeeze squeeze>
-void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
+template <class L, Squeeze squeeze, class Rest, class K>
+void set_arc(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     Vec v = L::load(rest.height + i);
     // To where a cylinder has the same arc angle.
@@ -149,13 +161,7 @@ void set_arc(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::si
     const Vec vv = v * v;
     b.arc_x = vv * polynomial<L>(k.arc_x, vv);
     b.arc_z = v * polynomial<L>(k.arc_z, vv);
-    float curvature = k.first_curvature;
-    for (float n = 0; n < k.doublings; ++n) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
-        const Vec cosine = L::nmadd(L::splat(curvature), b.arc_x, L::splat(1.0f));
-        b.arc_x = L::splat(curvature) * b.arc_z * b.arc_z;
-        b.arc_z = b.arc_z * cosine;
-        curvature += curvature;
-    }
+    double_arc<L>(k, b);
     b.stretch = L::nmadd(L::splat(k.curvature), b.rho_c, L::splat(k.one_minus_kappa));
 }
 
@@ -188,8 +194,8 @@ struct Vector {
 };
 
 /// Takes (x, y, z) from the middle frame to the streams' space, and adds `offset` unless it is null.
-template <class L>
-Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typename L::Vec y,
+template <class L, class Number>
+Vector<L> place(const Number* matrix, const Number* offset, typename L::Vec x, typename L::Vec y,
                 typename L::Vec z) {
     Vector<L> result;
     for (int row = 0; row < 3; ++row) {
@@ -203,8 +209,8 @@ Vector<L> place(const float* matrix, const float* offset, typename L::Vec x, typ
 
 /// Takes a vector from the bent frame (n, b, t) at the vertex to the streams' space. Does not keep its
 /// length.
-template <class L>
-Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent<L>& b, typename L::Vec n,
+template <class L, class K, class Number>
+Vector<L> place_direction(const K& k, const Number* matrix, const Bent<L>& b, typename L::Vec n,
                           typename L::Vec bt, typename L::Vec t) {
     using Vec = typename L::Vec;
     const Vec cosine = L::nmadd(L::splat(k.curvature), b.arc_x, L::splat(1.0f));
@@ -213,7 +219,7 @@ Vector<L> place_direction(const Coefficients& k, const float* matrix, const Bent
     const Vec x = L::madd(p, cosine, t * sine);
     const Vec y = L::madd(b.c, bt, b.s * n);
     const Vec z = L::nmadd(p, sine, t * cosine);
-    return place<L>(matrix, nullptr, x, y, z);
+    return place<L, Number>(matrix, nullptr, x, y, z);
 }
 
 /// Brings a vector to unit length. Comes last of all, so that it removes the scale of transforms and
@@ -242,27 +248,27 @@ struct Jacobian {
 
 /// Takes Bent::stretch of a body with a shape to its value for vectors: the arc angle grows more slowly where
 /// the body is thick.
-template <class L>
-void set_shaped_stretch(const RestColumns& rest, const Coefficients& k, Bent<L>& b, std::size_t i) {
-    const float kappa = 1 - k.one_minus_kappa;
-    b.stretch = b.stretch * L::nmadd(L::splat(kappa), L::load(rest.scale + i), L::splat(1 + kappa));
+template <class L, class Rest, class K>
+void set_shaped_stretch(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
+    const typename L::Vec kappa = L::splat(1.0f) - L::splat(k.one_minus_kappa);
+    b.stretch = b.stretch * L::nmadd(kappa, L::load(rest.scale + i), L::splat(1.0f) + kappa);
 }
 
 /// A times d(g w)/dz, and what the body's shape adds.
-template <class L, Squeeze squeeze>
-typename L::Vec along(const RestColumns& rest, const Bent<L>& bent, std::size_t i) {
+template <class L, Squeeze squeeze, class Rest>
+typename L::Vec along(const Rest& rest, const Bent<L>& bent, std::size_t i) {
     const typename L::Vec plain = bent.amplitude * L::load(rest.slope + i);
     return has_shape<squeeze>(rest) ? L::nmadd(bent.less_by_scale, L::load(rest.taper + i), plain) : plain;
 }
 
-template <class L, Squeeze squeeze>
-typename L::Vec half_radius(const RestColumns& rest, const Coefficients& k, std::size_t i) {
+template <class L, Squeeze squeeze, class Rest, class K>
+typename L::Vec half_radius(const Rest& rest, const K& k, std::size_t i) {
     const typename L::Vec half = L::splat(k.half_radius);
     return has_shape<squeeze>(rest) ? half * L::load(rest.scale + i) : half;
 }
 
-template <class L, Squeeze squeeze>
-Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<L>& bent, std::size_t i) {
+template <class L, Squeeze squeeze, class Rest, class K>
+Jacobian<L> jacobian(const Rest& rest, const K& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
     const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
@@ -273,9 +279,8 @@ Jacobian<L> jacobian(const RestColumns& rest, const Coefficients& k, const Bent<
             bent.slope * wrinkle, along<L, squeeze>(rest, bent, i)};
 }
 
-template <class L, Squeeze squeeze>
-Vector<L> bend_normals(const RestColumns& rest, const Coefficients& k, const Bent<L>& b, const Jacobian<L>& j,
-                       std::size_t i) {
+template <class L, Squeeze squeeze, class Rest, class K>
+Vector<L> bend_normals(const Rest& rest, const K& k, const Bent<L>& b, const Jacobian<L>& j, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(rest.normal[0] + i);
     const Vec beta = L::load(rest.normal[1] + i);
@@ -290,9 +295,8 @@ Vector<L> bend_normals(const RestColumns& rest, const Coefficients& k, const Ben
     }
 }
 
-template <class L, Squeeze squeeze>
-Vector<L> bend_tangents(const RestColumns& rest, const Coefficients& k, const Bent<L>& b,
-                        const Jacobian<L>& j, std::size_t i) {
+template <class L, Squeeze squeeze, class Rest, class K>
+Vector<L> bend_tangents(const Rest& rest, const K& k, const Bent<L>& b, const Jacobian<L>& j, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec rho = L::load(rest.tangent[0] + i);
     const Vec beta = L::load(rest.tangent[1] + i);
@@ -341,8 +345,8 @@ constexpr bool has_tangents(StreamSet streams) {
 }
 
 /// Deforms the batch that begins at vertex `i`. `b` is what turn_batch made of it.
-template <class L, Squeeze squeeze, StreamSet streams>
-Results<L> deform_batch(const RestColumns& rest, const Coefficients& k, Bent<L> b, std::size_t i) {
+template <class L, Squeeze squeeze, StreamSet streams, class Rest, class K>
+Results<L> deform_batch(const Rest& rest, const K& k, Bent<L> b, std::size_t i) {
     Results<L> results;
     set_arc<L, squeeze>(rest, k, b, i);
     results.position =

@@ -6,6 +6,7 @@
 
 namespace goffer::bend {
 
-extern constexpr KernelSet kernels_avx2 = kernel_set<simd::DoubledLanes<simd::Avx2Lanes>>();
+extern constexpr KernelSet kernels_avx2 =
+    with_lanes<simd::Avx2Lanes>(kernel_set<simd::DoubledLanes<simd::Avx2Lanes>>());
 
 }  // namespace goffer::bend

@@ -4,6 +4,7 @@
 #include "kernel/bend_kernel.hpp"
 #include "kernel/blend_kernel.hpp"
 #include "kernel/copy_kernel.hpp"
+#include "kernel/lane_kernel.hpp"
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
 
@@ -51,6 +52,37 @@ constexpr void add_row_writers(KernelSet& set, std::integer_sequence<int, n...>)
 template <class L, std::size_t... n>
 constexpr void add_weaves(KernelSet& set, std::index_sequence<n...>) {
     ((set.weave[n + min_woven] = &weave<L, static_cast<int>(n + min_woven)>), ...);
+}
+
+template <class L, Squeeze squeeze, StreamSet streams>
+constexpr void add_lanes(KernelSet& set) {
+    constexpr auto row = static_cast<unsigned char>(squeeze), column = static_cast<unsigned char>(streams);
+    set.lanes[row][column] = &bend_lanes<L, squeeze, streams>;
+    if constexpr (squeeze != Squeeze::none)
+        set.lane_blending[row][column] = &bend_blended_lanes<L, squeeze, streams>;
+}
+
+template <class L, Squeeze squeeze>
+constexpr void add_lanes(KernelSet& set) {
+    add_lanes<L, squeeze, StreamSet::positions>(set);
+    add_lanes<L, squeeze, StreamSet::positions_normals>(set);
+    add_lanes<L, squeeze, StreamSet::positions_normals_tangents>(set);
+}
+
+/// Adds the kernels that deform many instances at a time, if they are wanted. `L` has at most setup_width
+/// lanes.
+template <class L>
+constexpr KernelSet with_lanes(KernelSet set) {
+#ifdef GOFFER_SMALL_BODIES
+    add_lanes<L, Squeeze::none>(set);
+    add_lanes<L, Squeeze::plain>(set);
+    add_lanes<L, Squeeze::relative>(set);
+    add_lanes<L, Squeeze::shaped>(set);
+    set.lane_setup = &set_up_lanes<L>;
+    set.untile = &untile<L>;
+    set.prefetch = &L::prefetch;
+#endif
+    return set;
 }
 
 /// All kernels of an instruction set. Those that deform vertices use `L`, the others its single registers.

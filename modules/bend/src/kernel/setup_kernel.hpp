@@ -56,15 +56,52 @@ SinCos<L> sin_cos(typename L::Vec angle) {
 /// How many lanes of a register hold instances.
 enum class Lanes { one, some, all };
 
-/// Sets up the instances in one register.
+/// Coefficients of the instances in one register, each instance's by themselves: those of lane i at
+/// k[i * step].
 template <class L, Lanes lanes>
+struct SeparateResult {
+    Coefficients* k;
+    std::size_t step, count;
+
+    /// Stores four coefficients that follow each other. row(k) is the address of the first one.
+    template <class Row>
+    void put(const Row& row, typename L::Vec a, typename L::Vec b, typename L::Vec c,
+             typename L::Vec d) const {
+        if constexpr (lanes == Lanes::one) {
+            L::store_row(row(k[0]), L::first_row(a, b, c, d));
+        } else {
+            L::for_rows(a, b, c, d, [&](std::size_t i, typename L::Row values) {
+                if (lanes == Lanes::all || i < count) L::store_row(row(k[i * step]), values);
+            });
+        }
+    }
+};
+
+/// Those of all instances side by side.
+template <class L>
+struct LaneResult {
+    LaneCoefficients& k;
+    std::size_t first;  ///< the register's first lane among them
+
+    template <class Row>
+    void put(const Row& row, typename L::Vec a, typename L::Vec b, typename L::Vec c,
+             typename L::Vec d) const {
+        InstanceLanes* const to = row(k);
+        L::store(to[0] + first, a);
+        L::store(to[1] + first, b);
+        L::store(to[2] + first, c);
+        L::store(to[3] + first, d);
+    }
+};
+
+/// Sets up the instances in one register.
+template <class L, class Result>
 class SetupLanes {
 public:
     using Vec = typename L::Vec;
 
-    SetupLanes(const SetupRegion& region, SetupColumns& columns, std::size_t first, std::size_t count,
-               Coefficients* k, std::size_t step)
-        : region_(region), columns_(columns), first_(first), count_(count), k_(k), step_(step) {}
+    SetupLanes(const SetupRegion& region, SetupColumns& columns, std::size_t first, const Result& result)
+        : region_(region), columns_(columns), first_(first), result_(result) {}
 
     /// Sets everything but the amplitudes. For these it leaves, for each instance, the place of its row in
     /// the table and the scale that set_plain_amplitude or set_relative_amplitude takes.
@@ -75,8 +112,8 @@ public:
         curvature_ = alpha_ * L::splat(region_.per_length);
         const Vec kappa = curvature_ * L::splat(region_.radius);
         one_minus_kappa_ = L::splat(1.0f) - kappa;
-        put([](Coefficients& k) -> float* { return &k.cos_half_direction; }, half_.cosine, half_.sine,
-            one_minus_kappa_, curvature_);
+        put([](auto& k) { return &k.cos_half_direction; }, half_.cosine, half_.sine, one_minus_kappa_,
+            curvature_);
         set_arc();
         set_frames();
         if (region_.relative) set_squeeze(kappa);
@@ -84,17 +121,9 @@ public:
     }
 
 private:
-    /// Stores a row of each instance's coefficients; row(k) is its address in `k`.
     template <class Row>
-    void put(const Row& row, Vec a, Vec b, Vec c, Vec d) {
-        if constexpr (lanes == Lanes::one) {
-            L::store_row(row(k_[first_ * step_]), L::first_row(a, b, c, d));
-        } else {
-            L::for_rows(a, b, c, d, [&](std::size_t i, typename L::Row values) {
-                if (lanes == Lanes::all || first_ + i < count_)
-                    L::store_row(row(k_[(first_ + i) * step_]), values);
-            });
-        }
+    void put(const Row& row, Vec a, Vec b, Vec c, Vec d) const {
+        result_.put(row, a, b, c, d);
     }
 
     /// Rows stand at equal steps of the angle's root. Below min_kappa, the scale of a relative row would
@@ -106,11 +135,10 @@ private:
             kappa = L::max(kappa, L::splat(min_kappa));
             angle = kappa * L::splat(1 / (region_.per_length * region_.radius));
         }
-        L::store(scale + first_, region_.relative ? kappa : L::sqrt(kappa));
+        L::store(scale, region_.relative ? kappa : L::sqrt(kappa));
         const Vec fraction =
             L::clamp(angle * L::splat(1 / region_.table_max_angle), L::splat(0.0f), L::splat(1.0f));
-        L::store(table_place + first_,
-                 L::sqrt(fraction) * L::splat(static_cast<float>(region_.row_count - 1)));
+        L::store(table_place, L::sqrt(fraction) * L::splat(static_cast<float>(region_.row_count - 1)));
     }
 
     static SinCos<L> half_of(Vec direction) { return doubled<L>(sin_cos<L>(direction * L::splat(0.25f))); }
@@ -150,8 +178,8 @@ private:
             arc_x[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
             power = power * square;
         }
-        put([](Coefficients& k) -> float* { return k.arc_z; }, arc_z[0], arc_z[1], arc_z[2], arc_z[3]);
-        put([](Coefficients& k) -> float* { return k.arc_x; }, arc_x[0], arc_x[1], arc_x[2], arc_x[3]);
+        put([](auto& k) { return &k.arc_z[0]; }, arc_z[0], arc_z[1], arc_z[2], arc_z[3]);
+        put([](auto& k) { return &k.arc_x[0]; }, arc_x[0], arc_x[1], arc_x[2], arc_x[3]);
     }
 
     [[nodiscard]] Vector3<L> frame(std::size_t from) const {
@@ -248,10 +276,10 @@ private:
                                   L::load(columns_.transform[11] + first_)};
         const Vector3<L> n = linear(frame_n), b = linear(frame_b), t = linear(frame_t);
         const Vector3<L> origin = sum(linear(frame_origin), shift);
-        put([](Coefficients& k) -> float* { return k.matrix; }, n.x, n.y, n.z, zero);
-        put([](Coefficients& k) -> float* { return k.matrix + 4; }, b.x, b.y, b.z, zero);
-        put([](Coefficients& k) -> float* { return k.matrix + 8; }, t.x, t.y, t.z, zero);
-        put([](Coefficients& k) -> float* { return k.offset; }, origin.x, origin.y, origin.z, zero);
+        put([](auto& k) { return &k.matrix[0]; }, n.x, n.y, n.z, zero);
+        put([](auto& k) { return &k.matrix[4]; }, b.x, b.y, b.z, zero);
+        put([](auto& k) { return &k.matrix[8]; }, t.x, t.y, t.z, zero);
+        put([](auto& k) { return &k.offset[0]; }, origin.x, origin.y, origin.z, zero);
         set_normal_matrix(n, b, t);
     }
 
@@ -278,11 +306,11 @@ private:
         const auto put_column = [&](const auto& row, const Vector3<L>& v) {
             put(row, to_unit * v.x, to_unit * v.y, to_unit * v.z, zero);
         };
-        put_column([](Coefficients& k) -> float* { return k.normal_matrix; }, cofactors[0]);
-        put_column([](Coefficients& k) -> float* { return k.normal_matrix + 4; }, cofactors[1]);
-        put_column([](Coefficients& k) -> float* { return k.normal_matrix + 8; }, cofactors[2]);
-        put([](Coefficients& k) -> float* { return &k.first_curvature; }, part_* L::splat(region_.per_length),
-            doublings_, L::splat(region_.radius * 0.5f), handedness);
+        put_column([](auto& k) { return &k.normal_matrix[0]; }, cofactors[0]);
+        put_column([](auto& k) { return &k.normal_matrix[4]; }, cofactors[1]);
+        put_column([](auto& k) { return &k.normal_matrix[8]; }, cofactors[2]);
+        put([](auto& k) { return &k.first_curvature; }, part_ * L::splat(region_.per_length), doublings_,
+            L::splat(region_.radius * 0.5f), handedness);
     }
 
     /// A column has the scale S = 1 - s (kappa + curl . u), where u = (cos beta, sin beta) and curl = kappa
@@ -296,17 +324,15 @@ private:
         const Vec rest_cosine = rest_kappa * rest.cosine, rest_sine = rest_kappa * rest.sine;
         const Vec change_cosine = kappa * whole_.cosine - rest_cosine;
         const Vec change_sine = kappa * whole_.sine - rest_sine;
-        put([](Coefficients& k) -> float* { return &k.cos_direction; }, whole_.cosine, whole_.sine,
-            rest_cosine, rest_sine);
-        put([](Coefficients& k) -> float* { return k.curl_change; }, change_cosine, change_sine,
+        put([](auto& k) { return &k.cos_direction; }, whole_.cosine, whole_.sine, rest_cosine, rest_sine);
+        put([](auto& k) { return &k.curl_change[0]; }, change_cosine, change_sine,
             L::splat(region_.onset > 1e-12f ? region_.onset : 1e-12f), kappa - rest_kappa);
     }
 
     const SetupRegion& region_;
     SetupColumns& columns_;
-    std::size_t first_, count_;
-    Coefficients* k_;
-    std::size_t step_;
+    std::size_t first_;
+    Result result_;
     Vec alpha_, part_, doublings_, curvature_, one_minus_kappa_;
     SinCos<L> half_, whole_;  // of half the direction, and of the direction
 };
@@ -356,12 +382,17 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
                              const bool* wrinkled, Coefficients* k, std::size_t step) {
     alignas(64) float place[setup_width], scale[setup_width];
     for (std::size_t first = 0; first < count; first += L::width) {
-        if (first + L::width <= count) {
-            SetupLanes<L, Lanes::all>(region, columns, first, count, k, step).run(place, scale);
-        } else if (first + 1 == count) {
-            SetupLanes<L, Lanes::one>(region, columns, first, count, k, step).run(place, scale);
+        const auto run = [&](auto result) {
+            SetupLanes<L, decltype(result)>(region, columns, first, result).run(place + first, scale + first);
+        };
+        Coefficients* const to = k + first * step;
+        const std::size_t left = count - first;
+        if (left >= L::width) {
+            run(SeparateResult<L, Lanes::all>{to, step, left});
+        } else if (left == 1) {
+            run(SeparateResult<L, Lanes::one>{to, step, left});
         } else {
-            SetupLanes<L, Lanes::some>(region, columns, first, count, k, step).run(place, scale);
+            run(SeparateResult<L, Lanes::some>{to, step, left});
         }
     }
     if (region.rows == nullptr && !region.shaped) return;
@@ -377,6 +408,39 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
             set_plain_amplitude<L>(row, scale[i] * columns.factor[i], k[i * step]);
         }
     }
+}
+
+/// The amplitude's coefficients of instance `lane`.
+template <class L>
+void set_lane_amplitude(const SetupRegion& region, float place, float scale, float factor,
+                        LaneCoefficients& k, std::size_t lane) {
+    Coefficients one;
+    const RowPlace row = row_place<L>(region, place);
+    if (region.relative) {
+        set_relative_amplitude<L>(row, scale, factor, one);
+    } else {
+        set_plain_amplitude<L>(row, scale * factor, one);
+    }
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        k.amplitude[n][lane] = one.amplitude[n];
+        k.amplitude_slope[n][lane] = one.amplitude_slope[n];
+    }
+}
+
+template <class L>
+GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& columns, std::size_t count,
+                                   bool wrinkled, LaneCoefficients& k) {
+    alignas(64) float place[setup_width], scale[setup_width];
+    for (std::size_t first = 0; first < setup_width; first += L::width)
+        SetupLanes<L, LaneResult<L>>(region, columns, first, {k, first}).run(place + first, scale + first);
+    float most = 0;
+    for (std::size_t i = 0; i < count; ++i) most = k.doublings[i] > most ? k.doublings[i] : most;
+    for (float& lane : k.most_doublings) lane = most;
+    for (std::size_t n = 0; n < amplitude_terms; ++n)
+        for (std::size_t i = wrinkled ? count : 0; i < setup_width; ++i)
+            k.amplitude[n][i] = k.amplitude_slope[n][i] = 0;
+    for (std::size_t i = 0; wrinkled && i < count; ++i)
+        set_lane_amplitude<L>(region, place[i], scale[i], columns.factor[i], k, i);
 }
 
 }  // namespace goffer::bend

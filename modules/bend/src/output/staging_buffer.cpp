@@ -6,6 +6,11 @@
 
 namespace goffer::bend {
 
+bool weaves_gaps(const OutputPlan& plan) noexcept {
+    return std::ranges::any_of(plan.records(),
+                               [](const Record& record) { return record.woven && record.has_gaps(); });
+}
+
 StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     const std::size_t planes = plan.value_count() + 1;
     const std::size_t room = max_floats / planes - spare;
@@ -13,8 +18,7 @@ StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     stride_ = capacity_ + spare;
     float* const zeros = planes_ + plan.value_count() * stride_;
     zeros_ = zeros;
-    const auto has_scratch_gaps = [](const Record& record) { return record.woven && record.has_gaps(); };
-    if (std::ranges::any_of(plan.records(), has_scratch_gaps)) std::fill_n(zeros, capacity_, 0.0f);
+    if (weaves_gaps(plan)) std::fill_n(zeros, capacity_, 0.0f);
 }
 
 PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
@@ -28,26 +32,34 @@ PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noex
     return out;
 }
 
-void StagingBuffer::write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode,
-                          std::size_t vertex, std::size_t count, bool ends) const noexcept {
-    for (const Record& record : plan.records()) {
-        if (record.mode != mode) continue;
-        const std::span<const Component> components = plan.components(record);
-        if (record.plane()) {
-            kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
-                               plan.non_temporal());
-        } else if (record.woven) {
-            weave(record, components, kernels, vertex, count, ends);
-        } else {
-            write_rows(record, components, kernels, vertex, count);
-        }
+void StagedPlanes::write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode, std::size_t vertex,
+                         std::size_t count, bool ends) const noexcept {
+    for (const Record& record : plan.records())
+        if (record.mode == mode) write(record, plan, kernels, vertex, count, ends);
+}
+
+void StagedPlanes::write(const OutputPlan& plan, const KernelSet& kernels, std::size_t vertex,
+                         std::size_t count, bool ends) const noexcept {
+    for (const Record& record : plan.records()) write(record, plan, kernels, vertex, count, ends);
+}
+
+void StagedPlanes::write(const Record& record, const OutputPlan& plan, const KernelSet& kernels,
+                         std::size_t vertex, std::size_t count, bool ends) const noexcept {
+    const std::span<const Component> components = plan.components(record);
+    if (record.plane()) {
+        kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
+                           plan.non_temporal());
+    } else if (record.woven) {
+        weave(record, components, kernels, vertex, count, ends);
+    } else {
+        write_rows(record, components, kernels, vertex, count);
     }
 }
 
 /// Components that follow each other are rows, as many at a time as there is a kernel for.
-void StagingBuffer::write_rows(const Record& record, std::span<const Component> components,
-                               const KernelSet& kernels, std::size_t vertex,
-                               std::size_t count) const noexcept {
+void StagedPlanes::write_rows(const Record& record, std::span<const Component> components,
+                              const KernelSet& kernels, std::size_t vertex,
+                              std::size_t count) const noexcept {
     while (!components.empty()) {
         std::size_t run = 1;
         while (run < components.size() && components[run].first == components[0].first + run) ++run;
@@ -64,8 +76,8 @@ void StagingBuffer::write_rows(const Record& record, std::span<const Component> 
     }
 }
 
-void StagingBuffer::write_values(const Record& record, std::span<const Component> components,
-                                 std::size_t vertex, std::size_t first, std::size_t last) const noexcept {
+void StagedPlanes::write_values(const Record& record, std::span<const Component> components,
+                                std::size_t vertex, std::size_t first, std::size_t last) const noexcept {
     const std::size_t step = record.stride_floats();
     for (const Component& component : components) {
         const float* const from = planes_ + component.value * stride_;
@@ -74,9 +86,9 @@ void StagingBuffer::write_values(const Record& record, std::span<const Component
     }
 }
 
-void StagingBuffer::weave(const Record& record, std::span<const Component> components,
-                          const KernelSet& kernels, std::size_t vertex, std::size_t count,
-                          bool ends) const noexcept {
+void StagedPlanes::weave(const Record& record, std::span<const Component> components,
+                         const KernelSet& kernels, std::size_t vertex, std::size_t count,
+                         bool ends) const noexcept {
     const std::size_t floats = record.stride_floats();
     bool non_temporal = record.in_lines;
     std::size_t peeled = 0;  // vertices before the first that begins a line

@@ -113,7 +113,7 @@ void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pos
                                  direction_[place] - limits.rest.direction + turned);
 }
 
-void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
+const RegionData& PosedGroup::take_region(std::size_t region) noexcept {
     const RegionData& details = body_.details[region];
     squeeze_ = details.squeeze;
     bare_ = details.setup.shaped ? Squeeze::shaped : Squeeze::none;
@@ -121,6 +121,18 @@ void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) n
     columns_.angle = angle_ + place_;
     columns_.direction = direction_ + place_;
     columns_.factor = factor_ + place_;
+    return details;
+}
+
+Squeeze PosedGroup::set_up(std::size_t region, LaneSetup setup, bool wrinkled, LaneCoefficients& k) noexcept {
+    const RegionData& details = take_region(region);
+    wrinkled = wrinkled && details.setup.rows != nullptr;
+    setup(details.setup, columns_, count_, wrinkled, k);
+    return wrinkled ? squeeze_ : bare_;
+}
+
+void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
+    const RegionData& details = take_region(region);
     setup_(details.setup, columns_, count_, wrinkled_ + place_, k, step);
 }
 

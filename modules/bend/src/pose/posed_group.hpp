@@ -65,6 +65,10 @@ public:
     /// of instance i go to k[i * step].
     void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
 
+    /// The same for kernels that deform several instances at a time, of which all wrinkle, or none does.
+    /// Returns which kernels serve them.
+    Squeeze set_up(std::size_t region, LaneSetup setup, bool wrinkled, LaneCoefficients& k) noexcept;
+
     /// Which kernels serve instance i in the region that was set up last.
     [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {
         return wrinkled_[place_ + i] ? squeeze_ : bare_;
@@ -73,11 +77,12 @@ public:
 private:
     PoseState add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
                   float weight) noexcept;
+    const RegionData& take_region(std::size_t region) noexcept;
     void set_identities() noexcept;
     void set_frames() noexcept;
     void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
 
-    static constexpr std::size_t max_poses = 96;
+    static constexpr std::size_t max_poses = 160;
     static_assert(max_poses >= max_regions);
     static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 

@@ -47,41 +47,45 @@ struct RestColumns {
 inline constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
 inline constexpr std::size_t arc_terms = 4;
 
-/// The numbers of one region of one instance. The map (eq 2-6) is evaluated in the frame of the arc's middle,
-/// where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset` then take it to the
-/// streams' space. The numbers come in rows of four floats, which set-up stores whole.
+/// The numbers of one region of one instance: see Coefficients. `Number` is a float; in goffer's own sources
+/// it is also an array of them, one for each of several instances. The map (eq 2-6) is evaluated in the frame
+/// of the arc's middle, where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset`
+/// then take it to the streams' space. The numbers come in rows of four floats, which set-up stores whole.
 /// See modules/paper/README.md, "Bend".
-struct alignas(16) Coefficients {
-    float cos_half_direction, sin_half_direction;  ///< of theta / 2
-    float one_minus_kappa;
-    float curvature;          ///< alpha / L
-    float arc_z[arc_terms];   ///< L sin delta / alpha = v sum arc_z[n] v^(2n), v = z / L - 1/2
-    float arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
-    float first_curvature;    ///< alpha / 2^doublings / L
-    float doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
-    float half_radius;        ///< r / 2, below which the depth weight falls
-    float handedness;         ///< -1 where `matrix` mirrors, else 1
-    float matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
-    float offset[4];          ///< the arc's middle in the streams' space
-    float normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
+template <class Number>
+struct alignas(16) CoefficientsOf {
+    Number cos_half_direction, sin_half_direction;  ///< of theta / 2
+    Number one_minus_kappa;
+    Number curvature;          ///< alpha / L
+    Number arc_z[arc_terms];   ///< L sin delta / alpha = v sum arc_z[n] v^(2n), v = z / L - 1/2
+    Number arc_x[arc_terms];   ///< L (1 - cos delta) / alpha = v^2 sum arc_x[n] v^(2n)
+    Number first_curvature;    ///< alpha / 2^doublings / L
+    Number doublings;          ///< arc_x and arc_z are for alpha / 2^doublings
+    Number half_radius;        ///< r / 2, below which the depth weight falls
+    Number handedness;         ///< -1 where `matrix` mirrors, else 1
+    Number matrix[12];         ///< n, b, t of the middle frame in the streams' space, each followed by a 0
+    Number offset[4];          ///< the arc's middle in the streams' space
+    Number normal_matrix[12];  ///< the cofactors of `matrix`, scaled and turned outward
     /// With h = sqrt(2) cos((beta - theta) / 2), h' = sqrt(2) sin((beta - theta) / 2) and T = h^2:
     /// Plain, with x = s T: A = |h| sqrt(s) sum of amplitude[n] x^n, and dA/dbeta = sign(h) h' sqrt(s) sum of
     /// amplitude_slope[n] x^n.
     /// Relative, with x = q^2 / (q + onset): A / S_0 = sqrt(x) sum of amplitude[n] x^n, and sum of
     /// amplitude_slope[n] x^n is its derivative by sqrt(x).
-    float amplitude[amplitude_terms];
-    float amplitude_slope[amplitude_terms];
+    Number amplitude[amplitude_terms];
+    Number amplitude_slope[amplitude_terms];
     /// What follows is for squeezes that are relative to those at rest; set_up() sets it to 0 elsewhere. With
     /// u = (cos beta, sin beta), the scales of a column at rest and in the pose, and its squeeze, are
     /// - S_0 = 1 - s (kappa_0 + rest_curl . u),
     /// - S = S_0 - s (kappa_change + curl_change . u),
     /// - q = 1 - S / S_0 = (kappa_change + curl_change . u) s / S_0.
-    float cos_direction, sin_direction;  ///< of theta
-    float rest_curl[2];
-    float curl_change[2];
-    float onset;         ///< > 0; after set_up(), 0 tells that squeezes are plain
-    float kappa_change;  ///< kappa - kappa_0
+    Number cos_direction, sin_direction;  ///< of theta
+    Number rest_curl[2];
+    Number curl_change[2];
+    Number onset;         ///< > 0; after set_up(), 0 tells that squeezes are plain
+    Number kappa_change;  ///< kappa - kappa_0
 };
+
+struct Coefficients : CoefficientsOf<float> {};
 
 /// Rows of four floats in Coefficients.
 inline constexpr std::size_t coefficient_rows = 17;
