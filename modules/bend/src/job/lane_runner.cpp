@@ -36,8 +36,8 @@ LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_te
       values_(plan_.value_count()),
       posed_(body_, kernels.setup, PosedGroup::capacity(body_.regions.size())) {
     // An odd number of lines per member, so that members do not compete for the same sets of the cache.
-    const std::size_t lines = max_lanes - values_ * tile_vertices;
-    stride_ = (lines / setup_width - 1) / values_ * line_floats;
+    const std::size_t lines = (max_lines - values_ * tile_vertices) / setup_width;
+    stride_ = (lines - 1) / values_ * line_floats;
     member_floats_ = (values_ * stride_ / line_floats | 1) * line_floats;
 }
 
@@ -139,7 +139,7 @@ void LaneRunner::take_tile_apart() noexcept {
 
 /// Writes what is in the planes, but for the beginnings of lines unless it `ends` there.
 void LaneRunner::write(bool ends) noexcept {
-    alignas(64) static constexpr float zeros[max_lanes / 3] = {};
+    alignas(64) static constexpr float zeros[max_lines / 3] = {};
     for (std::size_t i = 0; i < posed_.count(); ++i) {
         Member& member = members_[i];
         const std::size_t count = writable(member, ends);

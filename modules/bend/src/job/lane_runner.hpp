@@ -49,13 +49,13 @@ private:
     void write(bool ends) noexcept;
     [[nodiscard]] std::size_t writable(const Member& member, bool ends) const noexcept;
 
-    [[nodiscard]] InstanceLanes* tile() noexcept { return tile_and_planes_; }
+    [[nodiscard]] InstanceLanes* tile() noexcept { return reinterpret_cast<InstanceLanes*>(floats_); }
     [[nodiscard]] float* plane(std::size_t member, std::size_t value) noexcept {
-        return tile_and_planes_[values_ * tile_vertices] + member * member_floats_ + value * stride_;
+        return floats_ + values_ * tile_vertices * setup_width + member * member_floats_ + value * stride_;
     }
 
     /// Room for a tile of ten values, and for a line and a tile of each member's planes.
-    static constexpr std::size_t max_lanes = 496;
+    static constexpr std::size_t max_lines = 496;
     /// Of regions r - 1, r and r + 1, at their indices modulo 3.
     static constexpr std::size_t kept = 3;
 
@@ -74,9 +74,9 @@ private:
     std::size_t filled_ = 0;   // vertices in planes, behind those that waited
     std::size_t in_tile_ = 0;  // vertices in the tile
     Squeeze squeezes_[kept];
-    LaneCoefficients coefficients_[kept];
+    alignas(64) LaneCoefficients coefficients_[kept];
     LaneCoefficients neighbor_;
-    alignas(64) InstanceLanes tile_and_planes_[max_lanes];
+    alignas(64) float floats_[max_lines * line_floats];  // the tile, then planes
 };
 
 }  // namespace goffer::bend

@@ -77,8 +77,8 @@ constexpr std::size_t setup_width = 16;
 /// A number of each of many instances.
 using InstanceLanes = float[setup_width];
 
-/// The coefficients of one region of several instances.
-struct alignas(64) LaneCoefficients : CoefficientsOf<InstanceLanes> {
+/// The coefficients of one region of many instances.
+struct LaneCoefficients : CoefficientsOf<InstanceLanes> {
     InstanceLanes most_doublings;  ///< the largest of `doublings`, in each lane
 };
 
