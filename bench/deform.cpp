@@ -155,7 +155,7 @@ void register_deform(Fixture& fixture) {
             }
         }
     }
-    // Within the cache, for pairs.
+    // Its output stays in the cache: the gate compares it in pairs.
     for (const Isa isa : built_isas()) {
         if (runs_here(isa))
             register_case(fixture, "deform", "crowd500x200-joints8",

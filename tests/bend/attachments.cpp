@@ -171,6 +171,25 @@ TEST_CASE("capsules hold every vertex, and more of them fit closer") {
     CHECK(before[2] <= before[1]);
 }
 
+TEST_CASE("capsules are no thicker than the body and the bulge of its arc") {
+    Random random(58);
+    std::vector<bend::RestVertex> vertices(200);
+    for (bend::RestVertex& v : vertices)
+        v = {.beta = uniform(random, -3, 3), .z = uniform(random, 0, 1), .rho = 0.1};
+    const std::vector<bend::RestVector> normals(vertices.size(), {1, 0, 0});
+    const bend::Body body = bare_body(vertices, normals);
+    for (const float angle : {0.0f, 0.5f, 1.0f, 2.0f}) {
+        for (const std::size_t pieces : {1u, 3u, 10u}) {
+            std::vector<bend::Capsule> chain(pieces);
+            bend::capsules({.body = &body, .pose = {angle, 1}}, pieces, chain);
+            const double turn = static_cast<double>(angle) / static_cast<double>(pieces);
+            const double arc = 1.0 / static_cast<double>(pieces);
+            for (const bend::Capsule& capsule : chain)
+                CHECK(static_cast<double>(capsule.radius) <= 0.1 + arc * turn / 8 + 1e-5);
+        }
+    }
+}
+
 TEST_CASE("poses along a path: the center line follows it, the better the more regions there are") {
     Random random(85);
     const TestMesh test_mesh = random_mesh(random, 30, 10, 12, 65, 0);

@@ -167,6 +167,24 @@ TEST_CASE("masks and intervals are read from columns, and what has no turn is no
     }
 }
 
+TEST_CASE("pieces share what is not skipped equally") {
+    constexpr std::size_t count = 120, pieces = 5;
+    Random random(104);
+    const bend::Body body = loose_body(random, 50);
+    const std::vector<bend::Pose> poses(count);
+    std::vector<std::uint8_t> visible(count);
+    for (std::size_t i = 0; i < count; ++i) visible[i] = i % 3 == 0 ? 1 : 0;
+    OutputBuffer out("x y z", count * body.vertex_count());
+    bend::Batch batch{.body = &body, .count = count};
+    batch.poses = strided(std::span(poses));
+    batch.visible = strided(std::span(std::as_const(visible)));
+    batch.vertex_step = body.vertex_count();
+    out.attach(batch);
+    const bend::CrowdJob crowd{.batches = {&batch, 1}};
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+        CHECK(bend::run_piece(crowd, piece, pieces).deformed == count / 3 / pieces);
+}
+
 TEST_CASE("every n-th frame: each instance has its turn, and the turns are spread") {
     Random random(86);
     const bend::Body body = loose_body(random, 20);

@@ -311,6 +311,15 @@ TEST_CASE("P7: columns that are not aligned to what they hold are named") {
           "poses alignment, batch 1");
 }
 
+TEST_CASE("P7: it is the sum of address and offset that has to be aligned") {
+    const std::array<bend::Pose, 129> poses{};
+    CHECK(told(crowd_fault_after([&](SpoiledCrowd&, Batch& b) {
+              b.poses.data = reinterpret_cast<const char*>(&poses[0]) + 1;
+              b.poses.offset = sizeof(bend::Pose) - 1;
+              b.poses.count = b.count;
+          })) == "none");
+}
+
 TEST_CASE("P7: pages that are null or not aligned are named, and layouts that there are not") {
     const std::array<bend::Pose, 64> poses{};
     std::array<const void*, 2> pages{&poses[0], &poses[32]};

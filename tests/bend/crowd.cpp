@@ -236,6 +236,11 @@ TEST_CASE("a batch of one reads from its job, which may change from frame to fra
     }
     const MixedCrowd::Expected expected = crowd.expected(Isa::automatic);
     check_crowd(crowd, expected, [&] { return bend::run(bend::CrowdJob{.batches = crowd.batches}); });
+    for (const bend::Batch& batch : crowd.batches) {
+        CHECK(batch.count == 1);
+        CHECK(batch.poses.count == 1);
+        CHECK(batch.previous_poses.count == 1);
+    }
 }
 
 TEST_CASE("a batch of no instances is no fault and no work, and needs no buffer") {

@@ -68,7 +68,7 @@ struct PoseOutputs {
         return found;
     }
 
-    /// Runs instances of the job in a batch that asks for what many at a time are deformed for.
+    /// Runs nine instances of the job as a batch that may be deformed many instances at a time.
     static void run_many(const bend::DeformJob& job) {
         constexpr std::size_t count = 9;
         OutputBuffer many("x y z u v w", count * job.body->vertex_count());

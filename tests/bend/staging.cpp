@@ -36,11 +36,36 @@ TEST_CASE("a staging buffer has room for whole units behind every plane") {
         std::erase(planes, nullptr);
         CHECK(planes.size() == plan.value_count());
         std::ranges::sort(planes);
-        planes.push_back(planes.back() + (planes[1] - planes[0]));  // that of zeros
         planes.push_back(reinterpret_cast<const float*>(&stage + 1));
         for (std::size_t i = 0; i + 1 < planes.size(); ++i)
             CHECK(planes[i] + stage.capacity() + bend::max_unit <= planes[i + 1]);
         CHECK(planes[0] >= reinterpret_cast<const float*>(&stage));
+    }
+}
+
+TEST_CASE("each layout is written on its way") {
+    using Mode = bend::WriteMode;
+    struct Case {
+        std::string_view picture;
+        Mode mode;
+    };
+    Random random(47);
+    LayoutCase test_mesh(random, loose_body(random, 40));
+    for (const Case& one : {Case{"x y z", Mode::planes},
+                            {"x y z u v w a b c d", Mode::planes},
+                            {"xyz", Mode::records},
+                            {"xyzuvw", Mode::records},
+                            {"123", Mode::records},
+                            {"xyz uvw", Mode::staged},
+                            {"xyz.", Mode::staged},
+                            {"xyzpqr", Mode::staged},
+                            {"uvwxyz", Mode::staged},
+                            {"xyzuvwabcd", Mode::staged}}) {
+        CAPTURE(one.picture);
+        OutputBuffer out(one.picture, test_mesh.count());
+        const bend::Batch batch = bend::batch_of(test_mesh.job(out));
+        const bend::OutputPlan plan(batch, bend::kernels(Isa::automatic), false);
+        for (const bend::PassPlan& pass : plan.passes()) CHECK(pass.mode == one.mode);
     }
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("animate: frames of keys are those of bend in the same poses, bit for 
         report(folder, {"animate", "base.ply", "-o", "f%d.ply", "--keys", "keys.json", "--fps", "4"});
     CHECK(all["frames"] == 9);
     CHECK(all["fps"] == 4.0);
-    CHECK(all["largest_angle"].get<double>() == doctest::Approx(60));
+    CHECK(all["reached_angle"].get<double>() == doctest::Approx(60));
     CHECK(all["clamped_frames"] == 0);
     CHECK(std::abs(all["worst_area_change"].get<double>()) < 1e-3);
     CHECK(files_of(folder, "f").size() == 9);

@@ -110,12 +110,12 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     return growth;
 }
 
-void report_growth(Report& report, const Growth& growth) {
-    report.json["refined"] = {{"folds", growth.folds},
-                              {"vertices_before", growth.vertices_before},
-                              {"vertices_after", growth.vertices_after},
-                              {"triangles_before", growth.triangles_before},
-                              {"triangles_after", growth.triangles_after}};
+void report_growth(Report& report, const Growth& growth, nlohmann::ordered_json& json) {
+    json["refined"] = {{"folds", growth.folds},
+                       {"vertices_before", growth.vertices_before},
+                       {"vertices_after", growth.vertices_after},
+                       {"triangles_before", growth.triangles_before},
+                       {"triangles_after", growth.triangles_after}};
     report.line("refined", "from " + std::to_string(growth.triangles_before) + " to " +
                                std::to_string(growth.triangles_after) + " triangles, from " +
                                std::to_string(growth.vertices_before) + " to " +

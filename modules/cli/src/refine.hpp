@@ -8,6 +8,8 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <functional>
 
@@ -29,7 +31,11 @@ struct Growth {
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
               const mesh::Limits& limits, bool sparing, const std::function<void(double)>& progress = {});
 
-/// The growth, as a line and as "refined" in the JSON. Warns where there was no fold to refine for.
-void report_growth(Report& report, const Growth& growth);
+/// The growth, as a line and as "refined" in `json`: the report's, or that of a model in it. Warns where
+/// there was no fold to refine for.
+void report_growth(Report& report, const Growth& growth, nlohmann::ordered_json& json);
+inline void report_growth(Report& report, const Growth& growth) {
+    report_growth(report, growth, report.json);
+}
 
 }  // namespace goffer::cli

@@ -31,33 +31,6 @@ JointBlend blend_between(const RegionInput& own, const RegionInput& neighbor, do
     return joint;
 }
 
-void take(float from, float factor, float& to) noexcept {
-    to = factor * from;
-}
-
-void take(const InstanceLanes& from, float factor, InstanceLanes& to) noexcept {
-    for (std::size_t i = 0; i < setup_width; ++i) to[i] = factor * from[i];
-}
-
-template <class K>
-void take(const K& neighbor, const JointBlend& joint, bool relative, K& own) noexcept {
-    for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        take(neighbor.amplitude[n], joint.gain[n], own.amplitude[n]);
-        take(neighbor.amplitude_slope[n], joint.gain[n], own.amplitude_slope[n]);
-    }
-    take(neighbor.cos_half_direction, 1, own.cos_half_direction);
-    take(neighbor.sin_half_direction, 1, own.sin_half_direction);
-    if (!relative) return;
-    take(neighbor.cos_direction, 1, own.cos_direction);
-    take(neighbor.sin_direction, 1, own.sin_direction);
-    take(neighbor.onset, 1, own.onset);
-    take(neighbor.kappa_change, joint.squeeze, own.kappa_change);
-    for (std::size_t n = 0; n < 2; ++n) {
-        take(neighbor.rest_curl[n], 1, own.rest_curl[n]);
-        take(neighbor.curl_change[n], joint.squeeze, own.curl_change[n]);
-    }
-}
-
 }  // namespace
 
 Joints joints_of(std::span<const RegionInput> regions, std::size_t r, double radius) noexcept {
@@ -95,12 +68,21 @@ bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first
 
 void set_as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative,
                 Coefficients& own) noexcept {
-    take(neighbor, joint, relative, own);
-}
-
-void set_as_own(const LaneCoefficients& neighbor, const JointBlend& joint, bool relative,
-                LaneCoefficients& own) noexcept {
-    take(neighbor, joint, relative, own);
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        own.amplitude[n] = joint.gain[n] * neighbor.amplitude[n];
+        own.amplitude_slope[n] = joint.gain[n] * neighbor.amplitude_slope[n];
+    }
+    own.cos_half_direction = neighbor.cos_half_direction;
+    own.sin_half_direction = neighbor.sin_half_direction;
+    if (!relative) return;
+    own.cos_direction = neighbor.cos_direction;
+    own.sin_direction = neighbor.sin_direction;
+    own.onset = neighbor.onset;
+    own.kappa_change = joint.squeeze * neighbor.kappa_change;
+    for (std::size_t n = 0; n < 2; ++n) {
+        own.rest_curl[n] = neighbor.rest_curl[n];
+        own.curl_change[n] = joint.squeeze * neighbor.curl_change[n];
+    }
 }
 
 }  // namespace goffer::bend

@@ -53,7 +53,5 @@ struct Joints {
 /// waits until what was written before, past the cache too, is in memory. `relative`: the squeezes are.
 void set_as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative,
                 Coefficients& own) noexcept;
-void set_as_own(const LaneCoefficients& neighbor, const JointBlend& joint, bool relative,
-                LaneCoefficients& own) noexcept;
 
 }  // namespace goffer::bend

@@ -77,8 +77,7 @@ void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last)
     const bool whole = first == 0 && last == body_.vertex_count;
     if (!whole) finish();
     const std::size_t element = element_of(batch_, instance);
-    const std::size_t vertex = batch_.vertex_offsets.empty() ? instance * batch_.vertex_step
-                                                             : std::size_t{batch_.vertex_offsets[element]};
+    const std::size_t vertex = first_vertex_of(batch_, instance);
     gathered_[gathered_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
     const bool begins = first == 0 && last != 0;
     gather(element, begins);
@@ -99,10 +98,7 @@ void BatchRunner::finish() noexcept {
 void BatchRunner::gather(std::size_t element, bool count_pose) noexcept {
     const PoseState state = posed_now_ ? posed_.add(batch_, element, Time::now)
                                        : state_of(body_, {batch_.poses.at(element), regions_});
-    if (!count_pose) return;
-    ++result_.deformed;
-    result_.clamped += state.clamped ? 1 : 0;
-    result_.at_rest += state.at_rest ? 1 : 0;
+    if (count_pose) count(state, result_);
 }
 
 /// Deforms the vertices [first, last) of the group that is set up, if there is one.

@@ -13,6 +13,13 @@
 #include <atomic>
 #include <cassert>
 
+/// Not inlined, so that the stack holds one runner at a time.
+#ifdef _MSC_VER
+#define GOFFER_OWN_FRAME __declspec(noinline)
+#else
+#define GOFFER_OWN_FRAME [[gnu::noinline]]
+#endif
+
 namespace goffer::bend {
 namespace {
 
@@ -92,17 +99,18 @@ bool is_non_temporal(const CrowdJob& job, std::size_t bytes) noexcept {
 }
 
 /// Deforms the whole instances [first, last), many at a time.
-CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, std::size_t first, std::size_t last,
-                      bool non_temporal) noexcept {
+GOFFER_OWN_FRAME CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, std::size_t first,
+                                       std::size_t last, bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
     CrowdResult result;
     for (const bool wrinkled : {true, false}) {
         if (!wrinkled && batch.wrinkle_weights.empty()) continue;
         LaneRunner runner(batch, kernels(job.isa), non_temporal, wrinkled);
         for (std::size_t i = first; i < last; ++i) {
+            if (!active[i]) continue;
             const bool wrinkles =
                 batch.wrinkle_weights.empty() || batch.wrinkle_weights[element_of(batch, i)] > 0;
-            if (wrinkles == wrinkled && active[i]) runner.add(i);
+            if (wrinkles == wrinkled) runner.add(i);
         }
         runner.finish();
         result += runner.result();
@@ -110,9 +118,26 @@ CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, std::size_t first
     return result;
 }
 
+/// The same with previous positions, which are the positions of a batch that is now where this one was.
+/// Whatever lies between the values of one of the two may belong to the other.
+CrowdResult run_lanes_twice(const Batch& batch, const CrowdJob& job, std::size_t first, std::size_t last,
+                            bool non_temporal) noexcept {
+    Batch now = batch;
+    now.previous_positions = {};
+    now.scratch_gaps = false;
+    Batch before = now;
+    before.poses = batch.previous_poses;
+    before.transforms = batch.previous_transforms;
+    before.positions = batch.previous_positions;
+    before.normals = {};
+    before.tangents = {};
+    run_lanes(before, job, first, last, non_temporal);
+    return run_lanes(now, job, first, last, non_temporal);
+}
+
 /// Deforms a batch from one of its places to another, one instance at a time.
-CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, Place to,
-                           bool non_temporal) noexcept {
+GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, Place to,
+                                            bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
     const std::size_t vertices = batch.body->vertex_count();
     BatchRunner runner(batch, kernels(job.isa), non_temporal);
@@ -125,14 +150,17 @@ CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, 
     return runner.result();
 }
 
+/// Deforms a batch from one of its places to another.
 CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
                       bool non_temporal) noexcept {
     const std::size_t first = from.instance + (from.vertex != 0 ? 1 : 0);
-    if (!LaneRunner::suits(batch, kernels(job.isa)) || first >= to.instance)
+    const std::size_t whole = to.instance - std::min(first, to.instance);
+    if (!LaneRunner::suits(batch, whole, kernels(job.isa)))
         return run_one_by_one(batch, job, from, to, non_temporal);
     CrowdResult result;
     if (from.vertex != 0) result += run_one_by_one(batch, job, from, {from.batch, first, 0}, non_temporal);
-    result += run_lanes(batch, job, first, to.instance, non_temporal);
+    const auto run_whole = batch.previous_positions.empty() ? run_lanes : run_lanes_twice;
+    result += run_whole(batch, job, first, to.instance, non_temporal);
     if (to.vertex != 0) result += run_one_by_one(batch, job, {to.batch, to.instance, 0}, to, non_temporal);
     return result;
 }

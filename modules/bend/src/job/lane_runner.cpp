@@ -4,25 +4,28 @@
 #include "output/staging_buffer.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 namespace goffer::bend {
 
 static_assert(sizeof(LaneRunner) <= std::size_t{56} << 10, "crowd.hpp states how much stack a run takes");
 
-/// Measured with AVX2 and AVX-512. What a region costs beside its vertices has to outweigh the way through
-/// tiles and planes, which takes as long for every vertex as half of a kernel.
-bool LaneRunner::suits(const Batch& batch, const KernelSet& kernels) noexcept {
-    constexpr std::size_t few_with_joints = 60, few = 25, min_regions = 3, min_instances = setup_width / 2;
-    const bool possible = kernels.lane_setup != nullptr && batch.packed.empty() && batch.bounds.empty() &&
-                          batch.previous_positions.empty();
-    if (!possible || batch.count < min_instances) return false;
+/// The limits are measured, with AVX2 and AVX-512: what a call of a kernel, a joint and a half-filled
+/// register cost has to outweigh what tiles and planes cost. A body of two regions without joints has too few
+/// of the former.
+bool LaneRunner::suits(const Batch& batch, std::size_t instances, const KernelSet& kernels) noexcept {
+    constexpr std::size_t few_with_joints = 60, few = 25, min_regions = 3, min_together = setup_width / 2;
+    if (kernels.lane_setup == nullptr || !batch.packed.empty() || !batch.bounds.empty()) return false;
+    if (batch.positions.empty() && batch.normals.empty() && batch.tangents.empty()) return false;
     const BodyData& body = *batch.body->data();
     const std::size_t regions = body.regions.size();
+    if (std::min(instances, PosedGroup::capacity(regions)) < min_together) return false;
     const bool joints = std::ranges::any_of(
         body.details, [](const RegionData& region) { return region.joints.above.blends(); });
-    return joints ? body.vertex_count <= few_with_joints * regions
-                  : regions >= min_regions && body.vertex_count <= few * regions;
+    const bool twice = !batch.previous_positions.empty();
+    if (joints) return body.vertex_count <= few_with_joints * regions && !(twice && batch.scratch_gaps);
+    return regions >= min_regions && body.vertex_count <= few * regions && !twice;
 }
 
 LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal,
@@ -31,10 +34,11 @@ LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_te
       body_(*batch.body->data()),
       kernels_(kernels),
       plan_(batch, kernels, non_temporal),
+      pass_(plan_.passes()[0]),
       wrinkled_(wrinkled),
-      streams_(plan_.passes()[0].streams),
       values_(plan_.value_count()),
-      posed_(body_, kernels.setup, PosedGroup::capacity(body_.regions.size())) {
+      posed_(body_, nullptr, PosedGroup::capacity(body_.regions.size())) {
+    assert(plan_.passes().size() == 1);
     // An odd number of lines per member, so that members do not compete for the same sets of the cache.
     const std::size_t lines = (max_lines - values_ * tile_vertices) / setup_width;
     stride_ = (lines - 1) / values_ * line_floats;
@@ -42,14 +46,9 @@ LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_te
 }
 
 void LaneRunner::add(std::size_t instance) noexcept {
-    const std::size_t element = element_of(batch_, instance);
-    const std::size_t vertex = batch_.vertex_offsets.empty() ? instance * batch_.vertex_step
-                                                             : std::size_t{batch_.vertex_offsets[element]};
+    const std::size_t vertex = first_vertex_of(batch_, instance);
     members_[posed_.count()] = {vertex, plan_.peeled(vertex), 0, 0};
-    const PoseState state = posed_.add(batch_, element, Time::now);
-    ++result_.deformed;
-    result_.clamped += state.clamped ? 1 : 0;
-    result_.at_rest += state.at_rest ? 1 : 0;
+    count(posed_.add(batch_, element_of(batch_, instance), Time::now), result_);
     if (posed_.count() == PosedGroup::capacity(body_.regions.size())) finish();
 }
 
@@ -66,14 +65,16 @@ void LaneRunner::finish() noexcept {
     posed_.clear();
 }
 
-/// Asks early for the lines that members do not write whole: they must be read first.
+/// Asks early for the first and the last line of a member where they are not written whole: they must be read
+/// first.
 void LaneRunner::prefetch_ends() const noexcept {
     for (const Record& record : plan_.records()) {
         const std::size_t step = record.stride_floats();
         for (std::size_t i = 0; i < posed_.count(); ++i) {
-            const float* const first = record.first + members_[i].vertex * step;
-            kernels_.prefetch(first);
-            kernels_.prefetch(first + body_.vertex_count * step - 1);
+            const std::size_t vertex = members_[i].vertex, end = vertex + body_.vertex_count;
+            if (record.to_line(vertex) != 0) kernels_.prefetch(record.first + vertex * step);
+            if (record.to_line(end) != 0)
+                kernels_.prefetch(record.first + (end - 1) * step + record.floats - 1);
         }
     }
 }
@@ -89,18 +90,17 @@ void LaneRunner::deform(std::size_t region) noexcept {
     const std::size_t last = body_.regions[region].last;
     const LaneCoefficients& k = coefficients_[region % kept];
     const Squeeze squeeze = squeezes_[region % kept];
-    const LaneKernel bend = kernels_.lane_kernel(squeeze, streams_);
+    const LaneKernel bend = kernels_.lane_kernel(squeeze, pass_.streams);
     const auto bend_some = [&](std::size_t begin, std::size_t count, InstanceLanes* to) {
         bend(body_.columns, k, begin, count, to);
     };
     if (squeeze == Squeeze::none) return fill_tiles(first, last, bend_some);
-    const LaneBlendKernel blend = kernels_.lane_blend_kernel(squeeze, streams_);
+    const LaneBlendKernel blend = kernels_.lane_blend_kernel(squeeze, pass_.streams);
     const auto blend_all = [&](const Joint& joint, std::size_t begin, std::size_t end) {
         if (begin >= end) return;
-        set_as_own(coefficients_[joint.neighbor % kept], joint.blend, squeeze == Squeeze::relative,
-                   neighbor_);
+        const LaneCoefficients& neighbor = coefficients_[joint.neighbor % kept];
         fill_tiles(begin, end, [&](std::size_t from, std::size_t count, InstanceLanes* to) {
-            blend(body_.columns, k, neighbor_, joint.blend, from, count, to);
+            blend(body_.columns, k, neighbor, joint.blend, from, count, to);
         });
     };
     const auto& [below, above] = body_.details[region].joints;
@@ -123,8 +123,8 @@ void LaneRunner::fill_tiles(std::size_t first, std::size_t last, const Kernel& k
     }
 }
 
-/// Appends the vertices of the tile to the planes of each member. A tile that is not full fills its room,
-/// too.
+/// Appends the vertices of the tile to the planes of each member. Writes all tile_vertices, even if there are
+/// fewer; less than a line waits before them.
 void LaneRunner::take_tile_apart() noexcept {
     if (filled_ + line_floats + tile_vertices > stride_) write(false);
     for (std::size_t value = 0; value < values_; ++value) {
@@ -137,30 +137,24 @@ void LaneRunner::take_tile_apart() noexcept {
     in_tile_ = 0;
 }
 
-/// Writes what is in the planes, but for the beginnings of lines unless it `ends` there.
+/// Writes what is in the planes. Unless the instances end there, the beginnings of lines wait; a tile of them
+/// is still to come, so that no write but the last one reaches the gap behind an instance.
 void LaneRunner::write(bool ends) noexcept {
-    alignas(64) static constexpr float zeros[max_lines / 3] = {};
+    const bool in_lines = plan_.non_temporal() && !ends;
     for (std::size_t i = 0; i < posed_.count(); ++i) {
         Member& member = members_[i];
-        const std::size_t count = writable(member, ends);
-        if (count != 0) {
-            const StagedPlanes planes(plane(i, 0), stride_, zeros);
-            planes.write(plan_, kernels_, member.vertex + member.written, count, ends);
-        }
+        const std::size_t available = member.waiting + filled_;
+        // Never less than a line, which peeled vertices are.
+        const std::size_t waiting = in_lines ? (member.written + available - member.peeled) % line_floats : 0;
+        const std::size_t count = available - waiting;
+        StagedPlanes(plane(i, 0), stride_)
+            .write(plan_, kernels_, pass_.mode, member.vertex + member.written, count, ends);
         member.written += count;
-        member.waiting = member.waiting + filled_ - count;
-        for (std::size_t value = 0; value < values_ && !ends && count != 0; ++value)
-            std::memmove(plane(i, value), plane(i, value) + count, member.waiting * sizeof(float));
+        member.waiting = waiting;
+        for (std::size_t value = 0; value < values_; ++value)
+            std::memmove(plane(i, value), plane(i, value) + count, waiting * sizeof(float));
     }
     filled_ = 0;
-}
-
-/// How many of the vertices in a member's planes can be written.
-std::size_t LaneRunner::writable(const Member& member, bool ends) const noexcept {
-    const std::size_t available = member.waiting + filled_, end = member.written + available;
-    if (ends || !plan_.non_temporal()) return available;
-    if (end < member.peeled + line_floats) return 0;
-    return available - (end - member.peeled) % line_floats;
 }
 
 }  // namespace goffer::bend

@@ -18,8 +18,10 @@ namespace goffer::bend {
 /// and what is left of a line waits for the next tiles. Lives on the stack and takes at most 56 KB.
 class LaneRunner {
 public:
-    /// Whether it can deform instances of the batch, and a BatchRunner would take longer.
-    [[nodiscard]] static bool suits(const Batch& batch, const KernelSet& kernels) noexcept;
+    /// Whether it can deform that many instances of the batch, and a BatchRunner would take longer. Of
+    /// previous positions that is meant of a batch that has them as its positions.
+    [[nodiscard]] static bool suits(const Batch& batch, std::size_t instances,
+                                    const KernelSet& kernels) noexcept;
 
     /// `wrinkled`: the instances that will be added have weights above 0; otherwise none has. `non_temporal`:
     /// whole lines go past the cache, and the caller must fence them.
@@ -47,15 +49,15 @@ private:
     void fill_tiles(std::size_t first, std::size_t last, const Kernel& kernel) noexcept;
     void take_tile_apart() noexcept;
     void write(bool ends) noexcept;
-    [[nodiscard]] std::size_t writable(const Member& member, bool ends) const noexcept;
 
     [[nodiscard]] InstanceLanes* tile() noexcept { return reinterpret_cast<InstanceLanes*>(floats_); }
     [[nodiscard]] float* plane(std::size_t member, std::size_t value) noexcept {
         return floats_ + values_ * tile_vertices * setup_width + member * member_floats_ + value * stride_;
     }
 
-    /// Room for a tile of ten values, and for a line and a tile of each member's planes.
-    static constexpr std::size_t max_lines = 496;
+    /// Room for a tile of ten values, two lines of them for each member, and one that makes that odd.
+    static constexpr std::size_t max_values = 10;
+    static constexpr std::size_t max_lines = max_values * tile_vertices + setup_width * (2 * max_values + 1);
     /// Of regions r - 1, r and r + 1, at their indices modulo 3.
     static constexpr std::size_t kept = 3;
 
@@ -63,8 +65,8 @@ private:
     const BodyData& body_;
     const KernelSet& kernels_;
     OutputPlan plan_;
+    const PassPlan& pass_;  // the only one of the plan
     bool wrinkled_;
-    StreamSet streams_;
     std::size_t values_;         // per vertex
     std::size_t stride_;         // floats from one plane of a member to the next
     std::size_t member_floats_;  // from one member's planes to the next's
@@ -75,7 +77,6 @@ private:
     std::size_t in_tile_ = 0;  // vertices in the tile
     Squeeze squeezes_[kept];
     alignas(64) LaneCoefficients coefficients_[kept];
-    LaneCoefficients neighbor_;
     alignas(64) float floats_[max_lines * line_floats];  // the tile, then planes
 };
 

@@ -150,8 +150,8 @@ struct SetupColumns {
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 
-/// The same for kernels that deform many instances at a time. Sets all lanes; those behind `count` are of no
-/// use. `wrinkled`: of all instances.
+/// The same for kernels that deform many instances at a time. Lanes from `count` on are finite and without
+/// wrinkles, so that kernels may compute with them. `wrinkled`: of all instances.
 using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count, bool wrinkled,
                            LaneCoefficients& k);
 
@@ -159,13 +159,13 @@ using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, std
 /// tile[c * tile_vertices + v]. Values are those of a kernel's vectors, one after the other.
 constexpr std::size_t tile_vertices = line_floats;
 
-/// Deforms the vertices [first, first + count) of all instances into the first `count` places of `tile`. May
-/// be called with a pointer to another place of a tile: there must be room for all of the vertices behind it.
+/// Deforms the vertices [first, first + count) of all instances into the first `count` places of `tile`,
+/// which may point to a later place of a tile, if there is room for them.
 using LaneKernel = void (*)(const RestColumns& rest, const LaneCoefficients& k, std::size_t first,
                             std::size_t count, InstanceLanes* tile);
 
-/// The same for vertices of which some are near the joint that `joint` tells of. `neighbor` has what
-/// set_as_own() sets of the region beyond it.
+/// The same for vertices of which some are near the joint that `joint` tells of. `neighbor`: those
+/// of the region beyond it.
 using LaneBlendKernel = void (*)(const RestColumns& rest, const LaneCoefficients& own,
                                  const LaneCoefficients& neighbor, const JointBlend& joint, std::size_t first,
                                  std::size_t count, InstanceLanes* tile);
@@ -187,7 +187,8 @@ struct KernelSet {
     CopyLines copy_lines;
     WriteRows write_rows[max_woven + 1];  ///< indexed by the floats of a row; null where there is none
     Setup setup;
-    /// These are null where instances are always deformed one at a time, and for packed vertices.
+    /// These are null where instances are always deformed one at a time, for packed vertices, and for
+    /// blending without wrinkles.
     LaneKernel lanes[squeeze_count][stream_set_count];
     LaneBlendKernel lane_blending[squeeze_count][stream_set_count];
     LaneSetup lane_setup;

@@ -7,8 +7,9 @@
 
 /// Kernels for vertices near a joint, where the wrinkles of two regions pass into each other. They wrinkle
 /// the rest columns, and leave the bend to the kernel without wrinkles: the map is one after the other. That
-/// takes half as long again as a kernel of both, but a kernel of both would need copies for all streams. See
-/// modules/paper/README.md, "Folds over joints".
+/// takes half as long again as a kernel of both, but a kernel of both would need copies for all streams.
+/// (Those of lane_kernel.hpp, which write to one place alone, are of both.) See modules/paper/README.md,
+/// "Folds over joints".
 
 namespace goffer::bend {
 

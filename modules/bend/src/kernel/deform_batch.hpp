@@ -288,7 +288,7 @@ Vector<L> bend_normals(const Rest& rest, const K& k, const Bent<L>& b, const Jac
     if constexpr (squeeze == Squeeze::none) {
         return place_direction<L>(k, k.normal_matrix, b, b.stretch * rho, b.stretch * beta, z);
     } else {
-        const Vec n = b.stretch * (j.growth * rho);  // in this order, as blend_wrinkles has it
+        const Vec n = b.stretch * (j.growth * rho);  // in this order, as blend_batch has it
         const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
         const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
         return place_direction<L>(k, k.normal_matrix, b, n, bt, t);

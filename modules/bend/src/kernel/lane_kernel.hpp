@@ -13,8 +13,7 @@
 
 namespace goffer::bend {
 
-/// Lanes that are instances: a coefficient is a number of each lane, and the value of a column is that of
-/// all.
+/// Lanes that are instances. A coefficient has a number per lane; a column has one value for all lanes.
 template <class L>
 struct LanesOfInstances : L {
     static_assert(setup_width % L::width == 0);
@@ -25,7 +24,8 @@ struct LanesOfInstances : L {
     static Vec load(const InstanceLanes* column) { return L::load(*column); }
 };
 
-/// What has lane `lane` of these coefficients as its first one, and as many as a register has.
+/// The coefficients from instance `lane` on, of as many instances as a register has. What it refers to is no
+/// object of its own: of each number, that many lanes may be read.
 template <class L>
 const LaneCoefficients& from_lane(const LaneCoefficients& k, std::size_t lane) {
     return reinterpret_cast<const LaneCoefficients&>(reinterpret_cast<const float*>(&k)[lane]);
@@ -37,7 +37,7 @@ void double_arc(const LaneCoefficients& k, Bent<L>& b) {
     using Vec = typename L::Vec;
     Vec curvature = L::splat(k.first_curvature), left = L::splat(k.doublings);
     const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
-    for (float n = 0; n < k.most_doublings[0]; ++n) {
+    for (float n = 0; n < k.most_doublings[0]; ++n) {  // the same in all lanes
         const Vec cosine = L::nmadd(curvature, b.arc_x, one);
         b.arc_x = L::where_less(zero, left, curvature * b.arc_z * b.arc_z, b.arc_x);
         b.arc_z = L::where_less(zero, left, b.arc_z * cosine, b.arc_z);
@@ -77,34 +77,62 @@ GOFFER_FLATTENED void bend_lanes(const RestColumns& columns, const LaneCoefficie
 }
 
 /// A column whose value for each instance is `lanes`, whatever the vertex.
+template <class L>
 struct LaneColumn {
     const InstanceLanes& lanes;
     const InstanceLanes* operator+(std::size_t /*vertex*/) const { return &lanes; }
 };
 
 /// What a vertex near a joint has of its wrinkle, of as many instances as a register has.
+template <class L>
 struct WrinkledLanes {
     alignas(64) InstanceLanes rho, normal[3], tangent[3], nothing = {};
 };
 
 /// The columns of such a vertex: rho and directions are those of each instance, and nothing is added to them.
-/// Not a RestColumns for others, which would read the body's own.
+/// Inherits privately, so that nobody reads the body's rho and directions through it.
+template <class L>
 class WrinkledColumns : private RestColumns {
 public:
-    WrinkledColumns(const RestColumns& rest, const WrinkledLanes& lanes) : RestColumns(rest), of(lanes) {}
+    WrinkledColumns(const RestColumns& rest, const WrinkledLanes<L>& lanes) : RestColumns(rest), of(lanes) {}
 
     using RestColumns::cos_beta, RestColumns::sin_beta, RestColumns::cos_half_beta,
         RestColumns::sin_half_beta;
     using RestColumns::height, RestColumns::tangent_sign, RestColumns::scale, RestColumns::drift;
     using RestColumns::rest_cosine, RestColumns::rest_sine, RestColumns::rest_scale;
 
-    const WrinkledLanes& of;
-    LaneColumn rho = {of.rho};
-    LaneColumn normal[3] = {{of.normal[0]}, {of.normal[1]}, {of.normal[2]}};
-    LaneColumn tangent[3] = {{of.tangent[0]}, {of.tangent[1]}, {of.tangent[2]}};
-    LaneColumn radial_offset = {of.nothing}, wrinkle = {of.nothing}, slope = {of.nothing},
-               taper = {of.nothing};
+    const WrinkledLanes<L>& of;
+    LaneColumn<L> rho = {of.rho};
+    LaneColumn<L> normal[3] = {{of.normal[0]}, {of.normal[1]}, {of.normal[2]}};
+    LaneColumn<L> tangent[3] = {{of.tangent[0]}, {of.tangent[1]}, {of.tangent[2]}};
+    LaneColumn<L> radial_offset = {of.nothing}, wrinkle = {of.nothing}, slope = {of.nothing},
+                  taper = {of.nothing};
 };
+
+/// Sets what set_as_own() sets, of as many instances as a register has.
+template <class L, bool relative>
+void set_lanes_as_own(const LaneCoefficients& neighbor, const JointBlend& joint, LaneCoefficients& own) {
+    const auto take = [](const InstanceLanes& from, float factor, InstanceLanes& to) {
+        L::store(to, L::splat(factor) * L::load(from));
+    };
+    const auto copy = [](const InstanceLanes& from, InstanceLanes& to) { L::store(to, L::load(from)); };
+    for (std::size_t n = 0; n < amplitude_terms; ++n) {
+        take(neighbor.amplitude[n], joint.gain[n], own.amplitude[n]);
+        take(neighbor.amplitude_slope[n], joint.gain[n], own.amplitude_slope[n]);
+    }
+    copy(neighbor.cos_half_direction, own.cos_half_direction);
+    copy(neighbor.sin_half_direction, own.sin_half_direction);
+    if constexpr (relative) {
+        copy(neighbor.cos_direction, own.cos_direction);
+        copy(neighbor.sin_direction, own.sin_direction);
+        copy(neighbor.onset, own.onset);
+        take(neighbor.kappa_change, joint.squeeze, own.kappa_change);
+        for (std::size_t n = 0; n < 2; ++n) {
+            copy(neighbor.rest_curl[n], own.rest_curl[n]);
+            take(neighbor.curl_change[n], joint.squeeze, own.curl_change[n]);
+        }
+    }
+}
 
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_blended_lanes(const RestColumns& rest, const LaneCoefficients& own,
@@ -113,10 +141,12 @@ GOFFER_FLATTENED void bend_blended_lanes(const RestColumns& rest, const LaneCoef
     using I = LanesOfInstances<L>;
     constexpr Squeeze bare = squeeze == Squeeze::plain ? Squeeze::none : squeeze;
     constexpr bool directions = has_normals(streams), tangents = has_tangents(streams);
-    WrinkledLanes lanes;
-    const WrinkledColumns columns(rest, lanes);
+    WrinkledLanes<L> lanes;
+    const WrinkledColumns<L> columns(rest, lanes);
+    alignas(64) LaneCoefficients other_k;
     for (std::size_t lane = 0; lane < setup_width; lane += L::width) {
-        const LaneCoefficients &k = from_lane<L>(own, lane), &other_k = from_lane<L>(neighbor, lane);
+        const LaneCoefficients& k = from_lane<L>(own, lane);
+        set_lanes_as_own<L, squeeze == Squeeze::relative>(from_lane<L>(neighbor, lane), joint, other_k);
         for (std::size_t v = 0; v < count; ++v) {
             const Wrinkled<I> wrinkled =
                 blend_batch<I, squeeze, directions>(rest, k, other_k, joint, tangents, first + v);

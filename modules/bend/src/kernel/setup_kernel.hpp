@@ -378,6 +378,16 @@ void set_no_amplitude(Coefficients& k) {
 }
 
 template <class L>
+void set_amplitude(const SetupRegion& region, float place, float scale, float factor, Coefficients& k) {
+    const RowPlace row = row_place<L>(region, place);
+    if (region.relative) {
+        set_relative_amplitude<L>(row, scale, factor, k);
+    } else {
+        set_plain_amplitude<L>(row, scale * factor, k);
+    }
+}
+
+template <class L>
 GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                              const bool* wrinkled, Coefficients* k, std::size_t step) {
     alignas(64) float place[setup_width], scale[setup_width];
@@ -401,29 +411,7 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
             if (region.shaped) set_no_amplitude<L>(k[i * step]);
             continue;
         }
-        const RowPlace row = row_place<L>(region, place[i]);
-        if (region.relative) {
-            set_relative_amplitude<L>(row, scale[i], columns.factor[i], k[i * step]);
-        } else {
-            set_plain_amplitude<L>(row, scale[i] * columns.factor[i], k[i * step]);
-        }
-    }
-}
-
-/// The amplitude's coefficients of instance `lane`.
-template <class L>
-void set_lane_amplitude(const SetupRegion& region, float place, float scale, float factor,
-                        LaneCoefficients& k, std::size_t lane) {
-    Coefficients one;
-    const RowPlace row = row_place<L>(region, place);
-    if (region.relative) {
-        set_relative_amplitude<L>(row, scale, factor, one);
-    } else {
-        set_plain_amplitude<L>(row, scale * factor, one);
-    }
-    for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        k.amplitude[n][lane] = one.amplitude[n];
-        k.amplitude_slope[n][lane] = one.amplitude_slope[n];
+        set_amplitude<L>(region, place[i], scale[i], columns.factor[i], k[i * step]);
     }
 }
 
@@ -436,11 +424,18 @@ GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& colu
     float most = 0;
     for (std::size_t i = 0; i < count; ++i) most = k.doublings[i] > most ? k.doublings[i] : most;
     for (float& lane : k.most_doublings) lane = most;
-    for (std::size_t n = 0; n < amplitude_terms; ++n)
-        for (std::size_t i = wrinkled ? count : 0; i < setup_width; ++i)
-            k.amplitude[n][i] = k.amplitude_slope[n][i] = 0;
-    for (std::size_t i = 0; wrinkled && i < count; ++i)
-        set_lane_amplitude<L>(region, place[i], scale[i], columns.factor[i], k, i);
+    for (std::size_t i = 0; i < setup_width; ++i) {
+        Coefficients one;
+        if (wrinkled && i < count) {
+            set_amplitude<L>(region, place[i], scale[i], columns.factor[i], one);
+        } else {
+            set_no_amplitude<L>(one);
+        }
+        for (std::size_t n = 0; n < amplitude_terms; ++n) {
+            k.amplitude[n][i] = one.amplitude[n];
+            k.amplitude_slope[n][i] = one.amplitude_slope[n];
+        }
+    }
 }
 
 }  // namespace goffer::bend

@@ -5,20 +5,17 @@
 #include <numeric>
 
 namespace goffer::bend {
+namespace {
 
-bool weaves_gaps(const OutputPlan& plan) noexcept {
-    return std::ranges::any_of(plan.records(),
-                               [](const Record& record) { return record.woven && record.has_gaps(); });
-}
+/// The plane of a gap.
+alignas(64) constexpr float zeros[StagedPlanes::max_stride] = {};
+
+}  // namespace
 
 StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
-    const std::size_t planes = plan.value_count() + 1;
-    const std::size_t room = max_floats / planes - spare;
+    const std::size_t room = max_floats / plan.value_count() - spare;
     capacity_ = std::min(max_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
-    float* const zeros = planes_ + plan.value_count() * stride_;
-    zeros_ = zeros;
-    if (weaves_gaps(plan)) std::fill_n(zeros, capacity_, 0.0f);
 }
 
 PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
@@ -34,25 +31,17 @@ PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noex
 
 void StagedPlanes::write(const OutputPlan& plan, const KernelSet& kernels, WriteMode mode, std::size_t vertex,
                          std::size_t count, bool ends) const noexcept {
-    for (const Record& record : plan.records())
-        if (record.mode == mode) write(record, plan, kernels, vertex, count, ends);
-}
-
-void StagedPlanes::write(const OutputPlan& plan, const KernelSet& kernels, std::size_t vertex,
-                         std::size_t count, bool ends) const noexcept {
-    for (const Record& record : plan.records()) write(record, plan, kernels, vertex, count, ends);
-}
-
-void StagedPlanes::write(const Record& record, const OutputPlan& plan, const KernelSet& kernels,
-                         std::size_t vertex, std::size_t count, bool ends) const noexcept {
-    const std::span<const Component> components = plan.components(record);
-    if (record.plane()) {
-        kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
-                           plan.non_temporal());
-    } else if (record.woven) {
-        weave(record, components, kernels, vertex, count, ends);
-    } else {
-        write_rows(record, components, kernels, vertex, count);
+    for (const Record& record : plan.records()) {
+        if (record.mode != mode) continue;
+        const std::span<const Component> components = plan.components(record);
+        if (record.plane()) {
+            kernels.copy_lines(planes_ + components[0].value * stride_, components[0].first + vertex, count,
+                               plan.non_temporal());
+        } else if (record.woven) {
+            weave(record, components, kernels, vertex, count, ends);
+        } else {
+            write_rows(record, components, kernels, vertex, count);
+        }
     }
 }
 
@@ -103,7 +92,7 @@ void StagedPlanes::weave(const Record& record, std::span<const Component> compon
     const std::size_t most = count - (keeps_last ? 1 : 0);
     peeled = std::min(peeled, most);
     const float* planes[max_woven];
-    std::fill_n(planes, floats, zeros_);
+    std::fill_n(planes, floats, zeros);
     for (const Component& component : components) {
         const std::size_t place = record.lead + static_cast<std::size_t>(component.first - record.first);
         const std::size_t first = component.value * stride_ + peeled;

@@ -25,12 +25,25 @@ struct PoseState {
     bool at_rest = false;  ///< a number is not finite; then nothing counts as clamped
 };
 
+/// Counts an instance that was deformed.
+inline void count(const PoseState& state, CrowdResult& result) noexcept {
+    ++result.deformed;
+    result.clamped += state.clamped ? 1 : 0;
+    result.at_rest += state.at_rest ? 1 : 0;
+}
+
 /// Whether the current or the previous poses and transforms of an instance are meant.
 enum class Time : std::uint8_t { now, before };
 
 /// Which element of its columns an instance of a batch reads.
 [[nodiscard]] inline std::size_t element_of(const Batch& batch, std::size_t instance) noexcept {
     return batch.indices.empty() ? instance : batch.indices[instance];
+}
+
+/// The first vertex of the buffer that an instance of a batch is deformed to.
+[[nodiscard]] inline std::size_t first_vertex_of(const Batch& batch, std::size_t instance) noexcept {
+    return batch.vertex_offsets.empty() ? instance * batch.vertex_step
+                                        : std::size_t{batch.vertex_offsets[element_of(batch, instance)]};
 }
 
 /// The state of `poses`, of which there are at most as many as regions.
@@ -40,8 +53,8 @@ enum class Time : std::uint8_t { now, before };
 /// rest. An instance with a pose that is not finite is at rest as a whole.
 ///
 /// Instances are added one value at a time, and set up a register at a time. Processors read a register that
-/// was written in parts only when all that was written before it is in memory, past the cache too: in a
-/// crowd, add the next group before the one at hand is deformed.
+/// was written in parts only when all that was written before it is in memory, past the cache too: a
+/// BatchRunner adds the next group before it deforms the one at hand.
 class PosedGroup {
 public:
     /// Has room for `most` instances, at most capacity().
@@ -82,7 +95,7 @@ private:
     void set_frames() noexcept;
     void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
 
-    static constexpr std::size_t max_poses = 160;
+    static constexpr std::size_t max_poses = 160;  // as much stack as BatchRunner has left
     static_assert(max_poses >= max_regions);
     static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 

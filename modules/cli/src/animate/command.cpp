@@ -17,7 +17,7 @@ namespace {
 
 void report_motion(Report& report, const AnimateRequest& request, const AnimateOptions& options,
                    const Survey& survey, const BoundModel& model) {
-    const double largest = degrees(*std::ranges::max_element(survey.largest));
+    const double reached = degrees(*std::ranges::max_element(survey.largest));
     // Of glTF, from the first key to the last; of all else, each frame is shown for its time.
     const double seconds = static_cast<double>(request.frames - (request.gltf_wanted ? 1 : 0)) / options.fps;
     nlohmann::ordered_json& json = report.json;
@@ -26,7 +26,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     json["fps"] = options.fps;
     json["seconds"] = seconds;
     json["repeats"] = request.motion->repeats();
-    json["largest_angle"] = largest;
+    json["reached_angle"] = reached;
     json["clamped_frames"] = survey.clamped;
     json["path_error"] = survey.path_error;
     json["worst_area_change"] = survey.worst_area_change;
@@ -34,8 +34,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     json["deform_ms"] = survey.milliseconds;
     report.line("frames", std::to_string(request.frames) + " at " + number(options.fps) +
                               " a second: " + number(seconds) + " s");
-    report.line("largest angle",
-                number(largest) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
+    report.line("bends to", number(reached) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
     if (const double rest = model.cylinder.rest_angle; rest != 0 && options.swing && !options.from_rest)
         report.line("angles", "are absolute: 0 is straight, and " + number(degrees(rest)) +
                                   " is the shape of the file; to swing from there, use --from-rest");

@@ -129,7 +129,7 @@ void report_models(Report& report, const CrowdRequest& request, std::span<const 
                                          {"regions", regions}});
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
                                  " vertices, " + counted(static_cast<std::size_t>(folds), "fold"));
-        if (model.growth) report_growth(report, *model.growth);
+        if (model.growth) report_growth(report, *model.growth, report.json["models"].back());
     }
 }
 

@@ -85,6 +85,7 @@ struct alignas(16) CoefficientsOf {
     Number kappa_change;  ///< kappa - kappa_0
 };
 
+/// The coefficients of one region of one instance.
 struct Coefficients : CoefficientsOf<float> {};
 
 /// Rows of four floats in Coefficients.
