@@ -312,7 +312,7 @@ TEST_CASE("P7: columns that are not aligned to what they hold are named") {
 }
 
 TEST_CASE("P7: it is the sum of address and offset that has to be aligned") {
-    const std::array<bend::Pose, 129> poses{};
+    const std::vector<bend::Pose> poses(10'000);
     CHECK(told(crowd_fault_after([&](SpoiledCrowd&, Batch& b) {
               b.poses.data = reinterpret_cast<const char*>(&poses[0]) + 1;
               b.poses.offset = sizeof(bend::Pose) - 1;
