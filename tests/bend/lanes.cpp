@@ -25,18 +25,23 @@ constexpr std::string_view pictures[] = {
     "x y z", "x y z u v w", "xyz",          "xyzuvw", "xyzuvwabcd",  "xyz uvw abcd", "xyz.uvw.",
     "xyz.",  "zyx wvu",     "xyzuvw......", "..xyz",  "x y z p q r", "xyzuvwpqr",    "xyz.pqr. uvw"};
 
-/// A chain of regions with a shape, some of which are bent at rest.
+/// A chain of regions with a shape. They have radii of their own, or some of them are bent at rest.
 bend::Body shaped_chain(Random& random, std::span<const std::size_t> counts) {
     std::vector<bend::RegionInput> regions;
     std::size_t sum = 0;
-    const double rest_angle = random() % 2 == 0 ? 0 : uniform(random, 0.1, 2);
+    const bool straight = random() % 2 == 0;
+    const double rest_angle = uniform(random, 0.1, 2), onset = random() % 2 == 0 ? 0 : 0.02;
     for (const std::size_t count : counts) {
-        regions.push_back(loose_shaped_region(count));
-        if (random() % 4 != 0) regions.back().rest_angle = rest_angle;
+        bend::RegionInput& region = regions.emplace_back(loose_shaped_region(count));
+        region.onset = onset;
+        region.max_angle = 3.2;  // of the thickest, too
+        if (straight) region.radius = 0.1 * uniform(random, 0.9, 1.1);
+        if (!straight && random() % 4 != 0) region.rest_angle = rest_angle;
         sum += count;
     }
     LooseVertices loose(random, sum, 0.11);
     loose.add_shape(random);
+    for (bend::RestVertex& v : loose.vertices) v.scale *= 0.8;  // for tables of neighbors that are thinner
     blend_some(random, regions, loose.vertices);
     return loose.body(regions);
 }

@@ -118,13 +118,13 @@ GOFFER_OWN_FRAME CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, 
     return result;
 }
 
-/// The same with previous positions, which are the positions of a batch that is now where this one was.
-/// Whatever lies between the values of one of the two may belong to the other.
+/// The same with previous positions, which are the positions of a batch that is now where this one was. The
+/// gaps of one of the two may hold values of the other: no gap is scratch.
 CrowdResult run_lanes_twice(const Batch& batch, const CrowdJob& job, std::size_t first, std::size_t last,
                             bool non_temporal) noexcept {
     Batch now = batch;
     now.previous_positions = {};
-    now.scratch_gaps = false;
+    assert(!now.scratch_gaps && "see LaneRunner::suits");
     Batch before = now;
     before.poses = batch.previous_poses;
     before.transforms = batch.previous_transforms;

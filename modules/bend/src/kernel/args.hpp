@@ -150,8 +150,8 @@ struct SetupColumns {
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 
-/// The same for kernels that deform many instances at a time. Lanes from `count` on are finite and without
-/// wrinkles, so that kernels may compute with them. `wrinkled`: of all instances.
+/// The same for kernels that deform many instances at a time. Lanes from `count` on are
+/// finite, so that kernels may compute with them. `wrinkled`: of all instances.
 using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count, bool wrinkled,
                            LaneCoefficients& k);
 

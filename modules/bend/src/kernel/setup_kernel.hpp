@@ -426,7 +426,7 @@ GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& colu
     for (float& lane : k.most_doublings) lane = most;
     for (std::size_t i = 0; i < setup_width; ++i) {
         Coefficients one;
-        if (wrinkled && i < count) {
+        if (wrinkled) {
             set_amplitude<L>(region, place[i], scale[i], columns.factor[i], one);
         } else {
             set_no_amplitude<L>(one);
