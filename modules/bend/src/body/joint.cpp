@@ -2,6 +2,7 @@
 #include "body/joint.hpp"
 
 #include "body/body_data.hpp"
+#include "kernel/neighbor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,21 +69,8 @@ bool find_vertices(Joints& joints, const RestColumns& columns, std::size_t first
 
 void set_as_own(const Coefficients& neighbor, const JointBlend& joint, bool relative,
                 Coefficients& own) noexcept {
-    for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        own.amplitude[n] = joint.gain[n] * neighbor.amplitude[n];
-        own.amplitude_slope[n] = joint.gain[n] * neighbor.amplitude_slope[n];
-    }
-    own.cos_half_direction = neighbor.cos_half_direction;
-    own.sin_half_direction = neighbor.sin_half_direction;
-    if (!relative) return;
-    own.cos_direction = neighbor.cos_direction;
-    own.sin_direction = neighbor.sin_direction;
-    own.onset = neighbor.onset;
-    own.kappa_change = joint.squeeze * neighbor.kappa_change;
-    for (std::size_t n = 0; n < 2; ++n) {
-        own.rest_curl[n] = neighbor.rest_curl[n];
-        own.curl_change[n] = joint.squeeze * neighbor.curl_change[n];
-    }
+    take_as_own(neighbor, joint, relative, own,
+                [](float from, float factor, float& to) { to = factor * from; });
 }
 
 }  // namespace goffer::bend

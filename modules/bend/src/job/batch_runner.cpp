@@ -56,7 +56,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
-      posed_(body_, kernels.setup, PosedGroup::capacity(regions_)),
+      posed_(body_, PosedGroup::capacity(regions_)),
       stage_(plan_) {
     bool streams = false;
     for (const PassPlan& pass : plan_.passes()) {
@@ -140,7 +140,7 @@ void BatchRunner::set_up(bool sets_bounds) noexcept {
 /// Sets up the poses that were added, and makes room for others.
 void BatchRunner::set_up_poses(std::size_t set) noexcept {
     for (std::size_t r = 0; r < regions_; ++r) {
-        posed_.set_up(r, coefficients(0, set) + r, set_count_ * regions_);
+        posed_.set_up(r, kernels_.setup, coefficients(0, set) + r, set_count_ * regions_);
         for (std::size_t i = 0; i < member_count_; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
     }
     posed_.clear();

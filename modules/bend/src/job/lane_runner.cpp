@@ -37,7 +37,7 @@ LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_te
       pass_(plan_.passes()[0]),
       wrinkled_(wrinkled),
       values_(plan_.value_count()),
-      posed_(body_, nullptr, PosedGroup::capacity(body_.regions.size())) {
+      posed_(body_, PosedGroup::capacity(body_.regions.size())) {
     assert(plan_.passes().size() == 1);
     // An odd number of lines per member, so that members do not compete for the same sets of the cache.
     const std::size_t lines = (max_lines - values_ * tile_vertices) / setup_width;

@@ -150,9 +150,9 @@ struct SetupColumns {
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                        const bool* wrinkled, Coefficients* k, std::size_t step);
 
-/// The same for kernels that deform many instances at a time. Lanes from `count` on are
-/// finite, so that kernels may compute with them. `wrinkled`: of all instances.
-using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count, bool wrinkled,
+/// The same of setup_width instances, for kernels that deform many at a time; unused ones are set up as well.
+/// `wrinkled`: all are.
+using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, bool wrinkled,
                            LaneCoefficients& k);
 
 /// Vertices in a tile, which holds some vertices of many instances: value c of vertex v is at

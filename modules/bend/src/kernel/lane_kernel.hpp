@@ -4,6 +4,7 @@
 #include "kernel/args.hpp"
 #include "kernel/blend_kernel.hpp"
 #include "kernel/deform_batch.hpp"
+#include "kernel/neighbor.hpp"
 
 #include <cstddef>
 
@@ -109,31 +110,6 @@ public:
                   taper = {of.nothing};
 };
 
-/// Sets what set_as_own() sets, of as many instances as a register has.
-template <class L, bool relative>
-void set_lanes_as_own(const LaneCoefficients& neighbor, const JointBlend& joint, LaneCoefficients& own) {
-    const auto take = [](const InstanceLanes& from, float factor, InstanceLanes& to) {
-        L::store(to, L::splat(factor) * L::load(from));
-    };
-    const auto copy = [](const InstanceLanes& from, InstanceLanes& to) { L::store(to, L::load(from)); };
-    for (std::size_t n = 0; n < amplitude_terms; ++n) {
-        take(neighbor.amplitude[n], joint.gain[n], own.amplitude[n]);
-        take(neighbor.amplitude_slope[n], joint.gain[n], own.amplitude_slope[n]);
-    }
-    copy(neighbor.cos_half_direction, own.cos_half_direction);
-    copy(neighbor.sin_half_direction, own.sin_half_direction);
-    if constexpr (relative) {
-        copy(neighbor.cos_direction, own.cos_direction);
-        copy(neighbor.sin_direction, own.sin_direction);
-        copy(neighbor.onset, own.onset);
-        take(neighbor.kappa_change, joint.squeeze, own.kappa_change);
-        for (std::size_t n = 0; n < 2; ++n) {
-            copy(neighbor.rest_curl[n], own.rest_curl[n]);
-            take(neighbor.curl_change[n], joint.squeeze, own.curl_change[n]);
-        }
-    }
-}
-
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_blended_lanes(const RestColumns& rest, const LaneCoefficients& own,
                                          const LaneCoefficients& neighbor, const JointBlend& joint,
@@ -144,9 +120,12 @@ GOFFER_FLATTENED void bend_blended_lanes(const RestColumns& rest, const LaneCoef
     WrinkledLanes<L> lanes;
     const WrinkledColumns<L> columns(rest, lanes);
     alignas(64) LaneCoefficients other_k;
+    const auto take = [](const InstanceLanes& from, float factor, InstanceLanes& to) {
+        L::store(to, L::splat(factor) * L::load(from));
+    };
     for (std::size_t lane = 0; lane < setup_width; lane += L::width) {
         const LaneCoefficients& k = from_lane<L>(own, lane);
-        set_lanes_as_own<L, squeeze == Squeeze::relative>(from_lane<L>(neighbor, lane), joint, other_k);
+        take_as_own(from_lane<L>(neighbor, lane), joint, squeeze == Squeeze::relative, other_k, take);
         for (std::size_t v = 0; v < count; ++v) {
             const Wrinkled<I> wrinkled =
                 blend_batch<I, squeeze, directions>(rest, k, other_k, joint, tangents, first + v);

@@ -416,13 +416,13 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
 }
 
 template <class L>
-GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& columns, std::size_t count,
-                                   bool wrinkled, LaneCoefficients& k) {
+GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& columns, bool wrinkled,
+                                   LaneCoefficients& k) {
     alignas(64) float place[setup_width], scale[setup_width];
     for (std::size_t first = 0; first < setup_width; first += L::width)
         SetupLanes<L, LaneResult<L>>(region, columns, first, {k, first}).run(place + first, scale + first);
     float most = 0;
-    for (std::size_t i = 0; i < count; ++i) most = k.doublings[i] > most ? k.doublings[i] : most;
+    for (const float doublings : k.doublings) most = doublings > most ? doublings : most;
     for (float& lane : k.most_doublings) lane = most;
     for (std::size_t i = 0; i < setup_width; ++i) {
         Coefficients one;

@@ -271,15 +271,16 @@ void bounds(const Batch& batch, std::span<Bounds> result, Isa isa) noexcept {
     Coefficients k[max_coefficients];
     Squeeze squeezes[max_coefficients];
     const std::size_t together = std::min(max_coefficients / regions, setup_width);
+    const Setup setup = kernels(isa).setup;
     const auto take = [&](PosedGroup& group, std::size_t first) {
         for (std::size_t r = 0; r < regions; ++r) {
-            group.set_up(r, k + r, regions);
+            group.set_up(r, setup, k + r, regions);
             for (std::size_t i = 0; i < group.count(); ++i) squeezes[i * regions + r] = group.squeeze(i);
         }
         for (std::size_t i = 0; i < group.count(); ++i)
             result[first + i] = bounds_of(body, k + i * regions, squeezes + i * regions);
     };
-    each_group(batch, body, kernels(isa).setup, Time::now, together, take);
+    each_group(batch, body, Time::now, together, take);
 }
 
 }  // namespace goffer::bend

@@ -45,8 +45,7 @@ PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
     return state;
 }
 
-PosedGroup::PosedGroup(const BodyData& body, Setup setup, std::size_t most) noexcept
-    : body_(body), setup_(setup), most_(most) {
+PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(body), most_(most) {
     assert(most >= 1 && most <= capacity(body.regions.size()));
     // Set-up computes with unused lanes, too.
     const std::size_t read = (body.regions.size() - 1) * most + setup_width;
@@ -127,21 +126,21 @@ const RegionData& PosedGroup::take_region(std::size_t region) noexcept {
 Squeeze PosedGroup::set_up(std::size_t region, LaneSetup setup, bool wrinkled, LaneCoefficients& k) noexcept {
     const RegionData& details = take_region(region);
     wrinkled = wrinkled && details.setup.rows != nullptr;
-    setup(details.setup, columns_, count_, wrinkled, k);
+    setup(details.setup, columns_, wrinkled, k);
     return wrinkled ? squeeze_ : bare_;
 }
 
-void PosedGroup::set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept {
+void PosedGroup::set_up(std::size_t region, Setup setup, Coefficients* k, std::size_t step) noexcept {
     const RegionData& details = take_region(region);
-    setup_(details.setup, columns_, count_, wrinkled_ + place_, k, step);
+    setup(details.setup, columns_, count_, wrinkled_ + place_, k, step);
 }
 
 PosedInstance::PosedInstance(const BodyData& body, Setup setup, std::span<const Pose> poses,
                              const glm::mat4x3& transform, float weight) noexcept {
-    PosedGroup group(body, setup, 1);
+    PosedGroup group(body, 1);
     group.add(poses, transform, weight);
     for (std::size_t r = 0; r < body.regions.size(); ++r) {
-        group.set_up(r, &k[r], 1);
+        group.set_up(r, setup, &k[r], 1);
         squeezes[r] = group.squeeze(0);
     }
 }

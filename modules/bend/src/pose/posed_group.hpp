@@ -58,7 +58,7 @@ enum class Time : std::uint8_t { now, before };
 class PosedGroup {
 public:
     /// Has room for `most` instances, at most capacity().
-    PosedGroup(const BodyData& body, Setup setup, std::size_t most) noexcept;
+    PosedGroup(const BodyData& body, std::size_t most) noexcept;
 
     /// The most instances that a group of a body with so many regions holds.
     [[nodiscard]] static std::size_t capacity(std::size_t regions) noexcept {
@@ -76,7 +76,7 @@ public:
 
     /// Sets up region `region` of all instances; call it for the regions in order, from 0. The coefficients
     /// of instance i go to k[i * step].
-    void set_up(std::size_t region, Coefficients* k, std::size_t step) noexcept;
+    void set_up(std::size_t region, Setup setup, Coefficients* k, std::size_t step) noexcept;
 
     /// The same for kernels that deform several instances at a time, of which all wrinkle, or none does.
     /// Returns which kernels serve them.
@@ -100,7 +100,6 @@ private:
     static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 
     const BodyData& body_;
-    Setup setup_;
     std::size_t most_;
     std::size_t count_ = 0;
     std::size_t place_ = 0;                                   // of the region that was set up last, as are
@@ -126,9 +125,9 @@ struct PosedInstance {
 /// Calls visit(group, first) for all instances of a batch, up to `most` <= PosedGroup::capacity() at a time:
 /// those from `first` on.
 template <class Visit>
-void each_group(const Batch& batch, const BodyData& body, Setup setup, Time time, std::size_t most,
+void each_group(const Batch& batch, const BodyData& body, Time time, std::size_t most,
                 const Visit& visit) noexcept {
-    PosedGroup group(body, setup, most);
+    PosedGroup group(body, most);
     for (std::size_t first = 0; first < batch.count; first += most) {
         group.clear();
         for (std::size_t i = first; i < batch.count && i < first + most; ++i)

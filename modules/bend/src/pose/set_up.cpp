@@ -30,14 +30,15 @@ void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time ti
     const BodyData& body = *batch.body->data();
     const std::size_t regions = body.regions.size();
     assert(result.size() >= batch.count * regions);
+    const Setup setup = kernels(isa).setup;
     const auto take = [&](PosedGroup& group, std::size_t first) {
         Coefficients* const k = &result[first * regions];
         for (std::size_t r = 0; r < regions; ++r) {
-            group.set_up(r, k + r, regions);
+            group.set_up(r, setup, k + r, regions);
             for (std::size_t i = 0; i < group.count(); ++i) set_unread(k[i * regions + r], group.squeeze(i));
         }
     };
-    each_group(batch, body, kernels(isa).setup, time, PosedGroup::capacity(regions), take);
+    each_group(batch, body, time, PosedGroup::capacity(regions), take);
 }
 
 }  // namespace

@@ -47,11 +47,11 @@ struct RestColumns {
 inline constexpr std::size_t amplitude_terms = wrinkle_degree + 1;
 inline constexpr std::size_t arc_terms = 4;
 
-/// The numbers of one region of one instance: see Coefficients. `Number` is a float; in goffer's own sources
-/// it is also an array of them, one for each of several instances. The map (eq 2-6) is evaluated in the frame
-/// of the arc's middle, where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset`
-/// then take it to the streams' space. The numbers come in rows of four floats, which set-up stores whole.
-/// See modules/paper/README.md, "Bend".
+/// The numbers of one region. `Number` is a float, that of one instance; in goffer's own sources it is also
+/// an array of them, one for each of many instances. The map (eq 2-6) is evaluated in the frame of the arc's
+/// middle, where the arc angle delta = alpha (z / L - 1/2) stays small. `matrix` and `offset` then take it to
+/// the streams' space. The numbers come in rows of four floats, which set-up stores whole. See
+/// modules/paper/README.md, "Bend".
 template <class Number>
 struct alignas(16) CoefficientsOf {
     Number cos_half_direction, sin_half_direction;  ///< of theta / 2
