@@ -5,10 +5,12 @@
 #include <goffer/engine/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <thread>
 
 /// The job's contract: any count and stride, nothing written out of bounds, bits that depend on
@@ -148,6 +150,25 @@ TEST_CASE("angles and directions of any finite size give finite results") {
                     for (const float value : out.columns[c]) REQUIRE(std::isfinite(value));
                 }
             }
+        }
+    }
+}
+
+TEST_CASE("whole turns of a direction change nothing but roundings, at half turns too") {
+    Random random(12);
+    const fit::Binding binding = bound_body(random);
+    Output out(binding.body.vertex_count()), wrapped(binding.body.vertex_count());
+    const float half_turn = std::numbers::pi_v<float>;
+    for (const float near : {0.0f, 0.3f, half_turn, -half_turn, 2.0f}) {
+        for (const float turns : {0.0f, 1.0f, -1.0f, 3.0f, -100.0f, 1e5f, 1e8f}) {
+            const float direction = near + turns * 2 * half_turn;
+            const auto same =
+                static_cast<float>(std::remainder(static_cast<double>(direction), 2 * std::numbers::pi));
+            CAPTURE(direction);
+            bend::run(make_job(binding.body, {0.9f, direction}, Isa::automatic, out));
+            bend::run(make_job(binding.body, {0.9f, same}, Isa::automatic, wrapped));
+            for (std::size_t i = 0; i < binding.body.vertex_count(); ++i)
+                REQUIRE(glm::length(out.position(i) - wrapped.position(i)) < 2e-6 * binding.body.length());
         }
     }
 }

@@ -16,6 +16,7 @@ struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
     using X86Rows<Avx2Lanes>::store_row;
     using X86Rows<Avx2Lanes>::stream_row;
     using X86Rows<Avx2Lanes>::store_row_first;
+    using X86Rows<Avx2Lanes>::store_transposed;
 
     template <class Visit>
     static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {

@@ -18,6 +18,7 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
     using X86Rows<Avx512Lanes>::row_times;
     using X86Rows<Avx512Lanes>::store_row;
     using X86Rows<Avx512Lanes>::store_row_first;
+    using X86Rows<Avx512Lanes>::store_transposed;
     using X86Rows<Avx512Lanes>::stream_row;
 
     static Vec madd(Vec a, Vec b, Vec c) { return Vec(_mm512_fmadd_ps(a, b, c)); }

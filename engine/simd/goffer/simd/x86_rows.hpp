@@ -23,6 +23,16 @@ struct X86Rows {
                           _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(weight), _mm_sub_ps(high, low))));
     }
     static Row row_times(Row row, const float* factors) { return _mm_mul_ps(row, _mm_loadu_ps(factors)); }
+    /// Stores four rows column by column: the first values of all to to[0], and so on.
+    static void store_transposed(const float* const (&rows)[4], float* const (&to)[4]) {
+        Row a = _mm_loadu_ps(rows[0]), b = _mm_loadu_ps(rows[1]), c = _mm_loadu_ps(rows[2]),
+            d = _mm_loadu_ps(rows[3]);
+        _MM_TRANSPOSE4_PS(a, b, c, d);
+        _mm_storeu_ps(to[0], a);
+        _mm_storeu_ps(to[1], b);
+        _mm_storeu_ps(to[2], c);
+        _mm_storeu_ps(to[3], d);
+    }
     static void store_row(float* to, Row row) { _mm_storeu_ps(to, row); }
     static void stream_row(float* to, Row row) { _mm_stream_ps(to, row); }
     template <std::size_t count>

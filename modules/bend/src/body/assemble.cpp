@@ -61,8 +61,10 @@ void add_region(BodyData& data, const RegionInput& input, const Bands& bands) {
     const bool shape = data.columns.scale != nullptr;
     const double radius = radius_of(input, data.radius);
     data.regions.push_back(region_of(input, data.regions.empty() ? 0 : data.regions.back().last));
+    if (!data.details.empty()) data.details.back().setup.last = false;
     RegionData& details = data.details.emplace_back();
     details.setup = setup_of(input, radius, shape);
+    details.setup.last = true;
     details.squeeze = squeeze_of(input, shape);
     details.factors = &input.factors;
     details.bands = bands;

@@ -129,6 +129,7 @@ struct SetupRegion {
     std::size_t row_count;
     float table_max_angle;
     bool relative;
+    bool last;    ///< no region follows it
     bool shaped;  ///< kernels evaluate amplitudes even where there is no wrinkle: set-up sets them to 0
     float onset, rest_angle, rest_direction;  ///< used if relative; the direction is within -pi..pi
 };
@@ -140,7 +141,7 @@ struct SetupColumns {
     const float* direction;                        ///< radians, -pi..pi
     const float* factor;                           ///< on the amplitude
     alignas(64) float transform[12][setup_width];  ///< the matrix, column after column
-    /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region.
+    /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region, if one follows.
     alignas(64) float frame[12][setup_width];
 };
 

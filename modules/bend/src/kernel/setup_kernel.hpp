@@ -252,6 +252,7 @@ private:
         const Vector3<L> t = combined(half.sine, toward, half.cosine, e3);
         const Vector3<L> origin = sum(frame(9), combined(half.out, toward, half.up, e3));
         set_matrices(n, b, t, origin);
+        if (region_.last) return;
         const Vector3<L> end_n = combined(half.cosine, n, zero - half.sine, t);
         set_frame(0, combined(whole_.cosine, end_n, zero - whole_.sine, b));
         set_frame(3, combined(whole_.sine, end_n, whole_.cosine, b));
@@ -352,8 +353,8 @@ RowPlace row_place(const SetupRegion& region, float place) {
 }
 
 /// Sets the amplitude's coefficients in T. `factor` includes the root of kappa.
-template <class L>
-void set_plain_amplitude(const RowPlace& row, float factor, Coefficients& k) {
+template <class L, class K>
+void set_plain_amplitude(const RowPlace& row, float factor, K& k) {
     static constexpr float slopes[amplitude_terms] = {-0.5f, -1.5f, -2.5f, -3.5f, -4.5f, -5.5f, -6.5f, -7.5f};
     for (std::size_t n = 0; n < amplitude_terms; n += 4) {
         const typename L::Row amplitude = L::mixed_row(row.from + n, row.to + n, row.weight, factor);
@@ -363,8 +364,8 @@ void set_plain_amplitude(const RowPlace& row, float factor, Coefficients& k) {
 }
 
 /// Sets the amplitude's coefficients in q: the row's, which are in q / kappa, times powers of 1 / kappa.
-template <class L>
-void set_relative_amplitude(const RowPlace& row, float kappa, float factor, Coefficients& k) {
+template <class L, class K>
+void set_relative_amplitude(const RowPlace& row, float kappa, float factor, K& k) {
     const float per_kappa = 1 / kappa;
     for (std::size_t n = 0; n < amplitude_terms; ++n, factor *= per_kappa) {
         k.amplitude[n] = factor * (row.from[n] + row.weight * (row.to[n] - row.from[n]));
@@ -372,13 +373,13 @@ void set_relative_amplitude(const RowPlace& row, float kappa, float factor, Coef
     }
 }
 
-template <class L>
-void set_no_amplitude(Coefficients& k) {
+template <class L, class K>
+void set_no_amplitude(K& k) {
     for (std::size_t n = 0; n < amplitude_terms; ++n) k.amplitude[n] = k.amplitude_slope[n] = 0;
 }
 
-template <class L>
-void set_amplitude(const SetupRegion& region, float place, float scale, float factor, Coefficients& k) {
+template <class L, class K>
+void set_amplitude(const SetupRegion& region, float place, float scale, float factor, K& k) {
     const RowPlace row = row_place<L>(region, place);
     if (region.relative) {
         set_relative_amplitude<L>(row, scale, factor, k);
@@ -415,6 +416,34 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
     }
 }
 
+/// Sets the amplitudes of setup_width instances side by side. `place`, `scale`, `factor`: one of each.
+template <class L>
+void set_lane_amplitudes(const SetupRegion& region, bool wrinkled, const float* place, const float* scale,
+                         const float* factor, LaneCoefficients& k) {
+    struct Amplitudes {
+        alignas(64) float amplitude[amplitude_terms];
+        float amplitude_slope[amplitude_terms];
+    };
+    Amplitudes own[setup_width];
+    for (std::size_t i = 0; i < setup_width; ++i) {
+        if (wrinkled) {
+            set_amplitude<L>(region, place[i], scale[i], factor[i], own[i]);
+        } else {
+            set_no_amplitude<L>(own[i]);
+        }
+    }
+    for (std::size_t i = 0; i < setup_width; i += 4) {
+        const auto transpose = [&](auto Amplitudes::*of, InstanceLanes* to) {
+            for (std::size_t n = 0; n < amplitude_terms; n += 4)
+                L::store_transposed(
+                    {own[i].*of + n, own[i + 1].*of + n, own[i + 2].*of + n, own[i + 3].*of + n},
+                    {to[n] + i, to[n + 1] + i, to[n + 2] + i, to[n + 3] + i});
+        };
+        transpose(&Amplitudes::amplitude, k.amplitude);
+        transpose(&Amplitudes::amplitude_slope, k.amplitude_slope);
+    }
+}
+
 template <class L>
 GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& columns, bool wrinkled,
                                    LaneCoefficients& k) {
@@ -424,18 +453,7 @@ GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& colu
     float most = 0;
     for (const float doublings : k.doublings) most = doublings > most ? doublings : most;
     for (float& lane : k.most_doublings) lane = most;
-    for (std::size_t i = 0; i < setup_width; ++i) {
-        Coefficients one;
-        if (wrinkled) {
-            set_amplitude<L>(region, place[i], scale[i], columns.factor[i], one);
-        } else {
-            set_no_amplitude<L>(one);
-        }
-        for (std::size_t n = 0; n < amplitude_terms; ++n) {
-            k.amplitude[n][i] = one.amplitude[n];
-            k.amplitude_slope[n][i] = one.amplitude_slope[n];
-        }
-    }
+    set_lane_amplitudes<L>(region, wrinkled, place, scale, columns.factor, k);
 }
 
 }  // namespace goffer::bend

@@ -13,12 +13,6 @@
 namespace goffer::bend {
 namespace {
 
-bool finite(std::span<const Pose> poses) noexcept {
-    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
-    for (const Pose& pose : poses) sum += pose.angle * 0.0f + pose.direction * 0.0f;
-    return sum == 0;
-}
-
 /// Takes a weight of any bits to 0..1.
 float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
@@ -37,12 +31,14 @@ void read_transform(const TransformColumn& transforms, std::size_t element, floa
 }  // namespace
 
 PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
-    PoseState state;
-    state.at_rest = !finite(poses);
-    if (state.at_rest) return state;
-    for (std::size_t r = 0; r < poses.size(); ++r)
-        state.clamped |= std::fabs(poses[r].angle) > body.regions[r].max_angle;
-    return state;
+    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
+    bool clamped = false;
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        sum += poses[r].angle * 0.0f + poses[r].direction * 0.0f;
+        clamped |= std::fabs(poses[r].angle) > body.regions[r].max_angle;
+    }
+    const bool finite = sum == 0;
+    return {.clamped = clamped && finite, .at_rest = !finite};
 }
 
 PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(body), most_(most) {
@@ -50,6 +46,7 @@ PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(
     // Set-up computes with unused lanes, too.
     const std::size_t read = (body.regions.size() - 1) * most + setup_width;
     for (float* values : {angle_, direction_, factor_}) std::fill_n(values, read, 0.0f);
+    set_frames();
     set_identities();
 }
 
@@ -66,14 +63,26 @@ void PosedGroup::set_identities() noexcept {
     transformed_ = false;
 }
 
+inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pose,
+                                 float weight) noexcept {
+    const RegionData& details = body_.details[region];
+    const bool wrinkled = details.setup.rows != nullptr && weight > 0;
+    angle_[place] = pose.angle;
+    direction_[place] = wrapped_direction(pose.direction);
+    factor_[place] = weight;
+    wrinkled_[place] = wrinkled;
+    if (wrinkled && !details.factors->empty()) [[unlikely]]
+        take_factor(region, place, pose);
+}
+
 PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
                           float weight) noexcept {
-    const std::size_t i = count_++;
-    if (i == 0) set_frames();
-    poses = poses.first(std::min(poses.size(), body_.regions.size()));
+    const std::size_t i = count_++, regions = body_.regions.size();
+    if (i == 0 && regions > 1) set_frames();  // set-up replaced them
+    poses = poses.first(std::min(poses.size(), regions));
     const PoseState state = state_of(body_, poses);
     const std::size_t posed = state.at_rest ? 0 : poses.size();
-    for (std::size_t r = 0; r < body_.regions.size(); ++r)
+    for (std::size_t r = 0; r < regions; ++r)
         set_pose(r, r * most_ + i, r < posed ? poses[r] : body_.regions[r].rest, usable_weight(weight));
     if (!transforms.empty()) {
         read_transform(transforms, element, columns_.transform, i);
@@ -98,15 +107,10 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
                element, weight);
 }
 
-void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept {
+/// Multiplies the factor by that of the factor table.
+void PosedGroup::take_factor(std::size_t region, std::size_t place, const Pose& pose) noexcept {
     const Region& limits = body_.regions[region];
     const FactorTable& factors = *body_.details[region].factors;
-    const bool has_table = body_.details[region].setup.rows != nullptr;
-    angle_[place] = pose.angle;
-    direction_[place] = wrapped_direction(pose.direction);
-    factor_[place] = weight;
-    wrinkled_[place] = has_table && weight > 0;
-    if (factors.empty() || !wrinkled_[place]) return;
     const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
     factor_[place] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
                                  direction_[place] - limits.rest.direction + turned);

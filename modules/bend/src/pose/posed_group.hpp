@@ -94,6 +94,7 @@ private:
     void set_identities() noexcept;
     void set_frames() noexcept;
     void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
+    void take_factor(std::size_t region, std::size_t place, const Pose& pose) noexcept;
 
     static constexpr std::size_t max_poses = 160;  // as much stack as BatchRunner has left
     static_assert(max_poses >= max_regions);
