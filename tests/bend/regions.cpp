@@ -43,6 +43,19 @@ TEST_CASE("P1, P2, P4: bodies bent at rest agree with the double closed form") {
             " deg");
 }
 
+TEST_CASE("P1, P2, P4: bodies bent at rest along chains of arcs agree with the double chain") {
+    Random random(64);
+    Worst worst;
+    for (int trial = 0; trial < rounds(16, 6); ++trial) {
+        CAPTURE(trial);
+        const BoundCase one = random_chain(random, 2 + random() % 5);
+        check_rest(one);
+        worst.add(worst_of(random, one, 5e-6, 0.01));
+    }
+    MESSAGE("position ", worst.position, " L, normal ", worst.normal, " deg, tangent ", worst.tangent,
+            " deg");
+}
+
 TEST_CASE("an onset agrees with the double closed form") {
     Random random(63);
     for (int trial = 0; trial < 6; ++trial) {

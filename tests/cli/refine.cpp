@@ -30,8 +30,8 @@ void check_refined_model(const char* name) {
     const std::filesystem::path file = model(name);
     if (file.empty()) return;
     const Folder folder;
-    const json all =
-        report(folder, {"bend", file.string(), "-o", name, "--refine", "--folds", "6", "--angle", "90"});
+    const json all = report(folder, {"bend", file.string(), "-o", name, "--refine", "--folds", "6", "--angle",
+                                     "90", "--rest", "arc"});
     CHECK(all["folds"] == 6);
     CHECK(all["folds_capacity"].get<int>() >= 6);
     CHECK(all["refined"]["triangles_after"].get<int>() >= all["refined"]["triangles_before"].get<int>());
@@ -42,8 +42,8 @@ void check_refined_model(const char* name) {
     CHECK(bent.uvs.size() == before.uvs.size());
     CHECK(bent.colors.empty() == before.colors.empty());
     CHECK((open_edges(bent) == 0) == (open_edges(before) == 0));
-    (void)report(folder, {"refine", file.string(), "-o", "fine.glb", "--folds", "6"});
-    CHECK(report(folder, {"inspect", "fine.glb"})["folds_capacity"].get<int>() >= 6);
+    (void)report(folder, {"refine", file.string(), "-o", "fine.glb", "--folds", "6", "--rest", "arc"});
+    CHECK(report(folder, {"inspect", "fine.glb", "--rest", "arc"})["folds_capacity"].get<int>() >= 6);
 }
 
 }  // namespace

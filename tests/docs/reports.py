@@ -119,6 +119,8 @@ def runs(folder):
         yield "goffer inspect, of a model", f"inspect {model}"
     yield "goffer refine", "refine wine_bottle.glb -o refined.glb"
     yield "goffer bake", "bake wine_bottle.glb --lod wine_bottle.glb --socket cork=0,1,0 --regions 0.5,0.5 -o bottle.goffer"
+    yield "goffer refine", "refine insect_leg.glb -o refined.glb"
+    yield "goffer bake", "bake insect_leg.glb -o leg.goffer"
     yield "goffer inspect, of a body file", "inspect bottle.goffer"
     yield "goffer inspect, of a body file", "inspect chain_v2.goffer"
 

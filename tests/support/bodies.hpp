@@ -289,6 +289,10 @@ inline paper::Parameters parameters_of(const fit::Binding& binding, const fit::B
                            options.profile, options.amplitude};
     body.rest_angle = cylinder.rest_angle * body.length / cylinder.length;
     body.rest_direction = cylinder.rest_direction;
+    if (!cylinder.arcs.empty()) {
+        body.rest_angle = cylinder.arcs[region].angle;
+        body.rest_direction = cylinder.arcs[region].direction;
+    }
     body.onset = static_cast<double>(binding.body.regions()[region].onset);
     body.shape = found.shape;
     return body;

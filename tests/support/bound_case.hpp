@@ -75,4 +75,30 @@ inline BoundCase random_case(Random& random, std::size_t regions, bool bent) {
     return {std::move(test_mesh), options, std::move(binding)};
 }
 
+/// A body that is bent at rest along a chain of arcs.
+inline BoundCase random_chain(Random& random, std::size_t arcs) {
+    const double slenderness = uniform(random, 8, 30);
+    TestMesh test_mesh = random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)));
+    fit::BindOptions options;
+    options.profile = random_profile(random);
+    options.folds = static_cast<int>(random() % 5);
+    std::vector<fit::RestArc> rest;
+    double sum = 0;
+    for (std::size_t i = 0; i < arcs; ++i) {
+        const double share = uniform(random, 0.5, 2);
+        rest.push_back({share, random() % 4 == 0 ? 0 : share, uniform(random, -3, 3)});
+        sum += share;
+    }
+    const bool shaped = random() % 2 == 0;
+    const double all = uniform(random, 0.1, 0.2 * slenderness);
+    for (fit::RestArc& arc : rest) {
+        arc.length *= test_mesh.cylinder.length / sum;
+        arc.angle *= all / sum;
+    }
+    test_mesh = bent_along(test_mesh, rest);
+    if (shaped) add_radii(test_mesh, random);
+    fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+    return {std::move(test_mesh), options, std::move(binding)};
+}
+
 }  // namespace goffer::test

@@ -22,12 +22,12 @@ inline std::shared_ptr<const paper::Shape> shape_of(const fit::Cylinder& c) {
     return std::make_shared<const paper::Shape>(c.length, c.radius, paper::Shape::Knots{.radius = c.radii});
 }
 
-/// `test_mesh`, which is straight, bent: its mesh then has the rest arc that its cylinder says.
-inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
-    fit::Cylinder& c = test_mesh.cylinder;
-    paper::Parameters bare{.length = c.length, .radius = c.radius};
-    bare.shape = shape_of(c);
-    const paper::ClosedForm map(bare, {angle, direction});
+/// A straight mesh, bent: its mesh then has the rest arcs that its cylinder says, whose lengths and shapes
+/// are those of `bare`.
+inline void bend_mesh(TestMesh& test_mesh, std::span<const paper::Parameters> bare,
+                      std::span<const paper::Pose> rest) {
+    const fit::Cylinder& c = test_mesh.cylinder;
+    const paper::Chain map(bare, rest);
     const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
     for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         const paper::Cylindrical at =
@@ -37,14 +37,42 @@ inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction)
             return paper::straightened_normal(glm::transpose(axes) * vector, at, c.length, c.radius,
                                               straight);
         };
-        const glm::dvec3 normal = axes * map.normal(at, components(glm::dvec3(test_mesh.normals[i])));
-        const glm::dvec3 tangent = axes * map.tangent(at, components(glm::dvec3(test_mesh.tangents[i])));
-        test_mesh.positions[i] = c.origin + axes * map.position(at);
+        paper::Cylindrical local = at;
+        std::size_t region = 0;
+        while (region + 1 < bare.size() && local.z > bare[region].length) local.z -= bare[region++].length;
+        const glm::dvec3 normal =
+            axes * map.normal(region, local, components(glm::dvec3(test_mesh.normals[i])));
+        const glm::dvec3 tangent =
+            axes * map.tangent(region, local, components(glm::dvec3(test_mesh.tangents[i])));
+        test_mesh.positions[i] = c.origin + axes * map.position(region, local);
         test_mesh.normals[i] = normal;
         test_mesh.tangents[i] = glm::vec4(glm::vec3(tangent), test_mesh.tangents[i].w);
     }
+}
+
+/// The same along one arc.
+inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
+    fit::Cylinder& c = test_mesh.cylinder;
+    paper::Parameters bare{.length = c.length, .radius = c.radius};
+    bare.shape = shape_of(c);
+    const paper::Pose rest{angle, direction};
+    bend_mesh(test_mesh, {&bare, 1}, {&rest, 1});
     c.rest_angle = angle;
     c.rest_direction = direction;
+    return test_mesh;
+}
+
+/// The same along a chain of arcs, whose lengths add up to that of the mesh.
+inline TestMesh bent_along(TestMesh test_mesh, const std::vector<fit::RestArc>& arcs) {
+    fit::Cylinder& c = test_mesh.cylinder;
+    std::vector<paper::Parameters> bare;
+    std::vector<paper::Pose> rest;
+    for (const fit::RestArc& arc : arcs) {
+        bare.push_back({.length = arc.length, .radius = c.radius});
+        rest.push_back({arc.angle, arc.direction});
+    }
+    bend_mesh(test_mesh, bare, rest);
+    c.arcs = arcs;
     return test_mesh;
 }
 
@@ -57,8 +85,8 @@ public:
           binding_(binding),
           axes_(test_mesh.cylinder.zero, glm::cross(test_mesh.cylinder.axis, test_mesh.cylinder.zero),
                 test_mesh.cylinder.axis),
-          rest_{test_mesh.cylinder.rest_angle, test_mesh.cylinder.rest_direction},
-          shape_(shape_of(binding.cylinder)),
+          rest_(bare(regions(options, binding)), rest_poses(regions(options, binding))),
+          parameters_(regions(options, binding)),
           chain_(regions(options, binding), doubled(poses), blends(binding)) {}
 
     [[nodiscard]] glm::dvec3 position(std::size_t i) const {
@@ -68,18 +96,20 @@ public:
     [[nodiscard]] glm::dvec3 normal(std::size_t i) const {
         const At at = rest(i);
         const glm::dvec3 own(test_mesh_.normals[at.vertex]);
+        const paper::Parameters& body = parameters_[at.region];
         return axes_ * chain_.normal(at.region, at.local,
                                      paper::straightened_normal(
-                                         glm::transpose(axes_) * own, at.whole, binding_.cylinder.length,
-                                         binding_.cylinder.radius, rest_, shape_.get()));
+                                         in_region(at, own), at.local, body.length, body.radius,
+                                         {body.rest_angle, body.rest_direction}, body.shape.get()));
     }
     [[nodiscard]] glm::dvec3 tangent(std::size_t i) const {
         const At at = rest(i);
         const glm::dvec3 own(test_mesh_.tangents[at.vertex]);
+        const paper::Parameters& body = parameters_[at.region];
         return axes_ * chain_.tangent(at.region, at.local,
                                       paper::straightened_tangent(
-                                          glm::transpose(axes_) * own, at.whole, binding_.cylinder.length,
-                                          binding_.cylinder.radius, rest_, shape_.get()));
+                                          in_region(at, own), at.local, body.length, body.radius,
+                                          {body.rest_angle, body.rest_direction}, body.shape.get()));
     }
 
     /// A place of region `region`, which counts z from where that begins.
@@ -90,21 +120,40 @@ public:
 private:
     struct At {
         std::size_t vertex, region;
-        paper::Cylindrical whole, local;
+        paper::Cylindrical local;
     };
+
+    [[nodiscard]] glm::dvec3 in_region(const At& at, const glm::dvec3& vector) const {
+        return glm::transpose(rest_.frame(at.region).axes) * (glm::transpose(axes_) * vector);
+    }
 
     [[nodiscard]] At rest(std::size_t i) const {
         At at{};
         at.vertex = binding_.order.empty() ? i : binding_.order[i];
+        const std::span<const bend::Region> regions = binding_.body.regions();
+        while (i >= regions[at.region].last) ++at.region;
+        const paper::Parameters& body = parameters_[at.region];
+        const paper::Frame& frame = rest_.frame(at.region);
         const glm::dvec3 point = glm::transpose(axes_) *
                                  (glm::dvec3(test_mesh_.positions[at.vertex]) - test_mesh_.cylinder.origin);
-        at.whole = paper::to_cylindrical(point, binding_.cylinder.length, binding_.cylinder.radius, rest_);
-        if (shape_ && rest_.angle != 0)
-            at.whole.z = shape_->unshifted(at.whole.z, rest_.angle / binding_.cylinder.length);
-        at.local = at.whole;
-        const std::span<const bend::Region> regions = binding_.body.regions();
-        while (i >= regions[at.region].last) at.local.z -= binding_.regions[at.region++].length;
+        at.local = paper::to_cylindrical(glm::transpose(frame.axes) * (point - frame.origin), body.length,
+                                         body.radius, {body.rest_angle, body.rest_direction});
+        if (body.shape && body.rest_angle != 0)
+            at.local.z = body.shape->unshifted(at.local.z, body.rest_angle / body.length);
         return at;
+    }
+
+    /// Without wrinkles, and straight unless bent.
+    static std::vector<paper::Parameters> bare(std::vector<paper::Parameters> bodies) {
+        for (paper::Parameters& body : bodies)
+            body = {.length = body.length, .radius = body.radius, .shape = body.shape};
+        return bodies;
+    }
+
+    static std::vector<paper::Pose> rest_poses(const std::vector<paper::Parameters>& bodies) {
+        std::vector<paper::Pose> poses;
+        for (const paper::Parameters& body : bodies) poses.push_back({body.rest_angle, body.rest_direction});
+        return poses;
     }
 
     static std::vector<paper::Parameters> regions(const fit::BindOptions& options,
@@ -132,8 +181,8 @@ private:
     const TestMesh& test_mesh_;
     const fit::Binding& binding_;
     glm::dmat3 axes_;
-    paper::Pose rest_;
-    std::shared_ptr<const paper::Shape> shape_;
+    paper::Chain rest_;  // without wrinkles, as the mesh is
+    std::vector<paper::Parameters> parameters_;
     paper::Chain chain_;
 };
 

@@ -70,6 +70,9 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
     cylinder.rest_angle = radians(fit.value("rest_angle", 0.0));
     cylinder.rest_direction = radians(fit.value("rest_direction", 0.0));
     cylinder.residual = fit.value("residual", 0.0);
+    for (const nlohmann::json& arc : fit.value("arcs", nlohmann::json::array()))
+        cylinder.arcs.push_back({arc.at("length").get<double>(), radians(arc.at("angle").get<double>()),
+                                 radians(arc.at("direction").get<double>())});
     if (fit.contains("radii")) cylinder.radii = fit.at("radii").get<std::vector<double>>();
     return cylinder;
 }

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <span>
 #include <utility>
@@ -39,8 +40,19 @@ fit::Cylinder cylinder_of(const bend::Body& body) {
     cylinder.zero = body.axes()[0];
     cylinder.length = body.length();
     cylinder.radius = body.radius();
-    for (const bend::RegionInput& region : body.region_inputs()) cylinder.rest_angle += region.rest_angle;
-    cylinder.rest_direction = body.region_inputs()[0].rest_direction;
+    const std::span<const bend::RegionInput> regions = body.region_inputs();
+    const auto alike = [&](const bend::RegionInput& region) {
+        return region.rest_direction == regions[0].rest_direction &&
+               std::fabs(region.rest_angle * regions[0].length - regions[0].rest_angle * region.length) <
+                   1e-6 * region.length;
+    };
+    if (std::ranges::all_of(regions, alike)) {
+        for (const bend::RegionInput& region : regions) cylinder.rest_angle += region.rest_angle;
+        cylinder.rest_direction = regions[0].rest_direction;
+    } else {
+        for (const bend::RegionInput& region : regions)
+            cylinder.arcs.push_back({region.length, region.rest_angle, region.rest_direction});
+    }
     return cylinder;
 }
 

@@ -26,25 +26,26 @@ struct InspectOptions {
     bool said_fit = false;  ///< --axis or --rest
 };
 
-/// The arc of the rest center line, if there is one, beside the straight line that it replaces.
-void report_rest(Report& report, const InspectOptions& options, const BindRequest& request,
-                 const BoundModel& model) {
+/// The center line at rest, if it is bent, beside the straight line that it replaces.
+void report_rest(Report& report, const BindRequest& request, const BoundModel& model) {
     const fit::Cylinder& fitted = model.cylinder;
-    const bool bent = fitted.rest_angle != 0;
-    const auto straight_residual = [&] {
+    const bool bent = fitted.bent();
+    const auto straight_residual = [&]() -> std::optional<double> {
         const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
-        return in_file(options.model, [&] {
+        try {
             return fit::fit_cylinder(geometry, request.axis, fit::RestPose::straight).residual;
-        });
+        } catch (const fit::AxisError&) {
+            return std::nullopt;  // as long across as along, for a straight line
+        }
     };
-    const double straight = bent ? straight_residual() : fitted.residual;
+    const std::optional<double> straight = bent ? straight_residual() : fitted.residual;
     nlohmann::ordered_json& rest = report.json["rest"];
     rest["bent"] = bent;
-    rest["arc_radius"] = bent ? nlohmann::ordered_json(fit::rest_radius(fitted)) : nullptr;
-    rest["residual_straight"] = straight;
+    rest["arc_radius"] = fitted.rest_angle != 0 ? nlohmann::ordered_json(fit::rest_radius(fitted)) : nullptr;
+    rest["residual_straight"] = straight ? nlohmann::ordered_json(*straight) : nullptr;
     rest["residual"] = fitted.residual;
     if (!bent) return report.line("at rest", "straight");
-    report.line("straight residual", number(straight) + " of the radius");
+    if (straight) report.line("straight residual", number(*straight) + " of the radius");
 }
 
 /// Of text out of a file, that a line of the report can hold.
@@ -73,17 +74,22 @@ void report_levels(Report& report, const bend::BodyFile& file) {
     }
 }
 
+/// A region as the reports of a model and of a body file have it.
+nlohmann::ordered_json region_json(const bend::RegionInput& region, int folds) {
+    return {{"length", region.length},
+            {"max_angle", degrees(region.max_angle)},
+            {"rest_angle", degrees(region.rest_angle)},
+            {"rest_direction", degrees(region.rest_direction)},
+            {"folds", folds}};
+}
+
 void report_regions(Report& report, const bend::Body& body, Notes notes) {
     notes.regions.resize(body.region_count());
     const std::span<const bend::RegionInput> regions = body.region_inputs();
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const double limit = degrees(regions[r].max_angle), rest = degrees(regions[r].rest_angle);
         const double direction = degrees(regions[r].rest_direction);
-        report.json["regions"].push_back({{"length", regions[r].length},
-                                          {"max_angle", limit},
-                                          {"rest_angle", rest},
-                                          {"rest_direction", direction},
-                                          {"folds", notes.regions[r].folds}});
+        report.json["regions"].push_back(region_json(regions[r], notes.regions[r].folds));
         std::string line = region_words(r, regions.size()) + "length " + number(regions[r].length) +
                            ", bends by " + number(limit) + " degrees at most";
         if (notes.regions[r].capacity > 0)
@@ -127,6 +133,27 @@ void inspect_body_file(const InspectOptions& options) {
     report.finish(outputs);
 }
 
+/// How far the regions of a model bend, with how many folds.
+void report_bends(Report& report, const fit::Binding& binding) {
+    const std::span<const bend::RegionInput> regions = binding.body.region_inputs();
+    report.json["max_angle"] = degrees(regions[0].max_angle);
+    report.json["folds_capacity"] = binding.folds_capacity();
+    report.json["folds"] = binding.folds();
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        report.json["regions"].push_back(region_json(regions[r], binding.folds(r)));
+        report.line(r == 0 ? "largest angle" : "",
+                    region_words(r, regions.size()) + number(degrees(regions[r].max_angle)) + " degrees");
+    }
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const std::string carried = "; the mesh carries " + std::to_string(binding.folds_capacity(r));
+        report.line(
+            r == 0 ? "folds" : "",
+            region_words(r, regions.size()) +
+                (binding.folds(r) > 0 ? "it would have " + std::to_string(binding.folds(r)) + carried
+                                      : "none as it is" + carried + "; goffer bend adds rows for more"));
+    }
+}
+
 void run_inspect(const InspectOptions& options) {
     if (is_body_file(options.model)) return inspect_body_file(options);
     BindWords words;
@@ -137,22 +164,12 @@ void run_inspect(const InspectOptions& options) {
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request);
-    const fit::Binding& binding = model.binding;
-
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     report_suitability(report, model);
-    if (options.rest == "auto") report_rest(report, options, request, model);
-    const double max_angle = degrees(static_cast<double>(binding.body.max_angle()));
-    report.json["max_angle"] = max_angle;
-    report.json["folds_capacity"] = binding.folds_capacity();
-    report.json["folds"] = binding.folds();
-    report.line("largest angle", number(max_angle) + " degrees");
-    const std::string carried = "; the mesh carries " + std::to_string(binding.folds_capacity());
-    report.line("folds", binding.folds() > 0
-                             ? "it would have " + std::to_string(binding.folds()) + carried
-                             : "none as it is" + carried + "; goffer bend adds rows for more");
+    if (options.rest != "straight") report_rest(report, request, model);
+    report_bends(report, model.binding);
     io::AtomicFiles outputs;
     report.finish(outputs);
 }

@@ -122,8 +122,12 @@ void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
 void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
     command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
-    command.add_option("--rest", rest, "Fit the center line: auto (an arc where that fits better), straight")
-        ->check(CLI::IsMember({"auto", "straight"}))
+    command
+        .add_option("--rest", rest,
+                    "Fit the center line: auto (an arc where that fits better, or, unless --regions are "
+                    "said, a chain "
+                    "of arcs, each of which is a region), arc (one, or straight), straight")
+        ->check(CLI::IsMember({"auto", "arc", "straight"}))
         ->capture_default_str();
 }
 
@@ -207,7 +211,9 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
 BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
     : words(spelled_out(said)),
       axis(parse_axis(words.axis)),
-      rest(words.rest == "auto" ? fit::RestPose::automatic : fit::RestPose::straight) {
+      rest(words.rest == "straight"                  ? fit::RestPose::straight
+           : words.rest == "auto" && regions.empty() ? fit::RestPose::chain
+                                                     : fit::RestPose::automatic) {
     options.folds = read_folds(words.folds, regions);
     options.regions = std::move(regions);
     options.onset = words.onset;
@@ -289,6 +295,10 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
         const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
+    if (!cylinder.arcs.empty() && !request.options.regions.empty())
+        throw UsageError("--regions: the cylinder in " + fit.string() + " is a chain of " +
+                         counted(cylinder.arcs.size(), "arc") +
+                         ", which are the regions; leave one of both words out");
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";
         model.growth = in_file(file, [&] {

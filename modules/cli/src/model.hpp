@@ -73,6 +73,13 @@ struct BindRequest {
 
     /// `regions`: as PoseRequest's; none for a body of one region.
     explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
+
+    /// For commands that pose one region where none are said: a body is not bent along a chain of arcs.
+    [[nodiscard]] BindRequest with_one_arc() const {
+        BindRequest request = *this;
+        if (request.rest == fit::RestPose::chain) request.rest = fit::RestPose::automatic;
+        return request;
+    }
 };
 
 /// A socket of a body file.

@@ -77,12 +77,14 @@ double largest(const bend::Body& body, std::size_t region) {
     return degrees(static_cast<double>(body.max_angle(region)));
 }
 
+/// `toward`: which way the body is bent at rest.
 Target target_from_rest(const bend::Body& body, std::size_t region, double by,
-                        const std::optional<double>& direction) {
+                        const std::optional<double>& direction, double toward) {
     const RestPose rest = rest_pose(body, region);
-    if (rest.angle == 0) return target(by, direction.value_or(0));
-    if (!direction) return target(rest.angle + by, rest.direction);
-    return moved_from(curvature(rest.angle, rest.direction), by, *direction, largest(body, region));
+    if (rest.angle == 0) return target(by, direction.value_or(toward));
+    if (!direction && rest.direction == toward) return target(rest.angle + by, rest.direction);
+    return moved_from(curvature(rest.angle, rest.direction), by, direction.value_or(toward),
+                      largest(body, region));
 }
 
 /// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
@@ -106,15 +108,15 @@ bool report_rest_pose(Report& report, const PoseRequest& request, const std::vec
     report.json["asked_from"] = request.from_rest ? "rest" : "straight";
     report.json["straightens"] = straightened > 0;
     if (rest == 0) return false;
-    report.line("angles", "are absolute: 0 is straight, and " + number(rest) + " toward " +
-                              number(rest_pose(body, 0).direction) + " is the shape of the file");
+    report.line("angles",
+                "are absolute: 0 is straight, and " + rest_words(body) + " is the shape of the file");
     if (straightened == 0) return false;
     if (request.from_rest) return true;
     const std::string which = targets.size() == 1
                                   ? "the body"
                                   : std::to_string(straightened) + " of " + counted(targets.size(), "region");
-    report.line("note", "this straightens " + which + ", bent by " + number(rest) +
-                            " degrees at rest; to bend it further from there, use --by D instead of --angle");
+    report.line("note", "this straightens " + which + ", bent by " + rest_words(body) +
+                            " at rest; to bend it further from there, use --by D instead of --angle");
     return true;
 }
 
@@ -166,19 +168,54 @@ PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions>
     }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
-    const double shared = read_angles(from_rest ? "--by" : "--angle", words.by.value_or(words.angle))[0];
+    const double all = read_angles(from_rest ? "--by" : "--angle", words.by.value_or(words.angle))[0];
+    if (!words.angles) shared = all;
     directions.assign(count, words.direction);
     if (words.directions) {
         const std::vector<double> each = read_directions(*words.directions, count);
         directions.assign(each.begin(), each.end());
     }
     for (std::size_t i = 0; i < count && !words.angles; ++i)
-        angles.push_back(shared * (regions.empty() ? 1 : regions[i].share));
+        angles.push_back(all * (regions.empty() ? 1 : regions[i].share));
 }
 
 RestPose rest_pose(const bend::Body& body, std::size_t region) {
     const bend::RegionInput& input = body.region_inputs()[region];
     return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
+}
+
+double rest_direction(const bend::Body& body) {
+    constexpr double cancels_out = 0.1;
+    RestPose first{}, furthest{};
+    bool same = true;
+    double all = 0;
+    Curvature sum{0, 0};
+    for (std::size_t i = 0; i < body.region_count(); ++i) {
+        const RestPose rest = rest_pose(body, i);
+        if (rest.angle == 0) continue;
+        if (all == 0) first = rest;
+        same = same && rest.direction == first.direction;
+        if (rest.angle > furthest.angle) furthest = rest;
+        const Curvature own = curvature(rest.angle, rest.direction);
+        sum = {sum.x + own.x, sum.y + own.y};
+        all += rest.angle;
+    }
+    if (same) return first.direction;
+    if (std::hypot(sum.x, sum.y) < cancels_out * all) return furthest.direction;
+    return degrees(std::atan2(sum.y, sum.x));
+}
+
+std::string rest_words(const bend::Body& body) {
+    double all = 0;
+    bool same = true;
+    std::string list;
+    for (std::size_t i = 0; i < body.region_count(); ++i) {
+        const RestPose rest = rest_pose(body, i);
+        all += rest.angle;
+        same = same && (rest.angle == 0 || rest.direction == rest_direction(body));
+        list += (i == 0 ? "" : ", ") + number(rest.angle) + " toward " + number(rest.direction);
+    }
+    return same ? number(all) + " degrees toward " + number(rest_direction(body)) : list + " degrees";
 }
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {
@@ -190,11 +227,13 @@ std::vector<Target> targets_from_straight(const PoseRequest& request) {
 
 std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request) {
     std::vector<Target> targets;
-    for (std::size_t i = 0; i < request.angles.size(); ++i) {
-        const std::optional<double>& direction = request.directions[i];
-        targets.push_back(request.from_rest
-                              ? target_from_rest(body, i, request.angles[i], direction)
-                              : target(request.angles[i], direction.value_or(rest_pose(body, i).direction)));
+    const double toward = rest_direction(body);
+    for (std::size_t i = 0; i < body.region_count(); ++i) {
+        const std::optional<double>& direction = request.directions[request.directions.size() == 1 ? 0 : i];
+        const double share = body.region_inputs()[i].length / body.length();
+        const double angle = request.shared ? *request.shared * share : request.angles[i];
+        targets.push_back(request.from_rest ? target_from_rest(body, i, angle, direction, toward)
+                                            : target(angle, direction.value_or(toward)));
     }
     return targets;
 }

@@ -39,6 +39,7 @@ struct PoseRequest {
     std::vector<fit::RegionOptions> regions;  ///< none: the body is one region
     bool from_rest = false;                   ///< angles count from the rest pose (--by), not from straight
     std::vector<double> angles;               ///< degrees, one per region; an infinity: as far as it can
+    std::optional<double> shared;             ///< the angle that all regions share, if it is one
     std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
 
     /// `baked`: the regions of a body that has them already, if it has several.
@@ -52,6 +53,14 @@ struct RestPose {
 
 [[nodiscard]] RestPose rest_pose(const bend::Body& body, std::size_t region);
 
+/// Returns which way a body is bent at rest as a whole, degrees: as its rest arcs are, added up as vectors
+/// (alpha cos theta, alpha sin theta), or, where they cancel out, as the one that is bent furthest; 0 of a
+/// straight body.
+[[nodiscard]] double rest_direction(const bend::Body& body);
+
+/// Returns how a body is bent at rest, in words: as a whole if that is one arc, else region by region.
+[[nodiscard]] std::string rest_words(const bend::Body& body);
+
 /// Where a region is bent to. Angle and direction are degrees, the angle counts from straight.
 struct Target {
     double angle = 0;  ///< as asked for: it may be beyond the largest
@@ -63,9 +72,9 @@ struct Target {
 /// beyond that of every body. For a crowd, whose models differ.
 [[nodiscard]] std::vector<Target> targets_from_straight(const PoseRequest& request);
 
-/// Returns the targets of `request` for `body`, which has its regions. Without a direction, regions bend in
-/// the plane of their rest arcs. Angles that count from the rest pose are added to it there or, with a
-/// direction, as vectors (alpha cos theta, alpha sin theta).
+/// Returns the targets of `request` for `body`, which has its regions, or shares its angle out over them by
+/// their lengths if it is for one. Without a direction, regions bend toward rest_direction(). Angles that
+/// count from the rest pose are added to it as vectors (alpha cos theta, alpha sin theta).
 [[nodiscard]] std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request);
 
 /// The targets' poses.

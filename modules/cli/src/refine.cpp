@@ -54,8 +54,11 @@ void run_refine(const RefineOptions& options) {
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     report_growth(report, *model.growth);
-    report.json["folds_capacity"] = model.binding.folds_capacity();
-    report.line("folds", "the mesh carries " + std::to_string(model.binding.folds_capacity()));
+    int capacity = 0;
+    for (std::size_t r = 0; r < model.binding.regions.size(); ++r)
+        capacity += model.binding.folds_capacity(r);
+    report.json["folds_capacity"] = capacity;
+    report.line("folds", "the mesh carries " + std::to_string(capacity));
     io::AtomicFiles outputs;
     mesh::save(model.mesh, options.output, outputs);
     report.line("written", options.output.string());

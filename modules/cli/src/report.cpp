@@ -2,6 +2,7 @@
 #include "report.hpp"
 
 #include "arguments.hpp"
+#include "poses.hpp"
 
 #include <goffer/io/atomic_file.hpp>
 
@@ -122,6 +123,9 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     fit["rest_direction"] = degrees(cylinder.rest_direction);
     fit["residual"] = cylinder.residual;
     if (!cylinder.radii.empty()) fit["radii"] = cylinder.radii;
+    for (const fit::RestArc& arc : cylinder.arcs)
+        fit["arcs"].push_back(
+            {{"length", arc.length}, {"angle", degrees(arc.angle)}, {"direction", degrees(arc.direction)}});
     report.line("base end", vector_text(cylinder.origin, cylinder.length));
     report.line("axis", vector_text(cylinder.axis, 1));
     report.line("zero direction", vector_text(cylinder.zero, 1));
@@ -130,6 +134,12 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
     if (cylinder.rest_angle != 0) {
         report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees toward " +
                                    number(degrees(cylinder.rest_direction)));
+    }
+    for (std::size_t i = 0; i < cylinder.arcs.size(); ++i) {
+        const fit::RestArc& arc = cylinder.arcs[i];
+        report.line(i == 0 ? "at rest" : "", region_words(i, cylinder.arcs.size()) + "bent by " +
+                                                 number(degrees(arc.angle)) + " degrees toward " +
+                                                 number(degrees(arc.direction)));
     }
     if (!cylinder.radii.empty()) {
         const auto [thinnest, thickest] = std::ranges::minmax(cylinder.radii);

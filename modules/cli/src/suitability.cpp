@@ -60,7 +60,8 @@ void report_suitability(Report& report, const BoundModel& model) {
                                   {"side_by_side", found.side_by_side},
                                   {"side_by_side_share", found.side_by_side_share},
                                   {"flatness", found.flatness}};
-    const std::string why = warning(found, model.cylinder.residual);
+    const bool round = !model.cylinder.arcs.empty();  // about its chain, or it would have none
+    const std::string why = warning(found, round ? 0 : model.cylinder.residual);
     if (const std::string far = far_away(model); !far.empty()) report.warn(far);
     if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
 }

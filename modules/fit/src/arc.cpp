@@ -83,36 +83,6 @@ Line circle_through(const Body& cloud, const Line& chord) {
                         std::copysign(1.0, tangent.dot(chord.axis())) * tangent, main * inward / radius);
 }
 
-/// The sections of a body, gathered in a few slices along its line: that a bottle's neck is thinner than its
-/// belly must not count as a bend.
-class Slices {
-public:
-    Slices(const Body& body, const View& view) : body_(body), view_(view) {
-        for (const std::uint32_t i : body.triangles) {
-            low_ = std::min(low_, view.local[i].z());
-            high_ = std::max(high_, view.local[i].z());
-        }
-    }
-
-    /// `visit` gets each sample, the number of its slice, and its weight. Caps have none.
-    template <class Visit>
-    void each(Visit visit) const {
-        const double scale = count / (high_ - low_);
-        each_sample(body_, view_, [&](const Sample& s) {
-            const double slice = std::clamp((s.place.z() - low_) * scale, 0.0, count - 1.0);  // 0 for NaN
-            visit(s, static_cast<std::size_t>(slice), s.unrolled * s.upright);
-        });
-    }
-
-    static constexpr std::size_t count = 16;
-
-private:
-    const Body& body_;
-    const View& view_;
-    double low_ = std::numeric_limits<double>::infinity();
-    double high_ = -low_;
-};
-
 /// Sums over a slice, or over all.
 template <int size>
 struct Sums {
@@ -126,8 +96,9 @@ struct Sums {
 CenterParabola regress(const Body& body, const Line& line) {
     const View view(body, line);
     Eigen::Matrix<double, 7, 7> products = decltype(products)::Zero();
-    std::array<Sums<7>, Slices::count> slices{};
-    Slices(body, view).each([&](const Sample& s, std::size_t slice, double weight) {
+    const Slices of_line(body, view);
+    std::vector<Sums<7>> slices(of_line.count());
+    of_line.each([&](const Sample& s, std::size_t slice, double weight) {
         const double x = 2 * s.place.x(), y = 2 * s.place.y(), z = s.place.z();
         Eigen::Matrix<double, 7, 1> row;
         row << x, y, z * x, z * y, z * z * x, z * z * y, s.rho * s.rho;
@@ -167,29 +138,12 @@ bool possible(const Fitted& arc) {
 std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {
     const Line line = settle(body, start, steps);
     if (!line.point.allFinite() || !line.frame.allFinite() || !line.bow.allFinite()) return std::nullopt;
-    const std::optional<Section> around = section_around(body, line);
+    const View view(body, line);
+    const std::optional<Section> around = section_around(body, view);
     if (!around) return std::nullopt;
-    const auto [low, high] = extent(body, line);
+    const auto [low, high] = extent(body, view);
     const Fitted arc{line, low, high, *around};
     return possible(arc) ? std::optional(arc) : std::nullopt;
-}
-
-/// How far the sections about a line are from circles about it: the rms of rho's difference from its mean in
-/// a slice. It is 0 if all sections are circles about the line, whatever their radii.
-double roughness(const Body& body, const Line& line) {
-    const View view(body, line);
-    std::array<Sums<2>, Slices::count> slices{};
-    Slices(body, view).each([&](const Sample& s, std::size_t slice, double weight) {
-        slices[slice].weight += weight;
-        slices[slice].first += weight * Eigen::Vector2d{s.rho, s.rho * s.rho};
-    });
-    double weight = 0, variance = 0;
-    for (const Sums<2>& own : slices) {
-        if (own.weight == 0) continue;
-        weight += own.weight;
-        variance += own.first[1] - own.first[0] * own.first[0] / own.weight;
-    }
-    return std::sqrt(std::max(0.0, variance) / weight);
 }
 
 /// Whether the body is a tube about the arc, and that by more than noise or a relief would make it better
@@ -200,10 +154,10 @@ bool convincing(const Body& body, const Fitted& arc, const Line& straight, doubl
     // As a share of the radius: rougher bodies are no tubes. Beyond a half turn less is allowed, since few
     // bodies are bent so far, but such an arc fits many others a little.
     const double roughest = arc.angle() < std::numbers::pi ? 0.3 : 0.2;
-    const double rough = roughness(body, arc.line);
+    const double rough = roughness(body, View(body, arc.line));
     const double sag = (arc.high - arc.low) * arc.angle() / 8;
     return rough < slack * roughest * arc.section.radius && slack * sag > min_sag * arc.section.radius &&
-           rough < slack * better * roughness(body, straight);
+           rough < slack * better * roughness(body, View(body, straight));
 }
 
 /// The best of arcs that begin with the points' circle, and with several angles and directions.
@@ -215,7 +169,7 @@ std::optional<Fitted> rough_arc(const Body& cloud, const Vector3d& axis) {
     double least = std::numeric_limits<double>::infinity();
     const auto consider = [&](const Line& start) {
         const std::optional<Fitted> arc = arc_from(cloud, start, few_steps);
-        const double own = arc ? roughness(cloud, arc->line) : least;
+        const double own = arc ? roughness(cloud, View(cloud, arc->line)) : least;
         if (!(own < least)) return;
         least = own;
         best = arc;

@@ -34,7 +34,7 @@ std::optional<double> base_area_change(const Binding& binding, std::span<const d
         std::ranges::any_of(binding.regions, [](const RegionBinding& r) { return r.shape != nullptr; });
     const bool joined =
         std::ranges::any_of(binding.regions, [](const RegionBinding& r) { return !r.wave.whole(); });
-    if (gentle || shaped || joined || binding.cylinder.rest_angle != 0) return std::nullopt;
+    if (gentle || shaped || joined || binding.cylinder.bent()) return std::nullopt;
     double change = 0;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         change += binding.regions[r].length / binding.cylinder.length *

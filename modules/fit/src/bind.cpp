@@ -47,11 +47,11 @@ void check_options(const BindOptions& options, const Cylinder& cylinder, double 
             throw Error("folds: " + std::to_string(*region.folds) + " is outside 0.." + std::to_string(most));
     }
     const bool whole = options.wrinkle_range.whole();
-    if (options.amplitude == paper::Amplitude::area && (cylinder.rest_angle != 0 || onset != 0 || !whole)) {
+    if (options.amplitude == paper::Amplitude::area && (cylinder.bent() || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +
-                    (cylinder.rest_angle != 0 ? "that is bent at rest"
-                     : whole                  ? "with an onset"
-                                              : "with a wrinkle range") +
+                    (cylinder.bent() ? "that is bent at rest"
+                     : whole         ? "with an onset"
+                                     : "with a wrinkle range") +
                     "; use mesh");
     }
 }
@@ -77,7 +77,8 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
         if (!asked && !even)
             asked = sensible_folds(stretch, std::min(capacity, BindOptions::max_folds), options.fold_length);
         FoldPlan plan = plan_folds(cylinder, rows, options, start, stretch.length, asked);
-        rest.push_back({start, stretch.length, plan.folds, plan.shape});
+        rest.push_back(
+            {start, stretch.length, plan.folds, plan.shape, 0, rest_of(cylinder, start, stretch.length)});
         found.push_back({stretch.length, plan.folds, capacity, std::move(plan.shape), plan.folds});
         if (even && !options.wrinkle_range.whole()) {
             // Any mesh will do where it stays smooth.
@@ -178,8 +179,7 @@ struct Plan {
             rest.shape ? largest_angle(girths, options.profile, options.amplitude, rest.folds, factor)
                        : largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
                                        cylinder.radius, largest_rho, factor);
-        return std::min(std::max(cylinder.rest_angle * rest.length / cylinder.length, largest),
-                        bend::WorkingRange::max_angle);
+        return std::min(std::max(rest.rest.angle, largest), bend::WorkingRange::max_angle);
     }
 };
 
@@ -192,8 +192,8 @@ bend::RegionInput region_input(const Plan& plan, double onset, std::size_t verte
     region.length = rest.length;
     region.vertex_count = vertex_count;
     region.onset = rest.folds.count == 0 ? 0 : onset;
-    region.rest_angle = cylinder.rest_angle * rest.length / cylinder.length;
-    region.rest_direction = cylinder.rest_direction;
+    region.rest_angle = rest.rest.angle;
+    region.rest_direction = rest.rest.direction;
     region.max_angle = plan.max_angle(1);
     region.radius = radius;
     // Between the heights that a shape was looked at it may be thicker by a trace.
@@ -370,13 +370,14 @@ std::vector<std::uint32_t> triangles_within(const Geometry& geometry, const Cyli
     return within;
 }
 
-Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions& options) {
+Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions& given_options) {
     const auto start = std::chrono::steady_clock::now();
     check(geometry);
     check(given);
-    check_fold_length(options.fold_length.value_or(1));
-    const Cylinder cylinder = base_of(geometry, given, options);
-    const double gentle = cylinder.rest_angle != 0 ? BindOptions::gentle_onset : 0;
+    check_fold_length(given_options.fold_length.value_or(1));
+    const Cylinder cylinder = base_of(geometry, given, given_options);
+    const BindOptions options = with_regions_of(cylinder, given_options);
+    const double gentle = cylinder.bent() ? BindOptions::gentle_onset : 0;
     const double onset = options.onset.value_or(gentle);
     check_options(options, cylinder, onset);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "arc.hpp"
+#include "chain.hpp"
 #include "sections.hpp"
 #include "surface.hpp"
 
+#include <goffer/bend/region.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/paper/shape.hpp>
 
@@ -122,6 +124,11 @@ void check_unit(const glm::dvec3& v, std::string_view name) {
                 " is not of length 1; normalize it");
 }
 
+void check_finite(const Vector3d& value, std::string_view name) {
+    if (value.allFinite()) return;
+    throw Error("cylinder: " + std::string(name) + " " + text(value) + " is not finite; give finite numbers");
+}
+
 void check_positive(double value, std::string_view name) {
     if (std::isfinite(value) && value > 0) return;
     throw Error("cylinder: " + std::string(name) + " is " + text(value) + "; give a finite number above 0");
@@ -146,6 +153,29 @@ void check_rest_angle(const Cylinder& cylinder) {
                 ", the range for this length and radius; give radians within it");
 }
 
+/// The same of each arc of a chain.
+void check_arcs(const Cylinder& cylinder) {
+    if (cylinder.arcs.empty()) return;
+    if (cylinder.rest_angle != 0)
+        throw Error("cylinder: both rest_angle and arcs are given; give one of them");
+    if (cylinder.arcs.size() > bend::max_regions)
+        throw Error("cylinder: " + std::to_string(cylinder.arcs.size()) + " arcs are more than the " +
+                    std::to_string(bend::max_regions) + " regions that a body may have");
+    double sum = 0;
+    for (const RestArc& arc : cylinder.arcs) {
+        check_size(arc.length, "the length of one of the arcs");
+        check_finite(Vector3d(arc.angle, arc.direction, 0), "one of the arcs");
+        const double most = std::min(2 * std::numbers::pi, arc.length / (2 * cylinder.radius));
+        if (!(arc.angle >= 0 && arc.angle < most))
+            throw Error("cylinder: the angle of one of the arcs, " + text(arc.angle) + ", is outside 0.." +
+                        text(most) + ", the range for its length and the radius; give radians within it");
+        sum += arc.length;
+    }
+    if (std::abs(sum / cylinder.length - 1) <= 1e-6) return;
+    throw Error("cylinder: the lengths of its arcs add up to " + text(sum) + ", and length is " +
+                text(cylinder.length) + "; make them the same");
+}
+
 void check_radii(const Cylinder& cylinder) {
     if (cylinder.radii.empty()) return;
     for (const double radius : cylinder.radii) check_size(radius, "one of the radii");
@@ -156,6 +186,19 @@ void check_radii(const Cylinder& cylinder) {
         throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " +
                     text(cylinder.radius) + "; make them the same");
     }
+    const paper::Spline radius(cylinder.length, cylinder.radii);
+    double start = 0;
+    for (const RestArc& arc : cylinder.arcs) {
+        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            const double thick = radius(start + share * arc.length);
+            if (!(arc.angle < arc.length / (2 * thick)))
+                throw Error("cylinder: a radius of " + text(thick) +
+                            " is too thick for the angle of its arc, " + text(arc.angle) +
+                            ", which has room for less than length / (2 angle); give a " +
+                            "smaller angle, or no radii");
+        }
+        start += arc.length;
+    }
     const double thickest = *std::ranges::max_element(cylinder.radii);
     if (cylinder.rest_angle < cylinder.length / (2 * thickest)) return;
     throw Error("cylinder: radii of " + text(thickest) + " are too thick for the rest_angle of " +
@@ -164,25 +207,28 @@ void check_radii(const Cylinder& cylinder) {
                 "smaller angle, or no radii");
 }
 
-void check_finite(const Vector3d& value, std::string_view name) {
-    if (value.allFinite()) return;
-    throw Error("cylinder: " + std::string(name) + " " + text(value) + " is not finite; give finite numbers");
-}
-
 }  // namespace
 
 Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, RestPose rest) {
     check(geometry);
     const Body body = body_of(geometry);
     const Principal principal = principal_axis(body);
+    const auto chain_instead = [&](const Line& line) -> std::optional<Cylinder> {
+        if (rest != RestPose::chain) return std::nullopt;
+        return fit_chain(body, line, axis ? std::optional(given_axis(*axis)) : std::nullopt);
+    };
+    if (!axis && principal.distinct < long_enough) {  // it may be long all the same, if it is bent
+        if (const auto chain = chain_instead(line_through(principal.centroid, principal.axis))) return *chain;
+    }
     const Vector3d direction = axis ? given_axis(*axis) : long_axis(principal);
     const Line line = settled_near(body, line_through(principal.centroid, direction), false);
     const bool kept = axis && rest == RestPose::straight;
     const Line best = kept ? line : straighten(body, line);
     std::optional<Fitted> found;
-    if (rest == RestPose::automatic) found = arc_instead(body, principal, best, axis);
+    if (rest != RestPose::straight) found = arc_instead(body, principal, best, axis);
     if (!found) found = measured(body, axis ? line : best);
-    Cylinder cylinder = cylinder_of(body, toward(axis, *found));
+    const std::optional<Cylinder> chain = chain_instead(found->line);
+    const Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);
     return cylinder;
 }
@@ -201,6 +247,7 @@ void check(const Cylinder& cylinder) {
     check_finite(Vector3d::Constant(cylinder.rest_direction), "rest_direction");
     check_finite(Vector3d::Constant(cylinder.residual), "residual");
     check_rest_angle(cylinder);
+    check_arcs(cylinder);
     check_radii(cylinder);
     check_unit(cylinder.axis, "axis");
     check_unit(cylinder.zero, "zero");

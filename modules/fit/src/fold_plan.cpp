@@ -18,16 +18,6 @@ constexpr double longest = 2.5;  // radii of a fold that is too long for wrinkle
 constexpr double full = 1.5;     // radii of a fold up to which they have their depth
 constexpr int max_even_folds = 2 * BindOptions::max_folds;
 
-/// The radii of a stretch of `cylinder`, at equal steps of about a quarter radius.
-std::vector<double> radii_of(const Cylinder& cylinder, double start, double length, std::size_t knots) {
-    if (cylinder.radii.empty()) return std::vector<double>(knots, cylinder.radius);
-    const paper::Spline whole(cylinder.length, cylinder.radii);
-    std::vector<double> radii;
-    for (std::size_t i = 0; i < knots; ++i)
-        radii.push_back(whole(start + length * static_cast<double>(i) / static_cast<double>(knots - 1)));
-    return radii;
-}
-
 std::size_t knots_of(const Cylinder& cylinder, double length, const WrinkleRange& range) {
     constexpr double max_knots = 256;
     const double min_knots = range.whole() ? 4 : 48;  // so that slices' weights need no more: see weighted()
@@ -82,11 +72,9 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
                     double length, std::optional<int> asked) {
     const bool even = options.profile.kind == Profile::Kind::even;
     const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
-    const std::vector<double> radii = radii_of(cylinder, start, length, knots);
+    const std::vector<double> radii = radii_at(cylinder, start, length, knots);
     paper::Shape::Knots shape;
-    // Of the whole body the same as Straightening has.
-    const bool whole = start == 0 && length == cylinder.length;
-    if (!cylinder.radii.empty()) shape.radius = whole ? cylinder.radii : radii;
+    shape.radius = radii_of(cylinder, start, length);  // as Straightening has them
     FoldPlan plan{asked.value_or(0)};
     const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     std::vector<double> wanted(knots);  // lengths of folds

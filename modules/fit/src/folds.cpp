@@ -58,6 +58,15 @@ std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder
     return z;
 }
 
+std::vector<glm::dvec3> places_on_base(const Cylinder& cylinder, std::span<const BasePoint> points) {
+    std::vector<glm::dvec3> places;
+    places.reserve(points.size());
+    const Straightening straightening(cylinder);
+    for (const BasePoint& point : points)
+        places.push_back(straightening.bent({point.beta, point.z, point.rho}));
+    return places;
+}
+
 Rows::Rows(const Geometry& geometry, const Cylinder& cylinder)
     : length_(cylinder.length), reach_(0), slices_(slices, 0) {
     const std::vector<Reach> all = reaches(geometry, cylinder);

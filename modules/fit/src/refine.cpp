@@ -281,7 +281,7 @@ RowScale scale_of(std::span<const Stretch> stretches) {
 std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options) {
     std::vector<Stretch> stretches;
     double start = 0;
-    for (const RegionOptions& region : regions_of(options)) {
+    for (const RegionOptions& region : regions_of(with_regions_of(cylinder, options))) {
         const Cylinder own = stretch_of(cylinder, region.share * cylinder.length);
         if (options.profile.kind == Profile::Kind::even) {
             add_even(stretches, cylinder, options, start, own.length, region.folds);
@@ -302,10 +302,12 @@ int fold_count(std::span<const Stretch> stretches, Profile profile) {
 }
 
 std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& options) {
-    BindOptions unsaid = options;
+    BindOptions unsaid = with_regions_of(cylinder, options);
     unsaid.folds.reset();
     for (RegionOptions& region : unsaid.regions) region.folds.reset();
-    const std::vector<Stretch> stretches = stretches_of(cylinder, unsaid);
+    Cylinder straight = cylinder;  // whose regions are said
+    straight.arcs.clear();
+    const std::vector<Stretch> stretches = stretches_of(straight, unsaid);
     const std::size_t regions = regions_of(unsaid).size(), of_region = stretches.size() / regions;
     std::vector<int> folds;
     folds.reserve(regions);
@@ -327,7 +329,7 @@ Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<
     const RowScale scale = scale_of(stretches);
     const Straightening arc(cylinder);
     Refinement rows = with_rows(geometry, heights(geometry.positions, cylinder), scale,
-                                cylinder.rest_angle != 0 ? &arc : nullptr, stage(options, 0));
+                                cylinder.bent() ? &arc : nullptr, stage(options, 0));
     return with_columns(geometry, cylinder, scale, std::move(rows), stage(options, 1));
 }
 

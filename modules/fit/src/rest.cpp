@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -46,6 +48,10 @@ std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cyl
                             "; fit the cylinder to this mesh, or lengthen it");
             }
             at.z = std::clamp(at.z, 0.0, cylinder.length);
+        }
+        if (!cylinder.arcs.empty()) {  // a thousandth of the body may be much of an arc
+            at.z = std::clamp(at.z, -5e-4 * cylinder.arcs.front().length,
+                              cylinder.length + 5e-4 * cylinder.arcs.back().length);
         }
         if (!used[vertices.size()]) at.rho = std::min(at.rho, far);
         vertices.push_back(at);
@@ -121,43 +127,149 @@ std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double ra
     return std::make_shared<const paper::Shape>(region.length, radius, knots);
 }
 
-std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder) {
-    if (cylinder.radii.empty()) return nullptr;
-    return std::make_shared<const paper::Shape>(cylinder.length, cylinder.radius,
-                                                paper::Shape::Knots{.radius = cylinder.radii});
+paper::Pose rest_of(const Cylinder& cylinder, double start, double length) {
+    if (cylinder.arcs.empty())
+        return {cylinder.rest_angle * length / cylinder.length, cylinder.rest_direction};
+    double end = 0;
+    for (const RestArc& arc : cylinder.arcs) {
+        end += arc.length;
+        if (start < end - 1e-6 * cylinder.length) return {arc.angle, arc.direction};
+    }
+    return {};
+}
+
+BindOptions with_regions_of(const Cylinder& cylinder, const BindOptions& given) {
+    BindOptions options = given;
+    if (cylinder.arcs.empty()) return options;
+    if (!given.regions.empty())
+        throw Error("regions: the cylinder is a chain of " + std::to_string(cylinder.arcs.size()) +
+                    " arcs, which are the regions; give none, or a cylinder without arcs");
+    double start = 0;
+    for (const RestArc& arc : cylinder.arcs) {
+        options.regions.push_back({arc.length / cylinder.length, {}});
+        const auto folds_before = [&](double z) { return std::lround(*given.folds * z / cylinder.length); };
+        if (given.folds)
+            options.regions.back().folds = folds_before(start + arc.length) - folds_before(start);
+        start += arc.length;
+    }
+    return options;
+}
+
+std::vector<double> radii_at(const Cylinder& cylinder, double start, double length, std::size_t count) {
+    if (cylinder.radii.empty()) return std::vector<double>(count, cylinder.radius);
+    const paper::Spline whole(cylinder.length, cylinder.radii);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < count; ++i)
+        radii.push_back(whole(start + length * static_cast<double>(i) / static_cast<double>(count - 1)));
+    return radii;
+}
+
+std::vector<double> radii_of(const Cylinder& cylinder, double start, double length) {
+    constexpr double min_steps = 4, max_steps = 256;
+    if (cylinder.radii.empty() || (start == 0 && length == cylinder.length)) return cylinder.radii;
+    const double quarters = std::ceil(4 * length / cylinder.radius);
+    return radii_at(cylinder, start, length,
+                    static_cast<std::size_t>(std::clamp(quarters, min_steps, max_steps)) + 1);
 }
 
 Straightening::Straightening(const Cylinder& cylinder)
-    : cylinder_(cylinder),
-      to_body_(glm::transpose(axes_of(cylinder))),
-      rest_{cylinder.rest_angle, cylinder.rest_direction},
-      shape_(cylinder.rest_angle != 0 ? shape_of(cylinder) : nullptr),
-      radius_(shape_ ? shape_->radius() : cylinder.radius) {}
+    : origin_(cylinder.origin), to_body_(glm::transpose(axes_of(cylinder))) {
+    if (cylinder.arcs.empty()) add_piece(cylinder, 0, cylinder.length);
+    double start = 0;
+    for (const RestArc& arc : cylinder.arcs) {
+        add_piece(cylinder, start, arc.length);
+        start += arc.length;
+    }
+}
 
-paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
-    paper::Cylindrical at = paper::to_cylindrical(in_body(position), cylinder_.length, radius_, rest_);
-    if (shape_) at.z = shape_->unshifted(at.z, rest_.angle / cylinder_.length);
+void Straightening::add_piece(const Cylinder& cylinder, double start, double length) {
+    Piece piece{start, length, cylinder.radius, rest_of(cylinder, start, length), nullptr, {}};
+    const std::vector<double> radii = radii_of(cylinder, start, length);
+    if (!radii.empty() && cylinder.bent()) {
+        piece.shape = std::make_shared<const paper::Shape>(length, cylinder.radius,
+                                                           paper::Shape::Knots{.radius = radii});
+        piece.radius = piece.shape->radius();
+    }
+    if (!pieces_.empty()) {
+        const Piece& before = pieces_.back();
+        const paper::Parameters body{.length = before.length, .radius = before.radius};
+        piece.frame = paper::end_frame(before.frame, body, before.rest);
+    }
+    pieces_.push_back(std::move(piece));
+}
+
+paper::Cylindrical Straightening::Piece::straightened(const glm::dvec3& in_body) const {
+    const glm::dvec3 local = glm::transpose(frame.axes) * (in_body - frame.origin);
+    paper::Cylindrical at = paper::to_cylindrical(local, length, radius, rest);
+    if (shape) at.z = shape->unshifted(at.z, rest.angle / length);
     return at;
 }
 
-double Straightening::height(const glm::dvec3& position) const {
-    return rest_.angle == 0 ? in_body(position).z : vertex(position).z;
+/// Of a chain, the piece is that whose center line is nearest. Beyond the base and the tip the first and the
+/// last one go on.
+paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
+    const glm::dvec3 place = in_body(position);
+    if (pieces_.size() == 1) return pieces_[0].straightened(place);
+    paper::Cylindrical nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Piece& piece : pieces_) {
+        paper::Cylindrical at = piece.straightened(place);
+        const double within = std::clamp(at.z, 0.0, piece.length), beyond = at.z - within;
+        const double far = std::hypot(at.rho, beyond);
+        if (!(far < least)) continue;
+        least = far;
+        const bool open =
+            (&piece == &pieces_.front() && beyond < 0) || (&piece == &pieces_.back() && beyond > 0);
+        at.z = piece.start + (open ? at.z : within);
+        nearest = at;
+    }
+    return nearest;
 }
 
+double Straightening::height(const glm::dvec3& position) const {
+    return pieces_.size() == 1 && pieces_[0].rest.angle == 0 ? in_body(position).z : vertex(position).z;
+}
+
+const Straightening::Piece& Straightening::piece_at(double z) const {
+    std::size_t piece = pieces_.size() - 1;
+    while (piece > 0 && z < pieces_[piece].start) --piece;
+    return pieces_[piece];
+}
+
+namespace {
+
+paper::Cylindrical moved_down(paper::Cylindrical at, double by) {
+    at.z -= by;
+    return at;
+}
+
+}  // namespace
+
 bend::RestVector Straightening::normal(const glm::dvec3& vector, const paper::Cylindrical& at) const {
-    const auto [rho, beta, z] =
-        paper::straightened_normal(to_body_ * vector, at, cylinder_.length, radius_, rest_, shape_.get());
+    const Piece& piece = piece_at(at.z);
+    const auto [rho, beta, z] = paper::straightened_normal(
+        glm::transpose(piece.frame.axes) * (to_body_ * vector), moved_down(at, piece.start), piece.length,
+        piece.radius, piece.rest, piece.shape.get());
     return {rho, beta, z};
 }
 
 bend::RestVector Straightening::tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const {
-    const auto [rho, beta, z] =
-        paper::straightened_tangent(to_body_ * vector, at, cylinder_.length, radius_, rest_, shape_.get());
+    const Piece& piece = piece_at(at.z);
+    const auto [rho, beta, z] = paper::straightened_tangent(
+        glm::transpose(piece.frame.axes) * (to_body_ * vector), moved_down(at, piece.start), piece.length,
+        piece.radius, piece.rest, piece.shape.get());
     return {rho, beta, z};
 }
 
+glm::dvec3 Straightening::bent(const paper::Cylindrical& at) const {
+    const Piece& piece = piece_at(at.z);
+    const paper::Parameters body{.length = piece.length, .radius = piece.radius, .shape = piece.shape};
+    const glm::dvec3 local = paper::ClosedForm(body, piece.rest).position(moved_down(at, piece.start));
+    return origin_ + glm::transpose(to_body_) * (piece.frame.origin + piece.frame.axes * local);
+}
+
 glm::dvec3 Straightening::in_body(const glm::dvec3& position) const {
-    return to_body_ * (position - cylinder_.origin);
+    return to_body_ * (position - origin_);
 }
 
 glm::dmat3 axes_of(const Cylinder& cylinder) {
@@ -175,12 +287,22 @@ double wave_depth(const RestRegion& region, double z) {
     return paper::wave_depth(region.shape.get(), z);
 }
 
+/// Whether two regions are bent along the same arc at rest.
+bool bent_alike(const RestRegion& a, const RestRegion& b) {
+    constexpr double same = 1e-6;
+    const double straight = same / std::max(a.length, b.length);
+    const double curvature = a.rest.angle / a.length, other = b.rest.angle / b.length;
+    return std::fabs(curvature - other) <= std::max(same * curvature, straight) &&
+           (curvature <= straight ||
+            std::fabs(std::remainder(a.rest.direction - b.rest.direction, 2 * std::numbers::pi)) < same);
+}
+
 /// How far about a joint wrinkles pass into each other: a quarter of the shorter fold there, from its crest
 /// or trough at the joint to where it crosses the surface at rest. 0 where one of the regions hardly
 /// wrinkles.
 double blend_at_joint(const RestRegion& region, const RestRegion& next) {
     constexpr double least_depth = 0.05, least_share = 2e-5;
-    if (region.folds.count == 0 || next.folds.count == 0) return 0;
+    if (region.folds.count == 0 || next.folds.count == 0 || !bent_alike(region, next)) return 0;
     const double depth = wave_depth(region, region.length), next_depth = wave_depth(next, 0);
     if (!(std::min(depth, next_depth) > least_depth)) return 0;
     const auto quarter_fold = [](const RestRegion& r, double d) {
@@ -222,7 +344,8 @@ std::vector<RestRegion> rest_regions(const Binding& binding) {
     std::vector<RestRegion> places;
     double start = 0;
     for (const RegionBinding& region : binding.regions) {
-        places.push_back({start, region.length, region.wave, region.shape, region.blend});
+        places.push_back({start, region.length, region.wave, region.shape, region.blend,
+                          rest_of(binding.cylinder, start, region.length)});
         start += region.length;
     }
     return places;

@@ -6,6 +6,7 @@
 #include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/geometry.hpp>
+#include <goffer/paper/chain.hpp>
 #include <goffer/paper/closed_form.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -28,7 +29,12 @@ struct RestRegion {
     paper::FoldRange folds = 0;
     std::shared_ptr<const paper::Shape> shape = {};  ///< null: of a cylinder, with folds of one length
     double blend = 0;                                ///< bend::RegionInput::blend
+    paper::Pose rest = {};                           ///< the arc that it is bent along at rest
 };
+
+/// Returns the arc that the stretch of a base from z = `start` on is bent along at rest. Of a chain it is
+/// that of the arc that begins there.
+[[nodiscard]] paper::Pose rest_of(const Cylinder& cylinder, double start, double length);
 
 /// Lets the folds of neighboring regions run on over their joints, wherever both wrinkle there.
 void join_folds(std::vector<RestRegion>& regions);
@@ -50,13 +56,23 @@ void join_folds(std::vector<RestRegion>& regions);
            (cylinder.rest_angle != 0 && options.regions.size() > 1);
 }
 
-/// Returns the shape of all of `cylinder`; null where it has no radii.
-[[nodiscard]] std::shared_ptr<const paper::Shape> shape_of(const Cylinder& cylinder);
+/// Returns the options with the regions of a base that is bent along a chain, which has one for each arc, and
+/// shares BindOptions::folds out over them by their lengths; of any other, the options themselves. Throws
+/// Error if there are regions beside those of a chain.
+[[nodiscard]] BindOptions with_regions_of(const Cylinder& cylinder, const BindOptions& options);
+
+/// Returns the radii of the stretch of a base from z = `start` on, as knots of a shape; none where it has one
+/// radius.
+[[nodiscard]] std::vector<double> radii_of(const Cylinder& cylinder, double start, double length);
+
+/// Returns how far from the axis the base is at `count` equal steps of such a stretch.
+[[nodiscard]] std::vector<double> radii_at(const Cylinder& cylinder, double start, double length,
+                                           std::size_t count);
 
 /// Returns the axes of the base in model space: columns e1, e2, e3.
 [[nodiscard]] glm::dmat3 axes_of(const Cylinder& cylinder);
 
-/// Maps model space to coordinates of the base, those of the straightened body. `cylinder` must outlive it.
+/// Maps model space to coordinates of the base, those of the straightened body.
 class Straightening {
 public:
     explicit Straightening(const Cylinder& cylinder);
@@ -68,14 +84,26 @@ public:
     [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const;
     [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const;
 
-private:
-    [[nodiscard]] glm::dvec3 in_body(const glm::dvec3& position) const;
+    /// Where a place of the straightened body is, in model space.
+    [[nodiscard]] glm::dvec3 bent(const paper::Cylindrical& at) const;
 
-    const Cylinder& cylinder_;
+private:
+    /// A stretch along one arc: all of the body, unless that is bent along a chain.
+    struct Piece {
+        double start, length, radius;
+        paper::Pose rest;
+        std::shared_ptr<const paper::Shape> shape;  // null where it makes no difference
+        paper::Frame frame;                         // that it begins in
+
+        [[nodiscard]] paper::Cylindrical straightened(const glm::dvec3& in_body) const;
+    };
+    [[nodiscard]] glm::dvec3 in_body(const glm::dvec3& position) const;
+    [[nodiscard]] const Piece& piece_at(double z) const;
+    void add_piece(const Cylinder& cylinder, double start, double length);
+
+    glm::dvec3 origin_;
     glm::dmat3 to_body_;
-    paper::Pose rest_;
-    std::shared_ptr<const paper::Shape> shape_;  // null where it makes no difference
-    double radius_;
+    std::vector<Piece> pieces_;
 };
 
 /// Returns the vertex at `at`, which lies in `region`, with its wrinkle and with z from where the region

@@ -79,18 +79,7 @@ Vector3d Straightened::unbent(const Vector3d& local) const {
     return {local.x() + c_ * shift, local.y() + s_ * shift, std::atan2(along, inward) / curvature_};
 }
 
-View::View(const Body& body, const Line& line) {
-    const Straightened straightened(line);
-    local.reserve(body.points.size());
-    rho.reserve(body.points.size());
-    for (const Vector3d& p : body.points) {
-        local.push_back(straightened(p));
-        rho.push_back(local.back().head<2>().norm());
-    }
-}
-
-std::pair<double, double> extent(const Body& body, const Line& line) {
-    const View view(body, line);
+std::pair<double, double> extent(const Body& body, const View& view) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (const std::uint32_t i : body.triangles) {
@@ -100,10 +89,30 @@ std::pair<double, double> extent(const Body& body, const Line& line) {
     return {low, high};
 }
 
-std::optional<Section> section_around(const Body& body, const Line& line) {
+double roughness(const Body& body, const View& view) {
+    struct Sums {
+        double weight = 0, rho = 0, square = 0;
+    };
+    const Slices slices(body, view);
+    std::vector<Sums> sums(slices.count());
+    slices.each([&](const Sample& s, std::size_t slice, double weight) {
+        sums[slice].weight += weight;
+        sums[slice].rho += weight * s.rho;
+        sums[slice].square += weight * s.rho * s.rho;
+    });
+    double weight = 0, variance = 0;
+    for (const Sums& own : sums) {
+        if (own.weight == 0) continue;
+        weight += own.weight;
+        variance += own.square - own.rho * own.rho / own.weight;
+    }
+    return std::sqrt(std::max(0.0, variance) / weight);
+}
+
+std::optional<Section> section_around(const Body& body, const View& view) {
     double flux = 0, unrolled = 0, area = 0;
     double moment = 0;  // integral of rho^2 over the lateral area; that of rho is the flux
-    each_sample(body, View(body, line), [&](const Sample& s) {
+    each_sample(body, view, [&](const Sample& s) {
         flux += s.flux;
         unrolled += s.unrolled;
         area += s.lateral();
@@ -116,12 +125,12 @@ std::optional<Section> section_around(const Body& body, const Line& line) {
 }
 
 Section section(const Body& body, const Line& line) {
-    if (const std::optional<Section> around = section_around(body, line)) return *around;
+    if (const std::optional<Section> around = section_around(body, View(body, line))) return *around;
     throw AxisError("the mesh has no surface around the axis " + text(line.axis()) + "; give another axis");
 }
 
 Fitted measured(const Body& body, const Line& line) {
-    const auto [low, high] = extent(body, line);
+    const auto [low, high] = extent(body, View(body, line));
     return {line, low, high, section(body, line)};
 }
 

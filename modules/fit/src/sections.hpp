@@ -72,7 +72,18 @@ struct View {
     std::vector<Vector3d> local;  // of each vertex
     std::vector<double> rho;
 
-    View(const Body& body, const Line& line);
+    View(const Body& body, const Line& line) : View(body, Straightened(line)) {}
+
+    /// `straightened` maps a place to coordinates about a center line.
+    template <class Map>
+    View(const Body& body, const Map& straightened) {
+        local.reserve(body.points.size());
+        rho.reserve(body.points.size());
+        for (const Vector3d& p : body.points) {
+            local.push_back(straightened(p));
+            rho.push_back(local.back().template head<2>().norm());
+        }
+    }
 };
 
 /// Calls visit(sample) for the samples of all triangles. The flux of the field (x, y, 0) through a triangle
@@ -99,7 +110,38 @@ void each_sample(const Body& body, const View& view, Visit visit) {
 }
 
 /// Lowest and highest z of the vertices that triangles use.
-[[nodiscard]] std::pair<double, double> extent(const Body& body, const Line& line);
+[[nodiscard]] std::pair<double, double> extent(const Body& body, const View& view);
+
+/// The sections of a body, gathered in a few slices along its line: that a bottle's neck is thinner than its
+/// belly must not count as a bend.
+class Slices {
+public:
+    Slices(const Body& body, const View& view, std::size_t count = 16)
+        : count_(count), body_(body), view_(view), extent_(extent(body, view)) {}
+
+    /// `visit` gets each sample, the number of its slice, and its weight. Caps have none.
+    template <class Visit>
+    void each(Visit visit) const {
+        const auto last = static_cast<double>(count_) - 1;
+        const double scale = static_cast<double>(count_) / (extent_.second - extent_.first);
+        each_sample(body_, view_, [&](const Sample& s) {
+            const double slice = std::clamp((s.place.z() - extent_.first) * scale, 0.0, last);  // 0 for NaN
+            visit(s, static_cast<std::size_t>(slice), s.unrolled * s.upright);
+        });
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+private:
+    std::size_t count_;
+    const Body& body_;
+    const View& view_;
+    std::pair<double, double> extent_;
+};
+
+/// How far the sections about a line are from circles about it: the rms of rho's difference from its mean in
+/// a slice. It is 0 if all sections are circles about the line, whatever their radii.
+[[nodiscard]] double roughness(const Body& body, const View& view);
 
 /// Radius and residual about a line, in units of the body's size and of the radius.
 struct Section {
@@ -109,7 +151,7 @@ struct Section {
 
 /// r^2 is the mean of rho^2 over the unrolled surface: pi r^2 is the mean area of the sections. Nothing where
 /// there is no surface around the line.
-[[nodiscard]] std::optional<Section> section_around(const Body& body, const Line& line);
+[[nodiscard]] std::optional<Section> section_around(const Body& body, const View& view);
 
 /// The same. Throws Error where there is no surface around the line.
 [[nodiscard]] Section section(const Body& body, const Line& line);

@@ -99,6 +99,50 @@ std::vector<double> mean_radii(const Geometry& geometry, const Cylinder& cylinde
     return profiler.means();
 }
 
+/// The radii of `plain`, at equal steps of it, at as many equal steps of a chain whose arcs have other
+/// lengths.
+std::vector<double> radii_along(const Cylinder& plain, const paper::Spline& radius, const Cylinder& chain,
+                                std::size_t count) {
+    std::vector<double> radii;
+    std::size_t arc = 0;
+    double start = 0, plain_start = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double z = chain.length * static_cast<double>(i) / static_cast<double>(count - 1);
+        while (arc + 1 < chain.arcs.size() && z > start + chain.arcs[arc].length) {
+            start += chain.arcs[arc].length;
+            plain_start += plain.arcs[arc++].length;
+        }
+        const double share = (z - start) / chain.arcs[arc].length;
+        radii.push_back(radius(plain_start + share * plain.arcs[arc].length));
+    }
+    return radii;
+}
+
+/// `plain`, a chain, with the radii that are at equal steps of it. The outer lines of arcs go with their own
+/// radii, and each center line stays where it is. `plain` itself where an arc has no room.
+Cylinder along_chain(const Cylinder& plain, const std::vector<double>& radii) {
+    constexpr int steps = 8;  // lengths and radii depend a little on each other
+    const paper::Spline radius(plain.length, radii);
+    Cylinder shaped = plain;
+    for (int step = 0; step < steps; ++step) {
+        shaped.radii = radii_along(plain, radius, shaped, radii.size());
+        shaped.radius = paper::Spline(shaped.length, shaped.radii).mean();
+        double start = 0, length = 0;
+        for (std::size_t i = 0; i < shaped.arcs.size(); ++i) {
+            RestArc& arc = shaped.arcs[i];
+            const paper::Shape own(arc.length, shaped.radius,
+                                   {.radius = radii_of(shaped, start, arc.length)});
+            start += arc.length;
+            arc.length = plain.arcs[i].length + arc.angle * (own.radius() - plain.radius);
+            if (!(arc.length > 0 && arc.angle < 0.98 * arc.length / (2 * own.radius() * own.max_scale())))
+                return plain;
+            length += arc.length;
+        }
+        shaped.length = length;
+    }
+    return shaped;
+}
+
 }  // namespace
 
 Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
@@ -114,6 +158,7 @@ Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
     double square = 0;
     for (const double radius : radii) square += (radius / mean - 1) * (radius / mean - 1);
     if (std::sqrt(square / static_cast<double>(radii.size())) < least_deviation) return plain;
+    if (!plain.arcs.empty()) return along_chain(plain, radii);
     Cylinder shaped = plain;
     shaped.radii = std::move(radii);
     shaped.radius = mean;

@@ -156,7 +156,7 @@ Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
 }
 
 std::vector<FoldShortage> fold_shortages(const Binding& binding, const BindOptions& options) {
-    const std::vector<RegionOptions> asked = regions_of(options);
+    const std::vector<RegionOptions> asked = regions_of(with_regions_of(binding.cylinder, options));
     const std::vector<int> suitable = suitable_folds(binding.cylinder, options);
     std::vector<FoldShortage> shortages;
     for (std::size_t r = 0; r < binding.regions.size(); ++r)

@@ -35,8 +35,8 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     report.line("frames", std::to_string(request.frames) + " at " + number(options.fps) +
                               " a second: " + number(seconds) + " s");
     report.line("bends to", number(reached) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
-    if (const double rest = model.cylinder.rest_angle; rest != 0 && options.swing && !options.from_rest)
-        report.line("angles", "are absolute: 0 is straight, and " + number(degrees(rest)) +
+    if (model.cylinder.bent() && options.swing && !options.from_rest)
+        report.line("angles", "are absolute: 0 is straight, and " + rest_words(model.binding.body) +
                                   " is the shape of the file; to swing from there, use --from-rest");
     if (survey.path_error > 0)
         report.line("path", "the center line is within " + number(survey.path_error) + " of it");

@@ -37,7 +37,7 @@ public:
             throw InputError(where + ": " + error.what());
         }
         words_.load = load;
-        BindRequest request(words_, PoseRequest(pose_).regions);
+        BindRequest request = BindRequest(words_, PoseRequest(pose_).regions).with_one_arc();
         request.with_uvs = true;
         return request;
     }

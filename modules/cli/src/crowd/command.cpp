@@ -62,7 +62,7 @@ struct CrowdRequest {
     CrowdRequest(const CrowdOptions& options, std::vector<fit::RegionOptions> baked)
         : pose(options.pose, std::move(baked)),
           targets(targets_from_straight(pose)),
-          bind(options.bind, pose.regions),
+          bind(BindRequest(options.bind, pose.regions).with_one_arc()),
           plan{.instances = options.instances,
                .poses = poses_of(targets),
                .layout = parse_layout(options.streams, options.normals),

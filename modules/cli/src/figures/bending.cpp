@@ -18,7 +18,7 @@ bend::Pose pose_by(const bend::Body& body, double degrees) {
     PoseWords words;
     words.by = "0";
     PoseRequest request(words);
-    request.angles[0] = degrees;
+    request.shared = degrees;
     return poses_of(targets_on(body, request))[0];
 }
 

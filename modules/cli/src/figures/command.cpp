@@ -45,7 +45,7 @@ BindRequest request_for(const FiguresOptions& options, bool paper) {
     words.load = options.load;
     words.refine = "auto";
     words.paper = paper;
-    return BindRequest(words);
+    return BindRequest(words).with_one_arc();
 }
 
 void check_words(const FiguresOptions& options) {

@@ -77,7 +77,7 @@ private:
             }
             const glm::dvec2 vector = between(place, [&](std::size_t key) {
                 const std::optional<double>& said = keys_.keys[key].directions[r];
-                const double direction = radians(said.value_or(rest_pose(body, r).direction));
+                const double direction = radians(said.value_or(rest_direction(body)));
                 return value(key) * glm::dvec2(std::cos(direction), std::sin(direction));
             });
             angles.angles[r] = std::hypot(vector.x, vector.y);
@@ -132,6 +132,7 @@ RegionAngles on_body(const RegionAngles& said, const bend::Body& body) {
 
 std::vector<bend::Pose> poses_for(const bend::Body& body, const RegionAngles& angles, bool from_rest) {
     PoseRequest request{PoseWords{}};
+    request.shared.reset();
     request.angles = angles.angles;
     request.directions = angles.directions;
     request.from_rest = from_rest;

@@ -62,7 +62,9 @@ Loaded load(const Wish& wish) {
     for (ModelFile& file : files) loaded.models.push_back(bind_model(std::move(file), request));
     const bend::Body& body = loaded.models[0].binding.body;
     loaded.targets = targets_on(body, pose);
-    if (wish.keep_rest && body.rest_pose().angle != 0) loaded.targets = rest_targets(body);
+    const bool bent =
+        std::ranges::any_of(body.rest_poses(), [](const bend::Pose& rest) { return rest.angle != 0; });
+    if (wish.keep_rest && bent) loaded.targets = rest_targets(body);
     for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
         const double asked = std::fabs(loaded.targets[r].angle),
                      limit = degrees(static_cast<double>(body.max_angle(r)));

@@ -18,19 +18,6 @@ namespace {
 constexpr std::uint32_t columns = 32, rows_of_region = 96, ring_step = 4, column_step = 4;
 constexpr glm::vec3 line_color{0.05f, 0.12f, 0.30f};
 
-/// A point of the base at rest, in model space.
-glm::dvec3 on_base(const fit::Cylinder& cylinder, double beta, double z, double rho) {
-    const glm::dvec3 e1 = cylinder.zero, e2 = glm::cross(cylinder.axis, cylinder.zero), e3 = cylinder.axis;
-    if (cylinder.rest_angle == 0)
-        return cylinder.origin + rho * (std::cos(beta) * e1 + std::sin(beta) * e2) + z * e3;
-    const double theta = cylinder.rest_direction, phi = cylinder.rest_angle * z / cylinder.length;
-    const glm::dvec3 toward = std::cos(theta) * e1 + std::sin(theta) * e2;
-    const glm::dvec3 across = glm::cross(e3, toward);
-    const double radius = fit::rest_radius(cylinder), left = radius - rho * std::cos(beta - theta);
-    return cylinder.origin + (radius - left * std::cos(phi)) * toward + left * std::sin(phi) * e3 +
-           rho * std::sin(beta - theta) * across;
-}
-
 }  // namespace
 
 std::optional<Rig> Rig::make(const BoundModel& model) {
@@ -51,14 +38,14 @@ std::optional<Rig> Rig::make(const BoundModel& model) {
         paper::base_mesh(cylinder.length, cylinder.radius, columns, rows).triangles;
     std::optional<paper::Spline> radius;
     if (!cylinder.radii.empty()) radius.emplace(cylinder.length, cylinder.radii);
-    std::vector<glm::vec3> positions;
-    positions.reserve(heights.size() * columns);
+    std::vector<fit::BasePoint> points;
     for (const double z : heights) {
-        for (std::uint32_t c = 0; c < columns; ++c) {
-            const double beta = 2 * std::numbers::pi * c / columns;
-            positions.emplace_back(on_base(cylinder, beta, z, radius ? (*radius)(z) : cylinder.radius));
-        }
+        for (std::uint32_t c = 0; c < columns; ++c)
+            points.push_back(
+                {2 * std::numbers::pi * c / columns, z, radius ? (*radius)(z) : cylinder.radius});
     }
+    const std::vector<glm::dvec3> places = fit::places_on_base(cylinder, points);
+    const std::vector<glm::vec3> positions(places.begin(), places.end());
     try {
         fit::Binding binding = fit::bind_level({positions, triangles}, model.binding);
         rig.place_ = binding.vertices_in_body();

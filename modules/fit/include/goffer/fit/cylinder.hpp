@@ -15,6 +15,13 @@
 
 namespace goffer::fit {
 
+/// A stretch of a center line at rest: one arc.
+struct RestArc {
+    double length;     ///< of its outer line, model units, > 0
+    double angle;      ///< radians, >= 0
+    double direction;  ///< toward which it bends, radians, where its cross-sections are carried without twist
+};
+
 /// The base cylinder of a body, in model space and model units. A plain value.
 struct Cylinder {
     glm::dvec3 origin{0};       ///< center of the base end, where z = 0
@@ -30,12 +37,20 @@ struct Cylinder {
     /// steps from base to tip, whose mean is `radius`, and all of them below length / (2 rest_angle). Empty:
     /// a cylinder.
     std::vector<double> radii = {};
+    /// The center line at rest of a body that no single arc follows, from base to tip: each arc begins where
+    /// and as the one before ends. Their lengths add up to `length`. rest_angle is then 0, and bind() makes a
+    /// region of each. Empty: one arc, or a straight line.
+    std::vector<RestArc> arcs = {};
+
+    /// Whether the center line at rest is not straight.
+    [[nodiscard]] bool bent() const { return rest_angle != 0 || !arcs.empty(); }
 };
 
 /// What fit_cylinder may take for a body's shape at rest.
 enum class RestPose {
     automatic,  ///< an arc where one fits clearly better than a straight line
-    straight    ///< a straight line, whatever the body
+    straight,   ///< a straight line, whatever the body
+    chain       ///< as automatic, or a chain of arcs where that fits clearly better
 };
 
 /// An Error of fit_cylinder() that another axis mends, or one at all where none is given.
@@ -59,6 +74,11 @@ public:
 /// `axis` is within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and
 /// rest_angle is exactly 0.
 ///
+/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that line may get a chain of 2
+/// to 12 arcs (more where one would turn by more than a half), and its body as many regions: if its sections
+/// lie all around the chain, and are circles about it within 0.2 of the radius and within 0.7 of what they
+/// are about the line.
+///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
@@ -80,7 +100,9 @@ public:
 
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length,
 /// radius or one of the radii is not within 1e-40..1e40, the origin is farther than 1e40 on an axis,
-/// rest_angle is negative or not below both 2 pi and length / (2 radius), axis and zero are not of unit
+/// rest_angle is negative or not below both 2 pi and length / (2 radius), the same holds for one of the arcs,
+/// there are more of these than bend::max_regions, their lengths do not add up to that of the cylinder within
+/// 1e-6, rest_angle is not 0 beside them, axis and zero are not of unit
 /// length or not orthogonal, within 1e-3, or the radii are fewer than two or do not have the radius as their
 /// mean, within 1e-3. Thread-safe.
 void check(const Cylinder& cylinder);
@@ -101,6 +123,16 @@ void check(const Cylinder& cylinder);
 /// Returns z of each position (model space): its height along the axis, or along the rest arc where there is
 /// one; model units. `cylinder` must pass check(). Thread-safe.
 [[nodiscard]] std::vector<double> heights(std::span<const glm::vec3> positions, const Cylinder& cylinder);
+
+/// A point of a base: its direction about the center line, radians, its height as heights() has it, and its
+/// distance from the center line, model units.
+struct BasePoint {
+    double beta, z, rho;
+};
+
+/// Returns where points of the base at rest are in model space. `cylinder` must pass check(). Thread-safe.
+[[nodiscard]] std::vector<glm::dvec3> places_on_base(const Cylinder& cylinder,
+                                                     std::span<const BasePoint> points);
 
 /// Returns the most folds per half length that the mesh has vertices for. A fold needs 8 rows of vertices
 /// along z, so an edge may reach over at most L / (16 k), within a thousandth. What counts is how far each

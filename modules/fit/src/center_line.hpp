@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sections.hpp"
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// Center lines that no single arc follows, as the mesh shows them: points along the middle of the body, and
+/// chains of arcs through these.
+
+namespace goffer::fit {
+
+/// A point in the middle of a body, in units of its size.
+struct CenterPoint {
+    Vector3d place;
+    double along;   ///< length from the first one
+    double weight;  ///< share of the surface about it
+};
+
+/// Points along the middle of a body, from one end to the other.
+struct CenterPoints {
+    std::vector<CenterPoint> points;
+    double radius;  ///< of a tube of that length with the body's area
+};
+
+/// Returns points less than a radius apart; none if the body is too stout for that. They are the centroids of
+/// what is equally far from both ends, measured along the surface, so that it does not matter how far a body
+/// is bent.
+[[nodiscard]] CenterPoints center_points(const Body& body);
+
+/// An arc of a chain. `curvature`: toward its center, of length 1 / its radius, along e1 and e2 of the frame
+/// that the base's becomes where it is carried along the chain without twist.
+struct ChainArc {
+    double length;
+    Eigen::Vector2d curvature;
+};
+
+/// A chain of arcs, each of which begins where and as the one before ends. The first and the last one go on
+/// beyond their ends.
+class ArcChain {
+public:
+    /// The columns of `frame` are e1, e2, e3 at `point`, where the first arc begins.
+    ArcChain(const Vector3d& point, const Matrix3d& frame, std::span<const ChainArc> arcs);
+
+    /// Maps a place to (x, y, z): what is left of it when the chain is straightened.
+    [[nodiscard]] Vector3d straightened(const Vector3d& place) const;
+    /// The inverse.
+    [[nodiscard]] Vector3d bent(const Vector3d& at) const;
+
+    /// The frame at a height.
+    [[nodiscard]] Line line_at(double z) const;
+
+    [[nodiscard]] const std::vector<ChainArc>& arcs() const { return arcs_; }
+
+private:
+    [[nodiscard]] std::size_t piece_at(double z) const;
+
+    std::vector<ChainArc> arcs_;
+    std::vector<Line> lines_;  // where arcs begin, with the carried frame
+    std::vector<double> starts_;
+    std::vector<Straightened> maps_;
+};
+
+/// Returns the chain of fewest arcs, two or more, that is within `tolerance` (rms) of the points, or that of
+/// `max_arcs` that is nearest. No arc is shorter than `shortest`, or bent so far that it has no inner side at
+/// a distance of `radius`.
+[[nodiscard]] std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, double radius,
+                                               double shortest, double tolerance, std::size_t max_arcs);
+
+/// Moves the chain to the points, without another arc.
+[[nodiscard]] ArcChain settled_on(const ArcChain& chain, std::span<const CenterPoint> points, double radius,
+                                  double shortest);
+
+}  // namespace goffer::fit

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "chain.hpp"
+
+#include "center_line.hpp"
+#include "least_squares.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace goffer::fit {
+namespace {
+
+constexpr std::size_t max_arcs = 12;
+
+/// Lengths that a chain is fitted by, in units of the body's size.
+struct Measure {
+    double radius;
+
+    /// Of an arc: a joint takes a stretch of the body.
+    [[nodiscard]] double shortest() const { return 1.5 * radius; }
+    /// Of points from the chain, rms.
+    [[nodiscard]] double tolerance() const { return 0.08 * radius; }
+};
+
+View view_about(const Body& body, const ArcChain& chain) {
+    return View(body, [&chain](const Vector3d& place) { return chain.straightened(place); });
+}
+
+/// The centers of the circles (Kasa 1976) of the sections about a chain. Sections that have none near the
+/// chain are left out, as are both ends, where a chain tells too little of the directions of sections.
+std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain, const Measure& measure) {
+    struct Sums {
+        Matrix3d normal = Matrix3d::Zero();
+        Vector3d right = Vector3d::Zero();
+        double weight = 0, z = 0, area = 0;
+    };
+    const View view = view_about(body, chain);
+    const auto [low, high] = extent(body, view);
+    const double count = std::clamp((high - low) / (0.75 * measure.radius), 12.0, 96.0);
+    const Slices slices(body, view, static_cast<std::size_t>(count));
+    std::vector<Sums> sums(slices.count());
+    double all = 0;
+    slices.each([&](const Sample& s, std::size_t slice, double weight) {
+        const Vector3d row{1, 2 * s.place.x(), 2 * s.place.y()};
+        Sums& own = sums[slice];
+        own.normal += weight * row * row.transpose();
+        own.right += weight * s.rho * s.rho * row;
+        own.weight += weight;
+        own.z += weight * s.place.z();
+        all += weight;
+    });
+    std::vector<CenterPoint> points;
+    for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
+        const Sums& own = sums[i];
+        if (!(own.weight > 0.1 * all / static_cast<double>(sums.size()))) continue;
+        const Vector3d by = least_squares(own.normal, own.right);
+        if (!(by.tail<2>().norm() < measure.radius)) continue;
+        CenterPoint point{chain.bent({by[1], by[2], own.z / own.weight}), 0, own.weight / all};
+        if (!points.empty()) point.along = points.back().along + (point.place - points.back().place).norm();
+        points.push_back(point);
+    }
+    return points;
+}
+
+Vector3d chord_of(const std::vector<CenterPoint>& points) {
+    return (points.back().place - points.front().place).stableNormalized();
+}
+
+/// Turns the points around if `axis` asks for it.
+void orient(std::vector<CenterPoint>& points, const std::optional<Vector3d>& axis) {
+    const Vector3d chord = chord_of(points);
+    const double along = axis ? chord.dot(*axis) : chord[first_largest(chord.cwiseAbs())];
+    if (!(along < 0)) return;
+    const double length = points.back().along;
+    std::ranges::reverse(points);
+    for (CenterPoint& point : points) point.along = length - point.along;
+}
+
+/// The chain, with arcs straight that are so as far as anyone can see.
+ArcChain with_straight_arcs(const ArcChain& chain, const Measure& measure) {
+    constexpr double least_angle = 0.003, least_sag = 0.005;
+    std::vector<ChainArc> arcs = chain.arcs();
+    for (ChainArc& arc : arcs) {
+        const double angle = arc.length * arc.curvature.norm();
+        if (angle < least_angle && angle * arc.length / 8 < least_sag * measure.radius)
+            arc.curvature.setZero();
+    }
+    const Line start = chain.line_at(0);
+    return {start.point, start.frame, arcs};
+}
+
+/// The chain as a cylinder in model space, from the lowest to the highest vertex. Nothing if an arc has no
+/// inner side.
+std::optional<Cylinder> cylinder_of(const Body& body, const ArcChain& chain) {
+    const View view = view_about(body, chain);
+    const std::optional<Section> section = section_around(body, view);
+    if (!section) return std::nullopt;
+    const auto [low, high] = extent(body, view);
+    const Line carried = chain.line_at(low), base = line_through(carried.point, carried.axis());
+    const double r = section->radius;
+    const Vector3d zero = carried.frame.transpose() * base.frame.col(0);
+    Cylinder cylinder;
+    cylinder.origin = from_eigen(body.middle + body.size * base.point);
+    cylinder.axis = from_eigen(base.axis());
+    cylinder.zero = from_eigen(base.frame.col(0));
+    cylinder.radius = body.size * r;
+    cylinder.residual = section->residual;
+    cylinder.length = 0;
+    double start = 0;
+    for (std::size_t i = 0; i < chain.arcs().size(); ++i) {
+        const ChainArc& arc = chain.arcs()[i];
+        const double from = i == 0 ? low : start;
+        start += arc.length;
+        const double length = (i + 1 == chain.arcs().size() ? high : start) - from;
+        const double angle = length * arc.curvature.norm();
+        constexpr double inside = 1 - 1e-4;  // leaves something of the inner line
+        if (!(length > 0 && angle * 2 * r < inside * (length + angle * r))) return std::nullopt;
+        const double direction =
+            std::atan2(arc.curvature.y(), arc.curvature.x()) - std::atan2(zero.y(), zero.x());
+        const double halves = std::ceil(std::max(angle / std::numbers::pi, 1.0));  // of a turn
+        const RestArc own{body.size * (length + angle * r) / halves, angle / halves,
+                          angle == 0 ? 0 : std::remainder(direction, 2 * std::numbers::pi)};
+        cylinder.arcs.insert(cylinder.arcs.end(), static_cast<std::size_t>(halves), own);
+    }
+    for (const RestArc& arc : cylinder.arcs) cylinder.length += arc.length;
+    return cylinder;
+}
+
+/// How far the sections lie to one side of the chain: 0 where they surround it, 1 where they do not.
+double one_sidedness(const Body& body, const View& view) {
+    struct Sums {
+        double weight = 0;
+        Eigen::Vector2d side = Eigen::Vector2d::Zero();
+    };
+    const Slices slices(body, view, 48);
+    std::vector<Sums> sums(slices.count());
+    slices.each([&](const Sample& s, std::size_t slice, double weight) {
+        sums[slice].weight += weight;
+        sums[slice].side += weight / s.rho * s.place.head<2>();
+    });
+    double all = 0, one_sided = 0;
+    for (const Sums& own : sums) {
+        all += own.weight;
+        one_sided += own.side.norm();
+    }
+    return one_sided / all;
+}
+
+}  // namespace
+
+std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std::optional<Vector3d>& axis) {
+    constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7, most_one_sided = 0.25;
+    constexpr double within = 0.7;  // cosine of 45 degrees
+    std::vector<std::uint32_t> triangles;
+    constexpr std::size_t samples = 4000;
+    const Body cloud = sampled_surface(body, samples, triangles);
+    const std::optional<Section> before = section_around(cloud, View(cloud, line));
+    const double rough = roughness(cloud, View(cloud, line));
+    if (before && !(rough > rough_enough * before->radius)) return std::nullopt;
+    CenterPoints found = center_points(body);
+    if (found.points.size() < 6) return std::nullopt;
+    const Measure measure{found.radius};
+    if (axis && std::abs(chord_of(found.points).dot(*axis)) < within) return std::nullopt;
+    orient(found.points, axis);
+    std::optional<ArcChain> chain;
+    for (int round = 0;; ++round) {
+        chain = fit_arcs(found.points, measure.radius, measure.shortest(), measure.tolerance(), max_arcs);
+        constexpr int rounds = 3;
+        if (!chain || round == rounds) break;
+        found.points = section_centers(cloud, *chain, measure);
+        if (found.points.size() < 6) return std::nullopt;
+    }
+    if (!chain) return std::nullopt;
+    chain = with_straight_arcs(*chain, measure);
+    const View view = view_about(cloud, *chain);
+    const double now = roughness(cloud, view);
+    if (!(now < smooth * measure.radius && now < better * rough)) return std::nullopt;
+    if (!(one_sidedness(cloud, view) < most_one_sided)) return std::nullopt;
+    return cylinder_of(body, *chain);
+}
+
+}  // namespace goffer::fit

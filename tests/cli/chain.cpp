@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <goffer/paper/base.hpp>
+#include <goffer/paper/chain.hpp>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+/// Models that are bent along a chain of arcs.
+
+using namespace goffer;
+using namespace goffer::test;
+using nlohmann::json;
+
+namespace {
+
+/// A pipe of radius 1 in the shape of an S in `folder`: two arcs of 120 degrees, the one back from the other.
+/// Returns its name.
+std::string pipe(const Folder& folder) {
+    constexpr double half = 12, angle = 2 * std::numbers::pi / 3;
+    const paper::BaseMesh straight = paper::base_mesh(2 * half, 1, 32, 193, true);
+    const std::vector<paper::Parameters> regions(2, {.length = half, .radius = 1});
+    const std::vector<paper::Pose> poses{{angle, 0}, {angle, std::numbers::pi}};
+    const paper::Chain chain(regions, poses);
+    std::ofstream file(folder / "s.obj");
+    file.precision(9);
+    for (const auto& p : straight.positions) {
+        paper::Cylindrical at = paper::to_cylindrical(glm::dvec3(p));
+        const std::size_t region = at.z > half ? 1 : 0;
+        at.z -= region == 1 ? half : 0;
+        const glm::dvec3 q = chain.position(region, at);
+        file << "v " << q.x << ' ' << q.y << ' ' << q.z << '\n';
+    }
+    for (std::size_t i = 0; i < straight.triangles.size(); i += 3)
+        file << "f " << straight.triangles[i] + 1 << ' ' << straight.triangles[i + 1] + 1 << ' '
+             << straight.triangles[i + 2] + 1 << '\n';
+    return "s.obj";
+}
+
+/// How far the mesh reaches along x, y and z.
+glm::vec3 extent(const mesh::Mesh& mesh) {
+    glm::vec3 low = mesh.positions[0], high = low;
+    for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+    return high - low;
+}
+
+}  // namespace
+
+TEST_CASE("chain: inspect finds the arcs of an S, and a region for each") {
+    const Folder folder;
+    const json found = report(folder, {"inspect", pipe(folder)});
+    REQUIRE(found["fit"]["arcs"].size() == 2);
+    for (const json& arc : found["fit"]["arcs"]) CHECK(std::abs(arc["angle"].get<double>() - 120) < 1);
+    const double turn = found["fit"]["arcs"][0]["direction"].get<double>() -
+                        found["fit"]["arcs"][1]["direction"].get<double>();
+    CHECK(std::abs(std::abs(std::remainder(turn, 360)) - 180) < 1);
+    CHECK(found["fit"]["rest_angle"] == 0);
+    CHECK(found["regions"].size() == 2);
+    CHECK(found["rest"]["bent"] == true);
+    CHECK(found["rest"]["arc_radius"].is_null());
+    const json one = report(folder, {"inspect", "s.obj", "--rest", "arc"});
+    CHECK(!one["fit"].contains("arcs"));
+    CHECK(one["regions"].size() == 1);
+}
+
+TEST_CASE("chain: bend leaves it as it is by 0, straightens it to 0, and shares an angle out") {
+    const Folder folder;
+    pipe(folder);
+    well(folder, {"bend", "s.obj", "--by", "0", "-o", "same.ply", "--folds", "0"});
+    CHECK(farthest(mesh::load(folder / "s.obj"), mesh::load(folder / "same.ply")) < 1e-4);
+
+    const json straight = report(folder, {"bend", "s.obj", "--angle", "0", "-o", "straight.ply"});
+    CHECK(straight["straightens"] == true);
+    const glm::vec3 size = extent(mesh::load(folder / "straight.ply"));
+    const float longest = std::max({size.x, size.y, size.z});
+    CHECK(std::abs(longest / straight["fit"]["length"].get<float>() - 1) < 0.02f);
+    CHECK(size.x + size.y + size.z < longest + 5);  // of radius 1, whichever way it lies
+
+    const json by = report(folder, {"bend", "s.obj", "--by", "40", "-o", "by.ply"});
+    REQUIRE(by["poses"].size() == 2);
+    double more = 0;
+    for (const json& pose : by["poses"])
+        more += pose["angle"].get<double>() - pose["rest_angle"].get<double>();
+    CHECK(std::abs(more) < 0.1);  // one arc gives what the other takes
+    CHECK(std::abs(by["poses"][0]["angle"].get<double>() - by["poses"][0]["rest_angle"].get<double>()) ==
+          doctest::Approx(20).epsilon(0.01));
+}
+
+TEST_CASE("chain: regions that are said, and a path, take the place of its arcs") {
+    const Folder folder;
+    pipe(folder);
+    const json said = report(folder, {"bend", "s.obj", "-o", "out.ply", "--regions", "0.5,0.3,0.2"});
+    CHECK(said["poses"].size() == 3);
+    CHECK(!said["fit"].contains("arcs"));
+    std::ofstream(folder / "path.txt") << "0 0 0\n5 0 0\n10 5 0\n20 5 0\n";
+    const json laid = report(folder, {"bend", "s.obj", "-o", "out.ply", "--path", "path.txt"});
+    CHECK(laid["poses"].size() == 8);
+}
+
+TEST_CASE("chain: --fit takes it from a report, and a body file keeps it") {
+    const Folder folder;
+    pipe(folder);
+    well(folder, {"inspect", "s.obj", "--json", "fit.json"});
+    (void)report(folder, {"bend", "s.obj", "--by", "30", "--folds", "0", "-o", "found.ply"});
+    (void)report(folder,
+                 {"bend", "s.obj", "--by", "30", "--folds", "0", "-o", "given.ply", "--fit", "fit.json"});
+    CHECK(farthest(mesh::load(folder / "found.ply"), mesh::load(folder / "given.ply")) < 1e-3);
+    refused(folder, 2, {"bend", "s.obj", "-o", "out.ply", "--fit", "fit.json", "--regions", "0.5,0.5"},
+            {"--regions", "fit.json", "2 arcs"});
+    well(folder, {"bake", "s.obj", "-o", "s.goffer", "--folds", "0"});
+    const json baked = report(folder, {"inspect", "s.goffer"});
+    REQUIRE(baked["regions"].size() == 2);
+    CHECK(std::abs(baked["regions"][0]["rest_angle"].get<double>() - 120) < 1);
+    (void)report(folder, {"bend", "s.goffer", "--by", "30", "-o", "baked.ply"});
+    const glm::vec3 apart =
+        extent(mesh::load(folder / "baked.ply")) - extent(mesh::load(folder / "found.ply"));
+    CHECK(glm::length(apart) < 0.01f);
+}
+
+TEST_CASE("chain: a crowd is bent along one arc") {
+    const Folder folder;
+    pipe(folder);
+    const json crowd = report(folder, {"crowd", "s.obj", "--instances", "10"});
+    CHECK(crowd["models"][0]["regions"].size() == 1);
+}

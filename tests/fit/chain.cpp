@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "support/angles.hpp"
+#include "support/bodies.hpp"
+#include "support/rounds.hpp"
+#include "synthetic.hpp"
+
+#include <goffer/fit/bind.hpp>
+#include <goffer/fit/cylinder.hpp>
+#include <goffer/paper/chain.hpp>
+#include <goffer/paper/shape.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+/// Bodies that are bent at rest along a chain of arcs.
+
+using namespace goffer;
+using fit::Cylinder;
+using fit::RestArc;
+using test::degree;
+using test::Recipe;
+using test::Solid;
+
+namespace {
+
+using Arcs = std::vector<RestArc>;
+
+double length_of(const Arcs& arcs) {
+    double length = 0;
+    for (const RestArc& arc : arcs) length += arc.length;
+    return length;
+}
+
+/// Bends what is straight, of radius 1, along arcs.
+class Bender {
+public:
+    explicit Bender(const Arcs& arcs) : arcs_(arcs), chain_(make(arcs)) {}
+
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& straight) const {
+        paper::Cylindrical at = paper::to_cylindrical(straight);
+        std::size_t region = 0;
+        while (region + 1 < arcs_.size() && at.z > arcs_[region].length) at.z -= arcs_[region++].length;
+        return chain_.position(region, at);
+    }
+
+private:
+    static paper::Chain make(const Arcs& arcs) {
+        std::vector<paper::Parameters> regions;
+        std::vector<paper::Pose> poses;
+        for (const RestArc& arc : arcs) {
+            regions.push_back({.length = arc.length, .radius = 1});
+            poses.push_back({arc.angle, arc.direction});
+        }
+        return paper::Chain(regions, poses);
+    }
+
+    Arcs arcs_;
+    paper::Chain chain_;
+};
+
+Solid bent_along(const Arcs& arcs, Recipe recipe, std::mt19937& random) {
+    recipe.length = length_of(arcs);
+    return test::warped(test::cylinder(recipe, random), Bender(arcs));
+}
+
+Cylinder chain_of(const Solid& solid, std::optional<glm::dvec3> axis = std::nullopt) {
+    return fit::fit_cylinder(solid.geometry(), axis, fit::RestPose::chain);
+}
+
+/// The largest distance of the truth's center line from that of the fit, both in model space, in radii.
+double center_miss(const Cylinder& fitted, const Arcs& arcs, const test::Placing& placing) {
+    constexpr int samples = 400;
+    std::vector<fit::BasePoint> points;
+    for (int i = 0; i <= samples; ++i) points.push_back({0, fitted.length * i / samples, 0});
+    const std::vector<glm::dvec3> line = fit::places_on_base(fitted, points);
+    const Bender bender(arcs);
+    double most = 0;
+    for (int i = 0; i <= 100; ++i) {
+        const glm::dvec3 truth = placing(bender({0, 0, length_of(arcs) * i / 100}));
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+            const glm::dvec3 along = line[k + 1] - line[k];
+            const double share =
+                std::clamp(glm::dot(truth - line[k], along) / glm::dot(along, along), 0.0, 1.0);
+            nearest = std::min(nearest, glm::length(truth - line[k] - share * along));
+        }
+        most = std::max(most, nearest);
+    }
+    return most / placing.scale;
+}
+
+double bent_by(const Arcs& arcs) {
+    double all = 0;
+    for (const RestArc& arc : arcs) all += arc.angle;
+    return all;
+}
+
+// A bent pipe, a cane, an S, and two bends in planes of their own.
+const Arcs elbow{{8, 0, 0}, {4, 90 * degree, 0.4}, {8, 0, 0}};
+const Arcs cane{{14, 0, 0}, {9, 180 * degree, 1}};
+const Arcs s{{14, 160 * degree, -2}, {14, 160 * degree, -2 + std::numbers::pi}};
+const Arcs twisted{{10, 80 * degree, 0}, {8, 0, 0}, {10, 80 * degree, 90 * degree}};
+
+}  // namespace
+
+TEST_CASE("chains: a body bent along arcs gets these arcs, however it lies and however fine it is") {
+    std::mt19937 random(1);
+    for (const Arcs& arcs : {elbow, cane, s, twisted}) {
+        for (const Recipe& recipe : {Recipe{.rows = 96}, Recipe{.columns = 12, .rows = 60, .closed = false},
+                                     Recipe{.columns = 20, .rows = 120, .dense = 3, .jitter = 0.3}}) {
+            const test::Placing placing = test::random_placing(3, random);
+            const Solid solid = test::placed(bent_along(arcs, recipe, random), placing);
+            const Cylinder fitted = chain_of(solid);
+            REQUIRE(fitted.arcs.size() >= 2);
+            CHECK(fitted.arcs.size() <= arcs.size() + 2);
+            CHECK(fitted.rest_angle == 0);
+            CHECK(fitted.residual < 0.08);
+            CHECK(center_miss(fitted, arcs, placing) < 0.06);
+            CHECK(std::abs(bent_by(fitted.arcs) / bent_by(arcs) - 1) < 0.02);
+            CHECK(std::abs(fitted.length / placing.scale / length_of(arcs) - 1) < 0.01);
+            CHECK_NOTHROW(fit::check(fitted));
+        }
+    }
+}
+
+TEST_CASE("chains: a thin part and a thick one lie along the chain, each with its own radius") {
+    std::mt19937 random(2);
+    Solid solid = test::cylinder({.rows = 160, .length = length_of(s)}, random);
+    const double length = length_of(s);
+    for (glm::vec3& p : solid.positions) {
+        const float thick = 1.2f - 0.7f * p.z / static_cast<float>(length);
+        p.x *= thick, p.y *= thick;
+    }
+    solid = test::warped(std::move(solid), Bender(s));
+    const Cylinder plain = chain_of(solid);
+    REQUIRE(plain.arcs.size() >= 2);
+    const Cylinder shaped = fit::fit_shape(solid.geometry(), plain);
+    REQUIRE(!shaped.radii.empty());
+    CHECK_NOTHROW(fit::check(shaped));
+    CHECK(shaped.arcs.size() == plain.arcs.size());
+    const auto [thinnest, thickest] = std::ranges::minmax(shaped.radii);
+    CHECK(std::abs(thickest / 1.2 - 1) < 0.03);
+    CHECK(std::abs(thinnest / 0.5 - 1) < 0.03);
+    CHECK(std::abs(length_of(shaped.arcs) / shaped.length - 1) < 1e-9);
+    CHECK(center_miss(shaped, s, {}) < 0.15);
+}
+
+TEST_CASE("chains: bodies that are straight, or bent along one arc, get no chain") {
+    std::mt19937 random(3);
+    const paper::ClosedForm arc({.length = 12, .radius = 1}, {2, 1});
+    for (int trial = 0; trial < test::rounds(24, 6); ++trial) {
+        const Recipe recipe{.rows = 64, .length = 12, .noise = trial % 2 == 0 ? 0 : 0.03};
+        const Solid straight = test::cylinder(recipe, random);
+        CHECK(chain_of(straight).arcs.empty());
+        const Solid bent =
+            test::warped(straight, [&](glm::dvec3 p) { return arc.position(paper::to_cylindrical(p)); });
+        const Cylinder fitted = chain_of(bent);
+        CHECK(fitted.arcs.empty());
+        CHECK(std::abs(fitted.rest_angle - 2) < 0.02);
+        // A body of two thicknesses, and a flat one.
+        Solid stepped = straight, flat = straight;
+        for (glm::vec3& p : stepped.positions)
+            if (p.z > 6) p.x *= 0.4f, p.y *= 0.4f;
+        for (glm::vec3& p : flat.positions) p.x *= 0.3f;
+        CHECK(chain_of(stepped).arcs.empty());
+        CHECK(chain_of(flat).arcs.empty());
+    }
+    const Solid pipe = bent_along(elbow, {.rows = 96}, random);
+    CHECK(test::fit_to(pipe).arcs.empty());  // nobody asked for one
+}
+
+TEST_CASE("chains: a given axis says which end is the base") {
+    std::mt19937 random(4);
+    const Solid solid = bent_along(elbow, {.rows = 96}, random);
+    const glm::dvec3 chord = Bender(elbow)({0, 0, length_of(elbow)});
+    const Cylinder there = chain_of(solid, chord), back = chain_of(solid, -chord);
+    REQUIRE(there.arcs.size() == 3);
+    REQUIRE(back.arcs.size() == 3);
+    CHECK(glm::length(there.origin) < 0.1);
+    CHECK(glm::length(back.origin - chord) < 0.1);
+    CHECK(std::abs(there.arcs[1].angle - back.arcs[1].angle) < 0.01);
+}
+
+TEST_CASE(
+    "chains: a body has a region for each arc, is the mesh at rest, and straight where all angles are 0") {
+    std::mt19937 random(5);
+    const Solid solid = bent_along(elbow, {.rows = 160}, random);
+    const Cylinder fitted = chain_of(solid);
+    const fit::Binding binding = fit::bind(solid.geometry(), fitted);
+    const bend::Body& body = binding.body;
+    REQUIRE(body.region_count() == fitted.arcs.size());
+    test::Output out(body.vertex_count());
+    const std::vector<bend::Pose> rest = body.rest_poses(), straight(body.region_count());
+    bend::DeformJob job = test::make_job(body, bend::Pose{}, Isa::automatic, out);
+    job.poses = rest;
+    bend::run(job);
+    const std::vector<std::uint32_t> places = binding.vertices_in_body();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        REQUIRE(glm::length(out.position(places[i]) - glm::dvec3(solid.positions[i])) < 2e-5);
+    job.poses = straight;
+    bend::run(job);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::dvec3 p = out.position(i) - fitted.origin;
+        const double z = glm::dot(p, fitted.axis);
+        REQUIRE(glm::length(p - z * fitted.axis) < 1.1);
+        REQUIRE(z > -0.1);
+        REQUIRE(z < fitted.length + 0.1);
+    }
+}
+
+TEST_CASE("chains: places on the base have the heights that they were made with") {
+    Cylinder cylinder;
+    cylinder.length = length_of(twisted);
+    cylinder.radius = 1;
+    cylinder.arcs = twisted;
+    std::vector<fit::BasePoint> points;
+    for (int i = 0; i <= 300; ++i) points.push_back({0.7 * i, cylinder.length * i / 300, 0.3 + 0.002 * i});
+    for (const bool shaped : {false, true}) {
+        if (shaped) cylinder.radii = {1.3, 1.2, 1.0, 0.8, 0.7};
+        std::vector<glm::vec3> positions;
+        for (const glm::dvec3& place : fit::places_on_base(cylinder, points)) positions.emplace_back(place);
+        const std::vector<double> heights = fit::heights(positions, cylinder);
+        for (std::size_t i = 0; i < points.size(); ++i) REQUIRE(std::abs(heights[i] - points[i].z) < 1e-5);
+    }
+}
+
+TEST_CASE("chains: what makes none is named") {
+    const auto said_of = [](auto&& spoil) {
+        Cylinder cylinder;
+        cylinder.length = length_of(elbow);
+        cylinder.radius = 1;
+        cylinder.arcs = elbow;
+        spoil(cylinder);
+        try {
+            fit::check(cylinder);
+        } catch (const fit::Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto says = [](const std::string& text, const char* piece) {
+        return text.find(piece) != std::string::npos;
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(said_of([](Cylinder&) {}) == "");
+    CHECK(says(said_of([](Cylinder& c) { c.length += 0.1; }), "add up to 20"));
+    CHECK(says(said_of([](Cylinder& c) { c.rest_angle = 0.1; }), "give one of them"));
+    CHECK(says(said_of([](Cylinder& c) { c.arcs[1].angle = 2.1; }), "0..2"));
+    CHECK(says(said_of([](Cylinder& c) { c.arcs[1].angle = -0.1; }), "0..2"));
+    CHECK(says(said_of([&](Cylinder& c) { c.arcs[0].angle = nan; }), "not finite"));
+    CHECK(says(said_of([&](Cylinder& c) { c.arcs[2].direction = nan; }), "not finite"));
+    CHECK(says(said_of([](Cylinder& c) { c.arcs[0].length = 0; }), "length of one of the arcs"));
+    CHECK(says(said_of([](Cylinder& c) { c.arcs.assign(33, {c.length / 33, 0, 0}); }), "33 arcs"));
+    CHECK(says(said_of([](Cylinder& c) {
+                   c.radii = {0.2, 2.6, 0.2};
+                   c.radius = paper::Spline(c.length, c.radii).mean();
+               }),
+               "too thick"));
+    std::mt19937 random(6);
+    const Solid solid = bent_along(elbow, {.rows = 96}, random);
+    fit::BindOptions options;
+    options.regions = {{0.5, {}}, {0.5, {}}};
+    CHECK_THROWS_WITH_AS(fit::bind(solid.geometry(), chain_of(solid), options),
+                         doctest::Contains("give none"), fit::Error);
+    options.regions.clear();
+    options.amplitude = paper::Amplitude::area;
+    CHECK_THROWS_WITH_AS(fit::bind(solid.geometry(), chain_of(solid), options),
+                         doctest::Contains("bent at rest"), fit::Error);
+}
