@@ -23,6 +23,7 @@ for pair in bottle=wine_bottle.glb trunk=log_01.glb drink=fuze.ply; do
     goffer bend "$model" --angle 90 --paper -o "$name.glb" --png "${name}_paper.png"
 done
 goffer bend "$data/insect_leg.glb" --by 60 -o leg.glb --png leg.png
+goffer bend "$data/insect_leg.glb" --angle 0 -o leg.glb --png leg_straight.png --ghost
 
 if [[ -f $models/banana.obj ]]; then
     goffer bend "$models/banana.obj" --angle 0 -o straight.obj --png banana.png --ghost
