@@ -228,7 +228,7 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     if (rest != RestPose::straight) found = arc_instead(body, principal, best, axis);
     if (!found) found = measured(body, axis ? line : best);
     const std::optional<Cylinder> chain = chain_instead(found->line);
-    const Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));
+    Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);
     return cylinder;
 }

@@ -3,6 +3,7 @@
 
 #include "surface.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

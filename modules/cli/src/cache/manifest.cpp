@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "cache/members.hpp"
+#include "report.hpp"
 
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/error.hpp>
