@@ -244,6 +244,20 @@ TEST_CASE("poses and bodies that have no map are refused") {
     CHECK_THROWS_AS(ClosedForm({10, 1, 3}, {1, nan}), std::invalid_argument);
     CHECK_THROWS_AS(ClosedForm({0, 1, 3}, {1, 0}), std::invalid_argument);
     CHECK_THROWS_AS(ClosedForm({10, nan, 3}, {1, 0}), std::invalid_argument);
+    CHECK_THROWS_AS(ClosedForm({10, 0, 3}, {1, 0}), std::invalid_argument);
     CHECK_THROWS_AS(ClosedForm({10, 1, -1}, {1, 0}), std::invalid_argument);
     CHECK_NOTHROW(ClosedForm({10, 1, 3}, {4.999, 0}));
+}
+
+TEST_CASE("with amplitude `area` a rest arc is refused, and so is an onset without one") {
+    Parameters body{10, 1, 3};
+    body.amplitude = Amplitude::area;
+    CHECK_NOTHROW(ClosedForm(body, {1, 0}));
+    body.onset = 0.01;
+    CHECK_THROWS_AS(ClosedForm(body, {1, 0}), std::invalid_argument);
+    body.onset = 0;
+    body.rest_angle = 0.5;
+    CHECK_THROWS_AS(ClosedForm(body, {1, 0}), std::invalid_argument);
+    body.amplitude = Amplitude::paper;
+    CHECK_NOTHROW(ClosedForm(body, {1, 0}));
 }

@@ -125,6 +125,7 @@ TEST_CASE("shapes: folds of one length have the profile's own shape, others are 
     // Twice as thick at the end: there are ln 2 folds' share of the count in proportion.
     const Shape cone(10, 1, {.radius = {1, 2}});
     CHECK(cone.folds() == doctest::Approx(10 * std::log(2.0)).epsilon(1e-12));
+    CHECK(cone.max_scale() > 0.999 * cone.scale(10));
     double thin = 0, thick = 0;
     for (double z = 0; z <= 10; z += 1e-3) {
         double& deepest = z < 5 ? thin : thick;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -31,6 +32,7 @@ Place place_of(double z, double length, double step, std::size_t values) {
 }
 
 double blended(const std::vector<double>& values, std::size_t first, const std::array<double, 4>& weights) {
+    assert(first + weights.size() <= values.size());
     double sum = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * values[first + i];
     return sum;
