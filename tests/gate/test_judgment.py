@@ -84,6 +84,15 @@ class Judgment(unittest.TestCase):
             found = judgment.estimate([(2.0, 2.0)] * 3 + pairs(seeded(7), NOISES["normal, 3 %"], 0.1), 1)
         self.assertTrue(found.slower())
 
+    def test_the_interval_and_the_test_must_both_say_so(self):
+        def estimate(low, high, p):
+            return judgment.Estimate((low + high) / 2, low, high, p, PAIRS)
+        for low, p, called in ((0.01, 0.04, True), (0, 0.04, False), (-0.01, 0.04, False), (0.01, 0.06, False),
+                               (0.01, judgment.ALPHA, False)):
+            with self.subTest(f"{low}; {p}"):
+                self.assertEqual(estimate(low, 0.1, p).slower(), called)
+                self.assertEqual(estimate(-0.1, -low, p).faster(), called)
+
     def test_holm(self):
         for got, expected in zip(judgment.holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
             self.assertAlmostEqual(got, expected)

@@ -91,6 +91,12 @@ class Ratios(support.Case):
                 with unittest.mock.patch("builtins.open", stat(*after)):
                     self.assertAlmostEqual(others.processors(), 1.0 if counts else 0.0)
 
+    def test_one_processor_is_remarked_on(self):
+        program = self.fake("head", {CASE: 1.0}, spread=0)
+        for processors, remarks in ((1, ["This machine has one processor: nothing is said of two threads."]), (2, [])):
+            with self.subTest(processors), unittest.mock.patch.object(ratios.os, "cpu_count", return_value=processors):
+                self.assertEqual(self.judge({"of_floor": {CASE: 0.1}}, program)[0].remarks, remarks)
+
     def test_naive_of(self):
         self.assertEqual(ratios.naive_of("deform/interleaved-positions/cache/avx2/1"), "naive/positions")
 
