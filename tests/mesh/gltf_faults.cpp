@@ -172,9 +172,12 @@ TEST_CASE("gltf: a mesh repeated without end is refused, deep nodes and deep ext
     document.json["scenes"][0]["nodes"][0] = many - 1;
     CHECK(load_document(document).positions[1] == glm::vec3(2, 0, 0));
 
-    const std::string deep =
-        R"({"asset": {"version": "2.0"}, "extras": )" + std::string(many, '[') + std::string(many, ']') + "}";
-    CHECK(tells(load_error("d.gltf", deep), "nested more than 200 deep"));
+    const auto with_extras = [text = tetra().gltf()](std::size_t depth) {
+        return "{\"extras\": " + std::string(depth, '[') + std::string(depth, ']') + "," + text.substr(1);
+    };
+    CHECK(tells(load_error("d.gltf", with_extras(many)), "nested more than 200 deep"));
+    CHECK(tells(load_error("d.gltf", with_extras(200)), "nested more than 200 deep"));
+    CHECK(load_error("d.gltf", with_extras(199)).empty());
 }
 
 TEST_CASE("gltf: a GLB cut off anywhere is refused, and so are other versions") {

@@ -70,6 +70,12 @@ TEST_CASE("limits: memory, which is named with the option, in every format") {
     }
 }
 
+TEST_CASE("limits: a PLY is kept as it is, and counts once more") {
+    const std::string bytes = saved(strip(10), "a.ply") + std::string(100000, ' ');
+    CHECK(within({.memory = 220000}, "a.ply", bytes).empty());
+    CHECK(tells(within({.memory = 180000}, "a.ply", bytes), "Limits::memory"));
+}
+
 TEST_CASE("limits: elements that no bytes are behind count in the scene, not in each accessor") {
     Document document = tetra();
     document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1 << 20}, {"type", "VEC3"}};
@@ -91,6 +97,11 @@ TEST_CASE("limits: a mesh that is repeated, a buffer that is named again and aga
     const auto file = folder.write("d.gltf", document.gltf());
     CHECK(load(file).positions.size() == 4);
     CHECK(tells(error_of([&] { (void)load(file, {.limits = small}); }), "Limits::memory"));
+
+    document = tetra();
+    document.json["meshes"][0]["extras"] = std::vector<Json>(100, {{"a", 0}});
+    CHECK(within(small, "d.glb", repeated(document, 10).glb()).empty());
+    CHECK(tells(within(small, "d.glb", repeated(document, 50).glb()), "Limits::memory"));
 
     document = tetra();
     document.json["extras"] = std::vector<Json>(50000, Json::array());
