@@ -282,6 +282,15 @@ TEST_CASE("gltf: very uneven and very small scales are no flat ones") {
     }
 }
 
+TEST_CASE("gltf: normals do not ask how small their node is, mirrored or not") {
+    const auto normals = [](const std::string& scale) {
+        const std::string nodes = R"([{"mesh": 0, "scale": [)" + scale + ", " + scale + ", " + scale + "]}]";
+        return load_document(tetra_with_nodes(nodes.c_str())).normals.values;
+    };
+    CHECK(normals("1e-200") == normals("2"));
+    CHECK(normals("-1e-200") == normals("-2"));
+}
+
 TEST_CASE("gltf: images beside the source are taken into a GLB, and named from the new place by a .gltf") {
     const std::string png = "\x89PNG\r\n\x1a\n and so on";
     const Folder folder;

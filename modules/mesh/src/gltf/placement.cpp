@@ -11,9 +11,13 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
+double largest(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 /// The vector at unit length. A zero vector stays one, as in the file.
 glm::dvec3 unit(const glm::dvec3& v) {
-    const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double most = largest(v);
     return most > 0.0 ? glm::normalize(v / most) : v;
 }
 
@@ -21,9 +25,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
 
 Placement::Placement(const glm::dmat4& matrix) : matrix_(matrix), identity_(matrix == glm::dmat4(1.0)) {
     glm::dmat3 linear(matrix);
-    double largest = 0.0;
-    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(linear[i / 3][i % 3]));
-    if (largest > 0.0) linear = linear / largest;
+    const double most = std::max({largest(linear[0]), largest(linear[1]), largest(linear[2])});
+    if (most > 0.0) linear = linear / most;
     const glm::dvec3 &x = linear[0], &y = linear[1], &z = linear[2];
     cofactors_ = glm::dmat3(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
     const double volume = glm::dot(x, cofactors_[0]);
