@@ -90,4 +90,35 @@ TEST_CASE("folds over joints: they run on between folds of which one is at most 
     }
 }
 
+TEST_CASE("folds over joints: how far a body can be bent does not ask for its size") {
+    std::mt19937 random(13);
+    // Thick a little before the joint, where wrinkles of the region behind it reach, or a little behind it.
+    for (const double thick : {4.5, 5.5}) {
+        CAPTURE(thick);
+        const test::Solid one =
+            test::warped(test::cylinder({.columns = 24, .rows = 400}, random), [&](glm::dvec3 p) {
+                const double away = p.z - thick, rho = 0.7 + 0.5 * std::exp(-16 * away * away);
+                return glm::dvec3(rho * p.x, rho * p.y, p.z);
+            });
+        std::vector<double> angles, scales;
+        for (const double size : {1.0, 0.1, 10.0}) {
+            const test::Solid solid = test::placed(one, {.scale = size});
+            fit::Cylinder cylinder = test::upright();
+            cylinder.length *= size, cylinder.radius *= size;
+            fit::BindOptions options;
+            options.regions = {{0.5, {}}, {0.5, {}}};
+            const fit::Binding binding = fit::bind(solid.geometry(), cylinder, options);
+            REQUIRE(binding.regions[0].blend > 0);
+            for (std::size_t r = 0; r < 2; ++r) {
+                angles.push_back(static_cast<double>(binding.body.max_angle(r)));
+                scales.push_back(binding.body.region_inputs()[r].max_scale);
+            }
+        }
+        for (std::size_t i = 2; i < angles.size(); ++i) {
+            CHECK(angles[i] == doctest::Approx(angles[i % 2]).epsilon(1e-4));
+            CHECK(scales[i] == doctest::Approx(scales[i % 2]).epsilon(1e-4));
+        }
+    }
+}
+
 }  // namespace goffer

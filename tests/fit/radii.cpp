@@ -130,6 +130,27 @@ TEST_CASE("radii: a body that is bent at rest gets its shape back (P1)") {
     CHECK(fit::rest_radius(binding.cylinder) == doctest::Approx(fit::rest_radius(fitted)).epsilon(1e-9));
 }
 
+TEST_CASE("radii: a body that is too thick for its own arc keeps one radius") {
+    const paper::ClosedForm arc({10, 1, 0}, {2.8, 0.4});
+    const Solid barrel = test::warped(test::tube(), [](glm::dvec3 p) {
+        const double rho = 0.4 + 1.6 * std::pow(std::sin(std::numbers::pi * p.z / 10), 4);
+        return glm::dvec3(rho * p.x, rho * p.y, p.z);
+    });
+    fit::Cylinder base = test::upright();
+    base.rest_angle = 2.8;
+    base.rest_direction = 0.4;
+    for (const double thinner : {1.0, 0.6}) {
+        const Solid solid = test::warped(barrel, [&](glm::dvec3 p) {
+            return arc.position(paper::to_cylindrical({thinner * p.x, thinner * p.y, p.z}));
+        });
+        const fit::Cylinder found = fit::fit_shape(solid.geometry(), base);
+        CHECK(found.radii.empty() == (thinner == 1));
+        CHECK((found.radius == base.radius) == (thinner == 1));
+        CHECK((found.length == base.length) == (thinner == 1));
+        CHECK_NOTHROW(fit::check(found));
+    }
+}
+
 TEST_CASE("folds: as long and as deep as the body is thick") {
     const Solid cone = tapered_tube(1.4, 0.5, 800);
     const fit::Binding binding = fit::bind(cone.geometry(), shaped(cone));

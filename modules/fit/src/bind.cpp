@@ -139,7 +139,7 @@ double largest_rho(const RestMesh& mesh, std::size_t first, std::size_t count) {
     return largest;
 }
 
-/// The slices of a region with a shape. `scale_beyond`: see the function.
+/// The slices of a region with a shape. `scale_beyond`: see the function; where it is 0 it limits nothing.
 Girths girths_of(const RestRegion& rest, paper::Profile profile, const RestMesh& mesh, std::size_t first,
                  std::size_t count, double scale_beyond) {
     constexpr std::size_t slices = 64;
@@ -158,7 +158,7 @@ Girths girths_of(const RestRegion& rest, paper::Profile profile, const RestMesh&
         Girth& girth = girths.slices[static_cast<std::size_t>(slice)];
         girth.rho = std::max(girth.rho, vertex.rho);
     });
-    if (scale_beyond > 0) girths.slices.push_back({scale_beyond, scale_beyond * girths.radius, 0});
+    girths.slices.push_back({scale_beyond, scale_beyond * girths.radius, 0});
     return girths;
 }
 

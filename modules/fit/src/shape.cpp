@@ -48,7 +48,7 @@ public:
         if (filled.empty()) return {};
         for (std::size_t i = 0; i < means.size(); ++i) {
             const auto distance = [i](std::size_t j) { return j > i ? j - i : i - j; };
-            if (!(weights_[i] > 0)) means[i] = means[*std::ranges::min_element(filled, {}, distance)];
+            means[i] = means[*std::ranges::min_element(filled, {}, distance)];  // its own where it has one
         }
         return means;
     }
