@@ -6,11 +6,11 @@
 
 namespace goffer::fit {
 
-Chebyshev::Chebyshev(double low, double high, int points, const std::function<double(double)>& function)
-    : low_(low), high_(high), terms_(static_cast<std::size_t>(points), 0.0) {
+Chebyshev::Chebyshev(double high, int points, const std::function<double(double)>& function)
+    : high_(high), terms_(static_cast<std::size_t>(points), 0.0) {
     for (int i = 0; i < points; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / points;
-        const double value = function(low + (high - low) * 0.5 * (1 + std::cos(angle)));
+        const double value = function(high * 0.5 * (1 + std::cos(angle)));
         for (int n = 0; n < points; ++n) {
             terms_[static_cast<std::size_t>(n)] +=
                 (n == 0 ? 1.0 : 2.0) / points * value * std::cos(n * angle);
@@ -19,7 +19,7 @@ Chebyshev::Chebyshev(double low, double high, int points, const std::function<do
 }
 
 double Chebyshev::operator()(double x) const {
-    const double y = 2 * (x - low_) / (high_ - low_) - 1;
+    const double y = 2 * x / high_ - 1;
     double b1 = 0;
     double b2 = 0;
     for (std::size_t n = terms_.size(); n-- > 1;) {

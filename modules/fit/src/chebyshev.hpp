@@ -8,19 +8,19 @@
 
 namespace goffer::fit {
 
-/// The polynomial through `function` at `points` Chebyshev points of [low, high].
+/// The polynomial through `function` at `points` Chebyshev points of [0, high].
 class Chebyshev {
 public:
-    Chebyshev(double low, double high, int points, const std::function<double(double)>& function);
+    Chebyshev(double high, int points, const std::function<double(double)>& function);
 
-    /// Value at x in [low, high], by Clenshaw's recurrence.
+    /// Value at x in [0, high], by Clenshaw's recurrence.
     [[nodiscard]] double operator()(double x) const;
 
-    /// Coefficients of 1, t, t^2, ... with t = (x - low) / (high - low). For a handful of points.
+    /// Coefficients of 1, t, t^2, ... with t = x / high. For a handful of points.
     [[nodiscard]] std::vector<double> monomials() const;
 
 private:
-    double low_, high_;
+    double high_;
     std::vector<double> terms_;  // of T_0, T_1, ...
 };
 

@@ -39,7 +39,7 @@ void check_shape(paper::Profile profile, FoldRange folds, double length, double 
 /// Q(q) = (1 - q) a(q) / sqrt(q): the smooth part of eq 7's solution, A = (L / 2) sqrt(q) Q(q).
 Chebyshev smooth_amplitude(paper::Profile profile, FoldRange folds, double largest_squeeze) {
     const paper::Wave wave(profile, folds.total, largest_squeeze);
-    return {0, largest_squeeze, squeeze_points,
+    return {largest_squeeze, squeeze_points,
             [&](double q) { return wave.column(q).amplitude / std::sqrt(q); }};
 }
 
@@ -47,7 +47,7 @@ Chebyshev smooth_amplitude(paper::Profile profile, FoldRange folds, double large
 Chebyshev area_factors(paper::Profile profile, paper::Amplitude amplitude, FoldRange folds, double length,
                        double radius, double max_angle) {
     const bool solved = amplitude == paper::Amplitude::area;
-    return {0, 1, solved ? factor_points : 1, [&](double root) {
+    return {1, solved ? factor_points : 1, [&](double root) {
                 return solved
                            ? paper::area_factor(profile, folds.total, length, radius, root * root * max_angle)
                            : 1.0;
@@ -81,7 +81,7 @@ bend::WrinkleTable make_wrinkle_table(paper::Profile profile, paper::Amplitude a
         const double root = static_cast<double>(i) / (rows - 1);
         const double largest_squeeze = largest_t * root * root * max_angle * radius / length;
         const double scale = folds.wave_length(length) / 2 * factor(root);
-        const Chebyshev profile_in_t(0, 1, static_cast<int>(bend::wrinkle_degree) + 1,
+        const Chebyshev profile_in_t(1, static_cast<int>(bend::wrinkle_degree) + 1,
                                      [&](double t) { return scale * q_part(largest_squeeze * t); });
         const std::vector<double> coefficients = profile_in_t.monomials();
         bend::WrinkleRow& row = table.rows[static_cast<std::size_t>(i)];
@@ -134,7 +134,7 @@ double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplit
     const bool wrinkled = wrinkles(amplitude, folds);
     const double per_length = 1 / girths.length, half_wave = folds.wave_length(girths.length) / 2;
     const Chebyshev q_part = wrinkled ? smooth_amplitude(profile, folds, max_even_squeeze)
-                                      : Chebyshev(0, 1, 1, [](double) { return 0.0; });
+                                      : Chebyshev(1, 1, [](double) { return 0.0; });
     double low = 0, high = max_even_squeeze * girths.length / (2 * girths.radius * thickest);
     const auto fits = [&](double alpha, const Girth& girth) {
         const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, max_even_squeeze);
