@@ -340,3 +340,32 @@ TEST_CASE("columns: a triangle that leans on a stretch without folds is not cut 
     CHECK(refinement.parents.size() > rows_alone(solid, stretches).parents.size());
     CHECK(refinement.parents.size() < 1000);
 }
+
+TEST_CASE("columns: an edge between two places next to each other in float is left as it is") {
+    // A rod whose columns are as close together as float has places there, and something that is wider.
+    constexpr float here = 16;
+    const float next = std::nextafter(here, 17.0f);
+    const Solid solid{{{here, here, 0},
+                       {next, here, 5},
+                       {next, next, 5},
+                       {here, next, 5},
+                       {here, here, 10},
+                       {15, here, 2},
+                       {17, here, 3},
+                       {here, 17, 7}},
+                      {0, 1, 2, 0, 2, 3, 1, 4, 2, 2, 4, 3, 5, 6, 7}};
+    fit::Cylinder base = upright();
+    const auto apart = static_cast<double>(next - here), axis = static_cast<double>(here) + apart / 2;
+    base.origin = {axis, axis, 0};
+    base.radius = apart;
+    const Refinement refinement = fit::refine(solid.geometry(), base, std::vector<fit::Stretch>{{10, 0.5}});
+    const Solid after = applied(solid, refinement);
+    CHECK(!refinement.vertices.empty());
+    int at_ends = 0;
+    for (std::size_t i = 0; i < refinement.vertices.size(); ++i) {
+        const auto& [a, b, t] = refinement.vertices[i];
+        const glm::vec3& middle = after.positions[solid.positions.size() + i];
+        if (middle == after.positions[a] || middle == after.positions[b]) ++at_ends;
+    }
+    CHECK(at_ends == 0);
+}
