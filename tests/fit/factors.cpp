@@ -46,11 +46,12 @@ Soup refined_soup(Soup soup, const fit::Cylinder& cylinder, const fit::BindOptio
     return {fit::refined_positions(soup.positions, refinement), refinement.triangles};
 }
 
-double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose) {
+double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose, float wrinkles = 1) {
     std::vector<glm::vec3> bent(soup.positions.size());
     bend::DeformJob job;
     job.body = &binding.body;
     job.pose = pose;
+    job.wrinkle_weight = wrinkles;
     job.transform[3] = -glm::vec3(binding.body.origin());
     job.positions = interleaved<3>(&bent[0].x, bent.size());
     bend::run(job);
@@ -227,6 +228,30 @@ TEST_CASE("amplitude mesh: folds that nobody asked for are no deeper than a quar
     CHECK(depth() > 0.15);
     options.fold_length = fit::default_fold_length(options.profile);
     CHECK(depth() > 0.25);
+}
+
+TEST_CASE(
+    "amplitude mesh: where the bare bend makes a body larger there are no wrinkles, and enough beside that") {
+    std::mt19937 random(14);
+    const test::Solid solid = test::warped(test::cylinder({.columns = 24, .rows = 200}, random),
+                                           [](glm::dvec3 p) { return p + glm::dvec3(1.2, 0, 0); });
+    const Soup soup{solid.positions, solid.triangles};
+    const fit::Binding binding =
+        fit::bind(soup.geometry(), test::upright(), {.folds = 6, .amplitude = paper::Amplitude::mesh});
+    const double rest = fit::surface_area(soup.positions, soup.triangles);
+    double low = 0, high = 0, largest = 0;
+    for (const float share : {0.2f, 0.5f, 0.9f}) {
+        for (int direction = 0; direction < 40; ++direction) {
+            const bend::Pose pose{share * binding.body.max_angle(),
+                                  static_cast<float>(2 * std::numbers::pi * direction / 40)};
+            const double bare = bent_area(binding, soup, pose, 0), all = bent_area(binding, soup, pose);
+            const double off = (all - std::max(bare, rest)) / rest;
+            low = std::min(low, off), high = std::max(high, off), largest = std::max(largest, bare / rest);
+        }
+    }
+    CHECK(largest > 1.01);
+    CHECK(low > -0.01);
+    CHECK(high < 2e-4);
 }
 
 TEST_CASE("amplitude mesh: triangles without area change nothing") {
