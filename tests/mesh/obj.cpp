@@ -136,6 +136,13 @@ TEST_CASE("obj: base colors come from the material file") {
     CHECK(tells(mesh.warnings[0], "my colors.mtl: names 'red.png', which is not there"));
 }
 
+TEST_CASE("obj: base colors are no brighter than white and no darker than black") {
+    const Folder folder;
+    folder.write("missing.mtl", "newmtl red paint\nKd 1.5 -0.5 0.5\nd 1.5\n");
+    const Mesh mesh = load(folder.write("a.obj", rich_obj));
+    CHECK(mesh.materials[0].base_color == glm::vec4(1, 0, 0.5f, 1));
+}
+
 TEST_CASE("obj: the way to the material file stays right in another folder") {
     const Folder from, to;
     from.write("missing.mtl", "newmtl blue\nKd 0 0 1\n");
