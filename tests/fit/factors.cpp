@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/angles.hpp"
+#include "support/arena.hpp"
 #include "support/models.hpp"
 #include "support/rounds.hpp"
 #include "synthetic.hpp"
@@ -10,7 +11,7 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
-#include <tbb/task_arena.h>
+#include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -324,8 +325,9 @@ TEST_CASE("bind tells how far it is, and is not changed by that") {
         const std::lock_guard lock(mutex);
         shares.push_back(share);
     };
-    const fit::Binding heard =
-        tbb::task_arena(1).execute([&] { return fit::bind(solid.geometry(), cylinder, options); });
+    std::optional<fit::Binding> in_one_thread;
+    test::in_arena(1, [&] { in_one_thread = fit::bind(solid.geometry(), cylinder, options); });
+    const fit::Binding& heard = *in_one_thread;
     CHECK(shares.size() > 100);
     CHECK(shares.front() < 0.2);
     CHECK(shares.back() == 1);

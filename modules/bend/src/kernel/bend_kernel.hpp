@@ -124,10 +124,11 @@ void deform_units(const RestColumns& rest, const Coefficients& k, std::size_t fi
 // arguments tell the compiler that no store changes them.
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
-                                     const PlaneOutput& out, std::size_t first, std::size_t vertices,
+                                     const PlaneOutput& output, std::size_t first, std::size_t vertices,
                                      Write write) {
     const RestColumns rest = columns;
     const Coefficients k = coefficients;
+    const PlaneOutput out = output;
     std::size_t peeled = 0;
     if (write == Write::non_temporal) {
         peeled = floats_to_line<L>(out.position[0]);
