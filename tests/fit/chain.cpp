@@ -148,6 +148,10 @@ TEST_CASE("chains: a thin part and a thick one lie along the chain, each with it
     CHECK(std::abs(thinnest / 0.5 - 1) < 0.03);
     CHECK(std::abs(length_of(shaped.arcs) / shaped.length - 1) < 1e-9);
     CHECK(center_miss(shaped, s, {}) < 0.15);
+    // And back, as ShapeMode::cylinder does.
+    fit::BindOptions round;
+    round.shape = fit::ShapeMode::cylinder;
+    CHECK(center_miss(fit::bind(solid.geometry(), shaped, round).cylinder, s, {}) < 0.15);
 }
 
 TEST_CASE("chains: bodies that are straight, or bent along one arc, get no chain") {
@@ -260,7 +264,7 @@ TEST_CASE("chains: what makes none is named") {
                    c.radii = {0.2, 2.6, 0.2};
                    c.radius = paper::Spline(c.length, c.radii).mean();
                }),
-               "too thick"));
+               "largest radius"));
     std::mt19937 random(6);
     const Solid solid = bent_along(elbow, {.rows = 96}, random);
     fit::BindOptions options;

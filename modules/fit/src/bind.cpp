@@ -119,8 +119,8 @@ double scale_beyond(std::span<const RestRegion> regions, std::size_t r) {
 Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
     if (!has_one_radius(cylinder, options))
         return cylinder.radii.empty() ? fit_shape(geometry, cylinder) : cylinder;
-    Cylinder base = cylinder;
-    base.radii.clear();
+    Cylinder base = with_one_radius(cylinder);
+    check(base);
     return base;
 }
 

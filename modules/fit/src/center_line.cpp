@@ -64,27 +64,35 @@ private:
         }
     }
 
-    /// Parts that are apart by their shortest gap, one after the other.
+    /// What is apart from the first place's part by the shortest gap to that, one part after the other.
     void link_sets() {
         DisjointSets sets(places_.size());
         for (std::size_t i = 0; i < links_.size(); ++i)
             for (const std::size_t j : links_[i])
                 sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+        std::vector<std::vector<std::size_t>> parts(places_.size());
+        for (std::size_t i = 0; i < places_.size(); ++i)
+            parts[sets.set_of(static_cast<std::uint32_t>(i))].push_back(i);
+        struct Gap {
+            double squared = infinite;
+            std::size_t from = 0;
+        };
+        std::vector<Gap> gaps(places_.size());  // from each place that is not linked to the nearest that is
+        std::vector<bool> linked(places_.size(), false);
+        std::size_t next = 0;
         for (;;) {
-            double least = infinite;
-            std::pair<std::size_t, std::size_t> gap;
-            const std::uint32_t first = sets.set_of(0);
-            for (std::size_t i = 0; i < places_.size(); ++i) {
-                if (sets.set_of(static_cast<std::uint32_t>(i)) != first) continue;
+            for (const std::size_t i : parts[sets.set_of(static_cast<std::uint32_t>(next))]) {
+                linked[i] = true;
                 for (std::size_t j = 0; j < places_.size(); ++j) {
-                    if (sets.set_of(static_cast<std::uint32_t>(j)) == first) continue;
-                    const double apart = (places_[i] - places_[j]).squaredNorm();
-                    if (apart < least) least = apart, gap = {i, j};
+                    const double apart = linked[j] ? infinite : (places_[j] - places_[i]).squaredNorm();
+                    if (apart < gaps[j].squared) gaps[j] = {apart, i};
                 }
             }
+            double least = infinite;
+            for (std::size_t j = 0; j < places_.size(); ++j)
+                if (!linked[j] && gaps[j].squared < least) least = gaps[next = j].squared;
             if (least == infinite) return;
-            link(gap.first, gap.second);
-            sets.join(static_cast<std::uint32_t>(gap.first), static_cast<std::uint32_t>(gap.second));
+            link(gaps[next].from, next);
         }
     }
 

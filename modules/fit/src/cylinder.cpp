@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arc.hpp"
 #include "chain.hpp"
+#include "rest.hpp"
 #include "sections.hpp"
 #include "surface.hpp"
 
@@ -153,7 +154,25 @@ void check_rest_angle(const Cylinder& cylinder) {
                 ", the range for this length and radius; give radians within it");
 }
 
-/// The same of each arc of a chain.
+void check_radii(const Cylinder& cylinder) {
+    if (cylinder.radii.empty()) return;
+    for (const double radius : cylinder.radii) check_size(radius, "one of the radii");
+    const std::size_t count = cylinder.radii.size();
+    if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
+    const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();
+    if (!(std::abs(mean / cylinder.radius - 1) <= 1e-3)) {
+        throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " +
+                    text(cylinder.radius) + "; make them the same");
+    }
+    const double thickest = *std::ranges::max_element(cylinder.radii);
+    if (cylinder.rest_angle < cylinder.length / (2 * thickest)) return;
+    throw Error("cylinder: radii of " + text(thickest) + " are too thick for the rest_angle of " +
+                text(cylinder.rest_angle) +
+                ", which has room for less than length / (2 rest_angle); give a " +
+                "smaller angle, or no radii");
+}
+
+/// Of each arc of a chain what check_rest_angle() and check_radii() ask of one.
 void check_arcs(const Cylinder& cylinder) {
     if (cylinder.arcs.empty()) return;
     if (cylinder.rest_angle != 0)
@@ -165,46 +184,21 @@ void check_arcs(const Cylinder& cylinder) {
     for (const RestArc& arc : cylinder.arcs) {
         check_size(arc.length, "the length of one of the arcs");
         check_finite(Vector3d(arc.angle, arc.direction, 0), "one of the arcs");
-        const double most = std::min(2 * std::numbers::pi, arc.length / (2 * cylinder.radius));
-        if (!(arc.angle >= 0 && arc.angle < most))
-            throw Error("cylinder: the angle of one of the arcs, " + text(arc.angle) + ", is outside 0.." +
-                        text(most) + ", the range for its length and the radius; give radians within it");
         sum += arc.length;
     }
-    if (std::abs(sum / cylinder.length - 1) <= 1e-6) return;
-    throw Error("cylinder: the lengths of its arcs add up to " + text(sum) + ", and length is " +
-                text(cylinder.length) + "; make them the same");
-}
-
-void check_radii(const Cylinder& cylinder) {
-    if (cylinder.radii.empty()) return;
-    for (const double radius : cylinder.radii) check_size(radius, "one of the radii");
-    const std::size_t count = cylinder.radii.size();
-    if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
-    const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();
-    if (!(std::abs(mean / cylinder.radius - 1) <= 1e-3)) {
-        throw Error("cylinder: radii have the mean " + text(mean) + ", and radius is " +
-                    text(cylinder.radius) + "; make them the same");
-    }
-    const paper::Spline radius(cylinder.length, cylinder.radii);
+    if (!(std::abs(sum / cylinder.length - 1) <= 1e-6))
+        throw Error("cylinder: the lengths of its arcs add up to " + text(sum) + ", and length is " +
+                    text(cylinder.length) + "; make them the same");
     double start = 0;
     for (const RestArc& arc : cylinder.arcs) {
-        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            const double thick = radius(start + share * arc.length);
-            if (!(arc.angle < arc.length / (2 * thick)))
-                throw Error("cylinder: a radius of " + text(thick) +
-                            " is too thick for the angle of its arc, " + text(arc.angle) +
-                            ", which has room for less than length / (2 angle); give a " +
-                            "smaller angle, or no radii");
-        }
+        const double thickest = thickest_of(cylinder, start, arc.length);
+        const double most = std::min(2 * std::numbers::pi, arc.length / (2 * thickest));
+        if (!(arc.angle >= 0 && arc.angle < most))
+            throw Error("cylinder: the angle of one of the arcs, " + text(arc.angle) + ", is outside 0.." +
+                        text(most) +
+                        ", the range for its length and its largest radius; give radians within it");
         start += arc.length;
     }
-    const double thickest = *std::ranges::max_element(cylinder.radii);
-    if (cylinder.rest_angle < cylinder.length / (2 * thickest)) return;
-    throw Error("cylinder: radii of " + text(thickest) + " are too thick for the rest_angle of " +
-                text(cylinder.rest_angle) +
-                ", which has room for less than length / (2 rest_angle); give a " +
-                "smaller angle, or no radii");
 }
 
 }  // namespace
@@ -247,8 +241,8 @@ void check(const Cylinder& cylinder) {
     check_finite(Vector3d::Constant(cylinder.rest_direction), "rest_direction");
     check_finite(Vector3d::Constant(cylinder.residual), "residual");
     check_rest_angle(cylinder);
-    check_arcs(cylinder);
     check_radii(cylinder);
+    check_arcs(cylinder);
     check_unit(cylinder.axis, "axis");
     check_unit(cylinder.zero, "zero");
     constexpr double tolerance = 1e-3;

@@ -172,6 +172,26 @@ std::vector<double> radii_of(const Cylinder& cylinder, double start, double leng
                     static_cast<std::size_t>(std::clamp(quarters, min_steps, max_steps)) + 1);
 }
 
+double thickest_of(const Cylinder& cylinder, double start, double length) {
+    const std::vector<double> radii = radii_of(cylinder, start, length);  // a spline is within its values
+    return radii.empty() ? cylinder.radius : *std::ranges::max_element(radii);
+}
+
+Cylinder with_one_radius(const Cylinder& cylinder) {
+    Cylinder plain = cylinder;
+    plain.radii.clear();
+    if (cylinder.radii.empty() || cylinder.arcs.empty()) return plain;
+    plain.length = 0;
+    double start = 0;
+    for (RestArc& arc : plain.arcs) {
+        const double own = paper::Spline(arc.length, radii_of(cylinder, start, arc.length)).mean();
+        start += arc.length;
+        arc.length += arc.angle * (plain.radius - own);
+        plain.length += arc.length;
+    }
+    return plain;
+}
+
 Straightening::Straightening(const Cylinder& cylinder)
     : origin_(cylinder.origin), to_body_(glm::transpose(axes_of(cylinder))) {
     if (cylinder.arcs.empty()) add_piece(cylinder, 0, cylinder.length);

@@ -65,6 +65,13 @@ void join_folds(std::vector<RestRegion>& regions);
 /// radius.
 [[nodiscard]] std::vector<double> radii_of(const Cylinder& cylinder, double start, double length);
 
+/// Returns the cylinder without its radii. The outer lines of a chain's arcs become those of its one radius;
+/// each center line stays where it is.
+[[nodiscard]] Cylinder with_one_radius(const Cylinder& cylinder);
+
+/// Returns a radius that no part of such a stretch is thicker than, nor the shape of a region there.
+[[nodiscard]] double thickest_of(const Cylinder& cylinder, double start, double length);
+
 /// Returns how far from the axis the base is at `count` equal steps of such a stretch.
 [[nodiscard]] std::vector<double> radii_at(const Cylinder& cylinder, double start, double length,
                                            std::size_t count);

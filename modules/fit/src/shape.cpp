@@ -130,12 +130,11 @@ Cylinder along_chain(const Cylinder& plain, const std::vector<double>& radii) {
         double start = 0, length = 0;
         for (std::size_t i = 0; i < shaped.arcs.size(); ++i) {
             RestArc& arc = shaped.arcs[i];
-            const paper::Shape own(arc.length, shaped.radius,
-                                   {.radius = radii_of(shaped, start, arc.length)});
+            const double mean = paper::Spline(arc.length, radii_of(shaped, start, arc.length)).mean();
+            const double thickest = thickest_of(shaped, start, arc.length);
             start += arc.length;
-            arc.length = plain.arcs[i].length + arc.angle * (own.radius() - plain.radius);
-            if (!(arc.length > 0 && arc.angle < 0.98 * arc.length / (2 * own.radius() * own.max_scale())))
-                return plain;
+            arc.length = plain.arcs[i].length + arc.angle * (mean - plain.radius);
+            if (!(arc.length > 0 && arc.angle < 0.98 * arc.length / (2 * thickest))) return plain;
             length += arc.length;
         }
         shaped.length = length;
@@ -148,8 +147,8 @@ Cylinder along_chain(const Cylinder& plain, const std::vector<double>& radii) {
 Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
     check(geometry);
     check(cylinder);
-    Cylinder plain = cylinder;
-    plain.radii.clear();
+    const Cylinder plain = with_one_radius(cylinder);
+    check(plain);
     std::vector<double> radii = mean_radii(geometry, plain);
     if (radii.empty()) return plain;
     const double raw_mean = paper::Spline(plain.length, radii).mean();
