@@ -95,8 +95,8 @@ inline BoundCase random_chain(Random& random, std::size_t arcs) {
         arc.length *= test_mesh.cylinder.length / sum;
         arc.angle *= all / sum;
     }
-    test_mesh = bent_along(test_mesh, rest);
     if (shaped) add_radii(test_mesh, random);
+    test_mesh = bent_along(std::move(test_mesh), rest);
     fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
     return {std::move(test_mesh), options, std::move(binding)};
 }

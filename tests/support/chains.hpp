@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 /// Bodies of several regions, and bodies that are bent at rest, with the double reference of both.
@@ -22,12 +23,12 @@ inline std::shared_ptr<const paper::Shape> shape_of(const fit::Cylinder& c) {
     return std::make_shared<const paper::Shape>(c.length, c.radius, paper::Shape::Knots{.radius = c.radii});
 }
 
-/// A straight mesh, bent: its mesh then has the rest arcs that its cylinder says, whose lengths and shapes
-/// are those of `bare`.
-inline void bend_mesh(TestMesh& test_mesh, std::span<const paper::Parameters> bare,
-                      std::span<const paper::Pose> rest) {
-    const fit::Cylinder& c = test_mesh.cylinder;
-    const paper::Chain map(bare, rest);
+/// `test_mesh`, which is straight, bent: its mesh then has the rest arc that its cylinder says.
+inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
+    fit::Cylinder& c = test_mesh.cylinder;
+    paper::Parameters bare{.length = c.length, .radius = c.radius};
+    bare.shape = shape_of(c);
+    const paper::ClosedForm map(bare, {angle, direction});
     const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
     for (std::size_t i = 0; i < test_mesh.positions.size(); ++i) {
         const paper::Cylindrical at =
@@ -37,42 +38,31 @@ inline void bend_mesh(TestMesh& test_mesh, std::span<const paper::Parameters> ba
             return paper::straightened_normal(glm::transpose(axes) * vector, at, c.length, c.radius,
                                               straight);
         };
-        paper::Cylindrical local = at;
-        std::size_t region = 0;
-        while (region + 1 < bare.size() && local.z > bare[region].length) local.z -= bare[region++].length;
-        const glm::dvec3 normal =
-            axes * map.normal(region, local, components(glm::dvec3(test_mesh.normals[i])));
-        const glm::dvec3 tangent =
-            axes * map.tangent(region, local, components(glm::dvec3(test_mesh.tangents[i])));
-        test_mesh.positions[i] = c.origin + axes * map.position(region, local);
+        const glm::dvec3 normal = axes * map.normal(at, components(glm::dvec3(test_mesh.normals[i])));
+        const glm::dvec3 tangent = axes * map.tangent(at, components(glm::dvec3(test_mesh.tangents[i])));
+        test_mesh.positions[i] = c.origin + axes * map.position(at);
         test_mesh.normals[i] = normal;
         test_mesh.tangents[i] = glm::vec4(glm::vec3(tangent), test_mesh.tangents[i].w);
     }
-}
-
-/// The same along one arc.
-inline TestMesh bent_at_rest(TestMesh test_mesh, double angle, double direction) {
-    fit::Cylinder& c = test_mesh.cylinder;
-    paper::Parameters bare{.length = c.length, .radius = c.radius};
-    bare.shape = shape_of(c);
-    const paper::Pose rest{angle, direction};
-    bend_mesh(test_mesh, {&bare, 1}, {&rest, 1});
     c.rest_angle = angle;
     c.rest_direction = direction;
     return test_mesh;
 }
 
-/// The same along a chain of arcs, whose lengths add up to that of the mesh.
-inline TestMesh bent_along(TestMesh test_mesh, const std::vector<fit::RestArc>& arcs) {
+/// The same along a chain of arcs, with the radii that its cylinder has. Normals and tangents stay as they
+/// are: any will do.
+inline TestMesh bent_along(TestMesh test_mesh, std::vector<fit::RestArc> arcs) {
     fit::Cylinder& c = test_mesh.cylinder;
-    std::vector<paper::Parameters> bare;
-    std::vector<paper::Pose> rest;
-    for (const fit::RestArc& arc : arcs) {
-        bare.push_back({.length = arc.length, .radius = c.radius});
-        rest.push_back({arc.angle, arc.direction});
+    const glm::dmat3 axes(c.zero, glm::cross(c.axis, c.zero), c.axis);
+    std::vector<fit::BasePoint> points;
+    for (const glm::vec3& position : test_mesh.positions) {
+        const paper::Cylindrical at =
+            paper::to_cylindrical(glm::transpose(axes) * (glm::dvec3(position) - c.origin));
+        points.push_back({at.beta, at.z, at.rho});
     }
-    bend_mesh(test_mesh, bare, rest);
-    c.arcs = arcs;
+    c.arcs = std::move(arcs);
+    const std::vector<glm::dvec3> places = fit::places_on_base(c, points);
+    test_mesh.positions.assign(places.begin(), places.end());
     return test_mesh;
 }
 
