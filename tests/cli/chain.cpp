@@ -93,6 +93,32 @@ TEST_CASE("chain: bend leaves it as it is by 0, straightens it to 0, and shares 
           doctest::Approx(20).epsilon(0.01));
 }
 
+TEST_CASE("chain: what a region has no room for goes to the others") {
+    const Folder folder;
+    copy_of(folder, "insect_leg.glb");  // its knee hardly bends further
+    const json by = report(folder, {"bend", "insect_leg.glb", "--by", "60", "-o", "out.ply", "--folds", "0"});
+    CHECK(by["clamped"] == false);
+    REQUIRE(by["poses"].size() > 4);
+    bool full = false;
+    double x = 0, y = 0;  // what all are turned by, as a vector
+    for (std::size_t i = 0; i < by["poses"].size(); ++i) {
+        const json& pose = by["poses"][i];
+        const auto add = [&](const char* angle, const char* direction, double sign) {
+            const double toward = pose[direction].get<double>() * std::numbers::pi / 180;
+            x += sign * pose[angle].get<double>() * std::cos(toward);
+            y += sign * pose[angle].get<double>() * std::sin(toward);
+        };
+        add("angle", "direction", 1);
+        add("rest_angle", "rest_direction", -1);
+        full = full || pose["angle"].get<double>() > by["regions"][i]["max_angle"].get<double>() - 1e-3;
+    }
+    CHECK(full);
+    CHECK(std::hypot(x, y) == doctest::Approx(60).epsilon(0.001));
+    // Where none has room, it is said.
+    CHECK(report(folder, {"bend", "insect_leg.glb", "--by", "5000", "-o", "out.ply", "--folds",
+                          "0"})["clamped"] == true);
+}
+
 TEST_CASE("chain: regions that are said, and a path, take the place of its arcs") {
     const Folder folder;
     pipe(folder);
@@ -113,7 +139,7 @@ TEST_CASE("chain: --fit takes it from a report, and a body file keeps it") {
                  {"bend", "s.obj", "--by", "30", "--folds", "0", "-o", "given.ply", "--fit", "fit.json"});
     CHECK(farthest(mesh::load(folder / "found.ply"), mesh::load(folder / "given.ply")) < 1e-3);
     refused(folder, 2, {"bend", "s.obj", "-o", "out.ply", "--fit", "fit.json", "--regions", "0.5,0.5"},
-            {"--regions", "fit.json", "2 arcs"});
+            {"--fit", "fit.json", "2 arcs"});
     well(folder, {"bake", "s.obj", "-o", "s.goffer", "--folds", "0"});
     const json baked = report(folder, {"inspect", "s.goffer"});
     REQUIRE(baked["regions"].size() == 2);

@@ -296,9 +296,9 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
     if (!cylinder.arcs.empty() && !request.options.regions.empty())
-        throw UsageError("--regions: the cylinder in " + fit.string() + " is a chain of " +
+        throw UsageError("--fit: the cylinder in " + fit.string() + " is a chain of " +
                          counted(cylinder.arcs.size(), "arc") +
-                         ", which are the regions; leave one of both words out");
+                         ", which are its regions; leave it out, or --regions and --path, which have others");
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";
         model.growth = in_file(file, [&] {

@@ -62,13 +62,17 @@ Curvature curvature(double angle, double direction) {
     return {angle * std::cos(radians(direction)), angle * std::sin(radians(direction))};
 }
 
+/// How far `rest` can be moved along `unit` until the angle is `limit`.
+double room_from(const Curvature& rest, const Curvature& unit, double limit) {
+    const double along = rest.x * unit.x + rest.y * unit.y;
+    const double missing = limit * limit - rest.x * rest.x - rest.y * rest.y;
+    return std::sqrt(along * along + std::max(missing, 0.0)) - along;
+}
+
 /// `by` degrees in `direction` from the rest pose; infinite: until the angle is `limit`.
 Target moved_from(const Curvature& rest, double by, double direction, double limit) {
     const Curvature unit = curvature(std::copysign(1.0, by), direction);
-    const double along = rest.x * unit.x + rest.y * unit.y;
-    const double missing = limit * limit - rest.x * rest.x - rest.y * rest.y;
-    const double reach =
-        std::isfinite(by) ? std::fabs(by) : std::sqrt(along * along + std::max(missing, 0.0)) - along;
+    const double reach = std::isfinite(by) ? std::fabs(by) : room_from(rest, unit, limit);
     const double x = rest.x + reach * unit.x, y = rest.y + reach * unit.y;
     return target(std::isfinite(by) ? std::hypot(x, y) : std::fabs(by), degrees(std::atan2(y, x)));
 }
@@ -85,6 +89,51 @@ Target target_from_rest(const bend::Body& body, std::size_t region, double by,
     if (!direction && rest.direction == toward) return target(rest.angle + by, rest.direction);
     return moved_from(curvature(rest.angle, rest.direction), by, direction.value_or(toward),
                       largest(body, region));
+}
+
+/// How much of `by` degrees each region of a body that is bent along a chain of arcs gets: by their lengths,
+/// but no more than brings it to its largest angle; the others get the rest.
+std::vector<double> shared_from_rest(const bend::Body& body, double by,
+                                     const std::vector<std::optional<double>>& directions, double toward) {
+    const std::span<const bend::RegionInput> regions = body.region_inputs();
+    std::vector<double> shares(regions.size(), 0);
+    std::vector<bool> full(regions.size(), false);
+    double left = std::fabs(by);
+    for (bool again = true; again;) {
+        again = false;
+        double length = 0;
+        for (std::size_t i = 0; i < regions.size(); ++i) length += full[i] ? 0 : regions[i].length;
+        if (!(length > 0)) break;
+        for (std::size_t i = 0; i < regions.size() && !again; ++i) {
+            if (full[i]) continue;
+            const double direction = directions[directions.size() == 1 ? 0 : i].value_or(toward);
+            const RestPose rest = rest_pose(body, i);
+            const double room = room_from(curvature(rest.angle, rest.direction),
+                                          curvature(std::copysign(1.0, by), direction), largest(body, i));
+            shares[i] = left * regions[i].length / length;
+            if (shares[i] <= room) continue;
+            shares[i] = room;
+            left -= room;
+            full[i] = again = true;
+        }
+    }
+    // What nobody has room for is asked for all the same, and clamped.
+    double given = 0;
+    for (const double share : shares) given += share;
+    for (double& share : shares)
+        share = std::copysign(given > 0 ? share * std::max(std::fabs(by) / given, 1.0) : share, by);
+    return shares;
+}
+
+/// Whether a body is bent at rest along arcs that are not one.
+bool is_chain(const bend::Body& body) {
+    const std::span<const bend::RegionInput> regions = body.region_inputs();
+    return std::ranges::any_of(regions, [&](const bend::RegionInput& region) {
+        const double here = region.rest_angle / region.length,
+                     first = regions[0].rest_angle / regions[0].length;
+        return std::fabs(here - first) > 1e-6 * std::max(here, first) ||
+               (here != 0 && region.rest_direction != regions[0].rest_direction);
+    });
 }
 
 /// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
@@ -164,7 +213,10 @@ PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions>
     for (const auto& [said, option] : {std::pair(words.angles.has_value(), "--angles"),
                                        std::pair(words.directions.has_value(), "--directions")}) {
         if (said && !words.regions && regions.empty())
-            throw UsageError(std::string(option) + ": is for a body of several regions; add --regions");
+            throw UsageError(std::string(option) +
+                             ": is for a body of several regions; add --regions, or bake a model that is "
+                             "bent along a chain of "
+                             "arcs first, and bend the body file");
     }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
@@ -228,10 +280,15 @@ std::vector<Target> targets_from_straight(const PoseRequest& request) {
 std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request) {
     std::vector<Target> targets;
     const double toward = rest_direction(body);
+    std::vector<double> shares;
+    if (request.from_rest && request.shared && std::isfinite(*request.shared) && is_chain(body))
+        shares = shared_from_rest(body, *request.shared, request.directions, toward);
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const std::optional<double>& direction = request.directions[request.directions.size() == 1 ? 0 : i];
         const double share = body.region_inputs()[i].length / body.length();
-        const double angle = request.shared ? *request.shared * share : request.angles[i];
+        const double angle = !shares.empty()  ? shares[i]
+                             : request.shared ? *request.shared * share
+                                              : request.angles[i];
         targets.push_back(request.from_rest ? target_from_rest(body, i, angle, direction, toward)
                                             : target(angle, direction.value_or(toward)));
     }

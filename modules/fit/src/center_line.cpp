@@ -194,21 +194,17 @@ ArcChain::ArcChain(const Vector3d& point, const Matrix3d& frame, std::span<const
 }
 
 Vector3d ArcChain::straightened(const Vector3d& place) const {
-    constexpr double most_turn = 1.2;
     Vector3d best = Vector3d::Zero();
     double least = infinite;
     for (std::size_t i = 0; i < maps_.size(); ++i) {
         const Vector3d at = maps_[i](place);
-        // The ends go on, but not around to other arcs.
-        const double further = most_turn / arcs_[i].curvature.norm();
-        const double half = arcs_[i].length / 2;
-        const double low = -half - (i == 0 ? further : 0);
-        const double high = half + (i + 1 == maps_.size() ? further : 0);
-        const double z = std::clamp(at.z(), low, high);
-        const double far = at.head<2>().squaredNorm() + (at.z() - z) * (at.z() - z);
+        const double half = arcs_[i].length / 2, within = std::clamp(at.z(), -half, half);
+        const double beyond = at.z() - within;
+        const double far = at.head<2>().squaredNorm() + beyond * beyond;
         if (!(far < least)) continue;
         least = far;
-        best = {at.x(), at.y(), starts_[i] + half + z};
+        const bool open = (i == 0 && beyond < 0) || (i + 1 == maps_.size() && beyond > 0);
+        best = {at.x(), at.y(), starts_[i] + half + (open ? at.z() : within)};
     }
     return best;
 }

@@ -27,9 +27,9 @@ struct CenterPoints {
     double radius;  ///< of a tube of that length with the body's area
 };
 
-/// Returns points less than a radius apart; none if the body is too stout for that. They are the centroids of
-/// what is equally far from both ends, measured along the surface, so that it does not matter how far a body
-/// is bent.
+/// Returns points 0.75 radii apart, or 96 of them along a longer body; none if the body is too stout for
+/// that. They are the centroids of what is equally far from both ends, measured along the surface, so that it
+/// does not matter how far a body is bent.
 [[nodiscard]] CenterPoints center_points(const Body& body);
 
 /// An arc of a chain. `curvature`: toward its center, of length 1 / its radius, along e1 and e2 of the frame
@@ -39,8 +39,8 @@ struct ChainArc {
     Eigen::Vector2d curvature;
 };
 
-/// A chain of arcs, each of which begins where and as the one before ends. The first and the last one go on
-/// beyond their ends.
+/// A chain of arcs, each of which begins where and as the one before ends. A place belongs to the arc that is
+/// nearest; beyond their ends the first and the last one go on.
 class ArcChain {
 public:
     /// The columns of `frame` are e1, e2, e3 at `point`, where the first arc begins.
@@ -66,8 +66,8 @@ private:
 };
 
 /// Returns the chain of fewest arcs, two or more, that is within `tolerance` (rms) of the points, or that of
-/// `max_arcs` that is nearest. No arc is shorter than `shortest`, or bent so far that it has no inner side at
-/// a distance of `radius`.
+/// `max_arcs`, or of as many as have room; nothing where two have none. No arc is shorter than `shortest`.
+/// One that has hardly an inner side at a distance of `radius` is avoided, but the caller has to look.
 [[nodiscard]] std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, double radius,
                                                double shortest, double tolerance, std::size_t max_arcs);
 

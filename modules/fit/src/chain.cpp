@@ -3,6 +3,7 @@
 
 #include "center_line.hpp"
 #include "least_squares.hpp"
+#include "rest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -148,19 +149,55 @@ double one_sidedness(const Body& body, const View& view) {
     return one_sided / all;
 }
 
+/// How far the middle of the body lies from a line, at most.
+double aside(const std::vector<CenterPoint>& points, const Line& line) {
+    const Straightened straightened(line);
+    double most = 0;
+    for (const CenterPoint& point : points) most = std::max(most, straightened(point.place).head<2>().norm());
+    return most;
+}
+
+/// The radius of a tube that has the body's area and goes once across its box, at least: a body that runs to
+/// and fro is slimmer.
+double slimmest(const Body& body) {
+    double area = 0;
+    for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
+        const Vector3d& a = body.points[body.triangles[t]];
+        area +=
+            (body.points[body.triangles[t + 1]] - a).cross(body.points[body.triangles[t + 2]] - a).norm() / 2;
+    }
+    return area / (2 * std::numbers::pi);
+}
+
+/// Whether all of the body lies between the ends of the cylinder. A ring, say, has none that a chain finds.
+bool holds(const Cylinder& cylinder, const Body& body) {
+    constexpr double slack = 2.5e-4;  // of the first and the last arc: see rest_mesh()
+    const Straightening straightening(cylinder);
+    return std::ranges::all_of(body.triangles, [&](std::uint32_t i) {
+        const double z = straightening.height(from_eigen(body.middle + body.size * body.points[i]));
+        return z > -slack * cylinder.arcs.front().length &&
+               z < cylinder.length + slack * cylinder.arcs.back().length;
+    });
+}
+
 }  // namespace
 
 std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std::optional<Vector3d>& axis) {
     constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7, most_one_sided = 0.25;
-    constexpr double within = 0.7;  // cosine of 45 degrees
+    constexpr double least_aside = 1;  // radii: what bends less is a relief
+    constexpr double few_times = 4;    // what a line's radius may be of the slimmest that is possible
+    constexpr double within = 0.7;     // cosine of 45 degrees
     std::vector<std::uint32_t> triangles;
     constexpr std::size_t samples = 4000;
     const Body cloud = sampled_surface(body, samples, triangles);
-    const std::optional<Section> before = section_around(cloud, View(cloud, line));
-    const double rough = roughness(cloud, View(cloud, line));
-    if (before && !(rough > rough_enough * before->radius)) return std::nullopt;
+    const View along_line(cloud, line);
+    const double rough = roughness(cloud, along_line);
+    const std::optional<Section> before = section_around(cloud, along_line);
+    const bool round = before && !(rough > rough_enough * before->radius);
+    if (round && before->radius < few_times * slimmest(body)) return std::nullopt;
     CenterPoints found = center_points(body);
-    if (found.points.size() < 6) return std::nullopt;
+    if (found.points.size() < 6 || !(aside(found.points, line) > least_aside * found.radius))
+        return std::nullopt;
     const Measure measure{found.radius};
     if (axis && std::abs(chord_of(found.points).dot(*axis)) < within) return std::nullopt;
     orient(found.points, axis);
@@ -178,7 +215,8 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     const double now = roughness(cloud, view);
     if (!(now < smooth * measure.radius && now < better * rough)) return std::nullopt;
     if (!(one_sidedness(cloud, view) < most_one_sided)) return std::nullopt;
-    return cylinder_of(body, *chain);
+    const std::optional<Cylinder> cylinder = cylinder_of(body, *chain);
+    return cylinder && holds(*cylinder, body) ? cylinder : std::nullopt;
 }
 
 }  // namespace goffer::fit

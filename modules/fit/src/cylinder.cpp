@@ -184,6 +184,11 @@ void check_arcs(const Cylinder& cylinder) {
     for (const RestArc& arc : cylinder.arcs) {
         check_size(arc.length, "the length of one of the arcs");
         check_finite(Vector3d(arc.angle, arc.direction, 0), "one of the arcs");
+        constexpr double least = 1e-5;  // of the body
+        if (!(arc.length >= least * cylinder.length))
+            throw Error("cylinder: one of the arcs is " + text(arc.length) +
+                        " long, too short for a region of a " + "body of " + text(cylinder.length) +
+                        "; leave it out");
         sum += arc.length;
     }
     if (!(std::abs(sum / cylinder.length - 1) <= 1e-6))
@@ -212,7 +217,10 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
         return fit_chain(body, line, axis ? std::optional(given_axis(*axis)) : std::nullopt);
     };
     if (!axis && principal.distinct < long_enough) {  // it may be long all the same, if it is bent
-        if (const auto chain = chain_instead(line_through(principal.centroid, principal.axis))) return *chain;
+        if (const auto chain = chain_instead(line_through(principal.centroid, principal.axis))) {
+            check_size(*chain, body);
+            return *chain;
+        }
     }
     const Vector3d direction = axis ? given_axis(*axis) : long_axis(principal);
     const Line line = settled_near(body, line_through(principal.centroid, direction), false);

@@ -307,14 +307,14 @@ double wave_depth(const RestRegion& region, double z) {
     return paper::wave_depth(region.shape.get(), z);
 }
 
-/// Whether two regions are bent along the same arc at rest.
+/// Whether two regions are bent along the same arc at rest, as bend::Body::check() asks of such a joint.
 bool bent_alike(const RestRegion& a, const RestRegion& b) {
+    if (a.rest.angle == 0 && b.rest.angle == 0) return true;
     constexpr double same = 1e-6;
-    const double straight = same / std::max(a.length, b.length);
     const double curvature = a.rest.angle / a.length, other = b.rest.angle / b.length;
-    return std::fabs(curvature - other) <= std::max(same * curvature, straight) &&
-           (curvature <= straight ||
-            std::fabs(std::remainder(a.rest.direction - b.rest.direction, 2 * std::numbers::pi)) < same);
+    const double turned = std::remainder(a.rest.direction - b.rest.direction, 2 * std::numbers::pi);
+    const bool round_alike = !a.shape || !b.shape || a.shape->radius() == b.shape->radius();
+    return std::fabs(curvature - other) <= same * curvature && std::fabs(turned) <= same && round_alike;
 }
 
 /// How far about a joint wrinkles pass into each other: a quarter of the shorter fold there, from its crest

@@ -74,8 +74,8 @@ struct Binding {
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
-/// bend::WorkingRange, or Amplitude::area is asked for a body that is bent at rest or has an onset or a
-/// wrinkle_range (use Amplitude::mesh).
+/// bend::WorkingRange, regions are given beside a cylinder's arcs, or Amplitude::area is asked for a body
+/// that is bent at rest or has an onset or a wrinkle_range (use Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
 /// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the

@@ -59,8 +59,8 @@ struct BindOptions {
     Amplitude amplitude = Amplitude::paper;
     Profile profile = Profile::even;
     /// With ShapeMode::automatic, a body without radii of its own gets those of fit_shape(). A body that
-    /// is bent at rest and has several regions gets a cylinder in any case, and so does any with
-    /// Amplitude::area. Thin parts beside the axis hardly sway, and none passes through another, with
+    /// is bent at rest along one arc and has several regions gets a cylinder in any case, and so does any
+    /// with Amplitude::area. Thin parts beside the axis hardly sway, and none passes through another, with
     /// Profile::even and no `folds` or `fold_length` given. See modules/paper/README.md, "Shaped bodies" and
     /// "Parts beside the axis".
     ShapeMode shape = ShapeMode::automatic;
@@ -70,7 +70,8 @@ struct BindOptions {
     /// said by Geometry::wrinkle_mask, which takes nothing from the depth elsewhere, and adds nothing to it.
     WrinkleRange wrinkle_range = {};
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..WrinkleTable::max_rows
-    /// From base to tip, at most bend::max_regions. Empty: the body is one region.
+    /// From base to tip, at most bend::max_regions. Empty: the body is one region, or has one for each arc of
+    /// its cylinder; it must be empty for a cylinder with arcs.
     std::vector<RegionOptions> regions = {};
     /// Folds of Profile::even run on over the joints of regions that both wrinkle, and pass into each other
     /// within a quarter of a fold on both sides, where they would else fade out; not where the folds of one

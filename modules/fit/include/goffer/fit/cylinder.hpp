@@ -77,14 +77,16 @@ public:
 /// With RestPose::chain, a body that is rougher than 0.12 of the radius about that line may get a chain of 2
 /// to 12 arcs (more where one would turn by more than a half), and its body as many regions: if its sections
 /// lie all around the chain, and are circles about it within 0.2 of the radius and within 0.7 of what they
-/// are about the line.
+/// are about the line; if the middle of the body is more than a radius from the line somewhere; and if a
+/// given `axis` is within about 45 degrees of its chord. A mesh without a long axis may get one, too.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
 /// Throws Error as check(geometry) does, and if an axis is zero or not finite, or no triangle has an area.
-/// Throws AxisError if no axis is given and the mesh has no long one, the mesh has no surface around the axis
-/// or no extent along it, or the body is too thin for float at its coordinates. Thread-safe.
+/// Throws AxisError if no axis is given and the mesh has no long one, nor a chain if it may have one; if it
+/// has no surface around the axis or no extent along it; or if the body is too thin for float at its
+/// coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     RestPose rest = RestPose::automatic);
 
@@ -100,11 +102,11 @@ public:
 
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length,
 /// radius or one of the radii is not within 1e-40..1e40, the origin is farther than 1e40 on an axis,
-/// rest_angle is negative or not below both 2 pi and length / (2 radius), the same holds for one of the arcs,
-/// there are more of these than bend::max_regions, their lengths do not add up to that of the cylinder within
-/// 1e-6, rest_angle is not 0 beside them, axis and zero are not of unit
+/// rest_angle is negative or not below both 2 pi and length / (2 radius), axis and zero are not of unit
 /// length or not orthogonal, within 1e-3, or the radii are fewer than two or do not have the radius as their
-/// mean, within 1e-3. Thread-safe.
+/// mean, within 1e-3. Likewise if an angle of the arcs is not so with the largest radius along it, one is
+/// shorter than 1e-5 of the length, there are more than bend::max_regions, their lengths do not add up to
+/// that of the cylinder, within 1e-6, or rest_angle is not 0 beside them. Thread-safe.
 void check(const Cylinder& cylinder);
 
 /// Returns `cylinder` with another length: a stretch of it, for sensible_folds(). Thread-safe.
@@ -113,8 +115,8 @@ void check(const Cylinder& cylinder);
     return cylinder;
 }
 
-/// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one;
-/// model units. `cylinder` must pass check(). Thread-safe.
+/// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one and
+/// for a chain; model units. `cylinder` must pass check(). Thread-safe.
 [[nodiscard]] inline double rest_radius(const Cylinder& cylinder) {
     if (cylinder.rest_angle == 0) return std::numeric_limits<double>::infinity();
     return cylinder.length / cylinder.rest_angle - cylinder.radius;
