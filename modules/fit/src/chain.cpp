@@ -193,8 +193,8 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     const View along_line(cloud, line);
     const double rough = roughness(cloud, along_line);
     const std::optional<Section> before = section_around(cloud, along_line);
-    const bool round = before && !(rough > rough_enough * before->radius);
-    if (round && before->radius < few_times * slimmest(body)) return std::nullopt;
+    const bool tube = before && !(rough > rough_enough * before->radius);
+    if (tube && before->radius < few_times * slimmest(body)) return std::nullopt;
     CenterPoints found = center_points(body);
     if (found.points.size() < 6 || !(aside(found.points, line) > least_aside * found.radius))
         return std::nullopt;
