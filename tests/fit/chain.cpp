@@ -154,6 +154,49 @@ TEST_CASE("chains: a thin part and a thick one lie along the chain, each with it
     CHECK(center_miss(fit::bind(solid.geometry(), shaped, round).cylinder, s, {}) < 0.15);
 }
 
+TEST_CASE("chains: a tip that points at the body's own side ends there") {
+    std::mt19937 random(7);
+    const Arcs hook{{24, 0, 0}, {18, 170 * degree, 0}, {7, 0, 0}, {5, 90 * degree, 0}, {4.5, 0, 0}};
+    const Cylinder fitted = chain_of(bent_along(hook, {.rows = 240}, random));
+    REQUIRE(fitted.arcs.size() >= 3);
+    CHECK(std::abs(fitted.length / length_of(hook) - 1) < 0.03);
+}
+
+TEST_CASE("chains: a slender S is no arc of a wide ring") {
+    std::mt19937 random(8);
+    const Arcs slender{{400, 2, 0}, {400, 2, std::numbers::pi}};
+    const Cylinder fitted = chain_of(bent_along(slender, {.columns = 12, .rows = 400}, random));
+    CHECK(fitted.arcs.size() == 2);
+    CHECK(std::abs(fitted.radius - 1) < 0.05);
+}
+
+TEST_CASE("chains: folds run on between arcs only where the body's own regions may share them") {
+    std::mt19937 random(9);
+    const double turn = 200 * degree;
+    const Arcs omega{{10, 0, 0}, {8 * turn + turn, turn, 0}, {10, 0, 0}};
+    Solid solid = test::cylinder({.columns = 16, .rows = 200, .length = length_of(omega)}, random);
+    for (glm::vec3& p : solid.positions) {
+        const auto z = static_cast<double>(p.z);
+        if (z > 14 && z < length_of(omega) - 14) continue;
+        p.x *= 1.3f, p.y *= 1.3f;
+    }
+    solid = test::warped(std::move(solid), Bender(omega));
+    const Cylinder fitted = fit::fit_shape(solid.geometry(), chain_of(solid));
+    REQUIRE(fitted.arcs.size() >= 4);  // the arc is beyond a half turn
+    CHECK_NOTHROW((void)fit::bind(solid.geometry(), fitted));
+}
+
+TEST_CASE("chains: a ring gets none, nor does a wavy relief") {
+    std::mt19937 random(10);
+    const paper::ClosedForm ring({.length = 60, .radius = 1}, {6.2, 0});
+    const Solid closed = test::warped(test::cylinder({.rows = 200, .length = 60, .closed = false}, random),
+                                      [&](glm::dvec3 p) { return ring.position(paper::to_cylindrical(p)); });
+    CHECK_THROWS_AS((void)chain_of(closed), fit::AxisError);
+    Solid wavy = test::cylinder({.rows = 200, .length = 30}, random);
+    for (glm::vec3& p : wavy.positions) p.x += 0.6f * std::sin(0.6f * p.z);
+    CHECK(chain_of(wavy).arcs.empty());
+}
+
 TEST_CASE("chains: bodies that are straight, or bent along one arc, get no chain") {
     std::mt19937 random(3);
     const paper::ClosedForm arc({.length = 12, .radius = 1}, {2, 1});
