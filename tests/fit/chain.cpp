@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "refusals.hpp"
 #include "support/angles.hpp"
 #include "support/bodies.hpp"
 #include "support/rounds.hpp"
+#include "support/says.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/bind.hpp>
@@ -24,6 +26,7 @@ using fit::Cylinder;
 using fit::RestArc;
 using test::degree;
 using test::Recipe;
+using test::says;
 using test::Solid;
 
 namespace {
@@ -295,15 +298,7 @@ TEST_CASE("chains: what makes none is named") {
         cylinder.radius = 1;
         cylinder.arcs = elbow;
         spoil(cylinder);
-        try {
-            fit::check(cylinder);
-        } catch (const fit::Error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    const auto says = [](const std::string& text, const char* piece) {
-        return text.find(piece) != std::string::npos;
+        return test::error_of([&] { fit::check(cylinder); });
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(said_of([](Cylinder&) {}) == "");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "refusals.hpp"
 #include "support/angles.hpp"
 #include "support/rounds.hpp"
 #include "support/says.hpp"
@@ -444,12 +445,7 @@ TEST_CASE("check of a cylinder names the field at fault") {
     const auto said_of = [](auto&& spoil) {
         Cylinder cylinder;
         spoil(cylinder);
-        try {
-            fit::check(cylinder);
-        } catch (const fit::Error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::error_of([&] { fit::check(cylinder); });
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(said_of([](Cylinder&) {}) == "");

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <span>
 #include <utility>
@@ -41,12 +40,7 @@ fit::Cylinder cylinder_of(const bend::Body& body) {
     cylinder.length = body.length();
     cylinder.radius = body.radius();
     const std::span<const bend::RegionInput> regions = body.region_inputs();
-    const auto alike = [&](const bend::RegionInput& region) {
-        return region.rest_direction == regions[0].rest_direction &&
-               std::fabs(region.rest_angle * regions[0].length - regions[0].rest_angle * region.length) <
-                   1e-6 * region.length;
-    };
-    if (std::ranges::all_of(regions, alike)) {
+    if (!is_chain(body)) {
         for (const bend::RegionInput& region : regions) cylinder.rest_angle += region.rest_angle;
         cylinder.rest_direction = regions[0].rest_direction;
     } else {

@@ -123,10 +123,10 @@ void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
     command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
         ->capture_default_str();
     command
-        .add_option("--rest", rest,
-                    "Fit the center line: auto (an arc where that fits better, or, unless --regions are "
-                    "said, a chain "
-                    "of arcs, each of which is a region), arc (one, or straight), straight")
+        .add_option(
+            "--rest", rest,
+            "Fit the center line: auto (an arc where that fits better, or, unless --regions are said, "
+            "a chain of arcs, each of which is a region), arc (one, or straight), straight")
         ->check(CLI::IsMember({"auto", "arc", "straight"}))
         ->capture_default_str();
 }

@@ -125,17 +125,6 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
     return shares;
 }
 
-/// Whether a body is bent at rest along arcs that are not one.
-bool is_chain(const bend::Body& body) {
-    const std::span<const bend::RegionInput> regions = body.region_inputs();
-    return std::ranges::any_of(regions, [&](const bend::RegionInput& region) {
-        const double here = region.rest_angle / region.length,
-                     first = regions[0].rest_angle / regions[0].length;
-        return std::fabs(here - first) > 1e-6 * std::max(here, first) ||
-               (here != 0 && region.rest_direction != regions[0].rest_direction);
-    });
-}
-
 /// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
 /// no straightening.
 bool straightens(const RestPose& rest, const Target& target) {
@@ -257,17 +246,28 @@ double rest_direction(const bend::Body& body) {
     return degrees(std::atan2(sum.y, sum.x));
 }
 
+bool is_chain(const bend::Body& body) {
+    const std::span<const bend::RegionInput> regions = body.region_inputs();
+    return std::ranges::any_of(regions, [&](const bend::RegionInput& region) {
+        const double here = region.rest_angle / region.length,
+                     first = regions[0].rest_angle / regions[0].length;
+        return std::fabs(here - first) > 1e-6 * std::max(here, first) ||
+               (here != 0 && region.rest_direction != regions[0].rest_direction);
+    });
+}
+
 std::string rest_words(const bend::Body& body) {
     double all = 0;
     bool same = true;
+    const double toward = rest_direction(body);
     std::string list;
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const RestPose rest = rest_pose(body, i);
         all += rest.angle;
-        same = same && (rest.angle == 0 || rest.direction == rest_direction(body));
+        same = same && (rest.angle == 0 || rest.direction == toward);
         list += (i == 0 ? "" : ", ") + number(rest.angle) + " toward " + number(rest.direction);
     }
-    return same ? number(all) + " degrees toward " + number(rest_direction(body)) : list + " degrees";
+    return same ? number(all) + " degrees toward " + number(toward) : list + " degrees";
 }
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {

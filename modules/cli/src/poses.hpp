@@ -58,6 +58,9 @@ struct RestPose {
 /// straight body.
 [[nodiscard]] double rest_direction(const bend::Body& body);
 
+/// Whether a body is bent at rest along arcs that are not one.
+[[nodiscard]] bool is_chain(const bend::Body& body);
+
 /// Returns how a body is bent at rest, in words: as a whole if that is one arc, else region by region.
 [[nodiscard]] std::string rest_words(const bend::Body& body);
 

@@ -2,6 +2,7 @@
 #include "center_line.hpp"
 
 #include "disjoint_sets.hpp"
+#include "stretches.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -112,15 +113,6 @@ std::vector<Vector3d> places_on(const Body& body, std::size_t count) {
     return places;
 }
 
-double area_of(const Body& body) {
-    double area = 0;
-    for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
-        const Vector3d& a = body.points[body.triangles[t]];
-        area += (body.points[body.triangles[t + 1]] - a).cross(body.points[body.triangles[t + 2]] - a).norm();
-    }
-    return area / 2;
-}
-
 std::size_t farthest(const std::vector<double>& distance) {
     return static_cast<std::size_t>(std::ranges::max_element(distance) - distance.begin());
 }
@@ -144,9 +136,13 @@ Line along(const Line& line, const Eigen::Vector2d& curvature, double distance) 
 
 }  // namespace
 
+void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight) {
+    const double along = points.empty() ? 0 : points.back().along + (place - points.back().place).norm();
+    points.push_back({place, along, weight});
+}
+
 CenterPoints center_points(const Body& body) {
     constexpr std::size_t count = 2000;
-    constexpr double fewest = 12, most = 96;
     constexpr std::size_t askew = 2;
     const PlaceGraph graph(places_on(body, count));
     const std::size_t base = farthest(graph.distances(0));
@@ -155,9 +151,9 @@ CenterPoints center_points(const Body& body) {
     const std::vector<double> from_tip = graph.distances(tip);
     const double length = from_base[tip];
     const double radius = area_of(body) / (6.3 * length);
-    const double slices = std::floor(length / (0.75 * radius));
-    if (!(slices >= fewest)) return {{}, radius};
-    const auto bins = static_cast<std::size_t>(std::min(slices, most));
+    const double slices = std::floor(length / (center_step * radius));
+    if (!(slices >= fewest_centers)) return {{}, radius};
+    const auto bins = static_cast<std::size_t>(std::min(slices, most_centers));
     std::vector<CenterPoint> sums(bins, {Vector3d::Zero(), 0, 0});
     for (std::size_t i = 0; i < graph.places().size(); ++i) {
         const double share = 0.5 + (from_base[i] - from_tip[i]) / (2 * length);
@@ -172,9 +168,7 @@ CenterPoints center_points(const Body& body) {
         constexpr double enough = 6;
         const CenterPoint& sum = sums[i];
         if (sum.weight < enough) continue;
-        CenterPoint point{sum.place / sum.weight, 0, sum.weight / static_cast<double>(count)};
-        if (!points.empty()) point.along = points.back().along + (point.place - points.back().place).norm();
-        points.push_back(point);
+        append(points, sum.place / sum.weight, sum.weight / static_cast<double>(count));
     }
     return {std::move(points), radius};
 }
@@ -185,9 +179,7 @@ ArcChain::ArcChain(const Vector3d& point, const Matrix3d& frame, std::span<const
     double start = 0;
     for (const ChainArc& arc : arcs_) {
         line.bow = line.frame.leftCols<2>() * arc.curvature;
-        lines_.push_back(line);
-        starts_.push_back(start);
-        maps_.emplace_back(along(line, arc.curvature, arc.length / 2));
+        pieces_.push_back({start, line, Straightened(along(line, arc.curvature, arc.length / 2))});
         line = along(line, arc.curvature, arc.length);
         start += arc.length;
     }
@@ -196,28 +188,21 @@ ArcChain::ArcChain(const Vector3d& point, const Matrix3d& frame, std::span<const
 Vector3d ArcChain::straightened(const Vector3d& place) const {
     Vector3d best = Vector3d::Zero();
     double least = infinite;
-    for (std::size_t i = 0; i < maps_.size(); ++i) {
-        const Vector3d at = maps_[i](place);
-        const double half = arcs_[i].length / 2, within = std::clamp(at.z(), -half, half);
-        const double beyond = at.z() - within;
-        const double far = at.head<2>().squaredNorm() + beyond * beyond;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const double length = arcs_[i].length;
+        const Vector3d at = pieces_[i].about_middle(place);
+        const auto [z, far] =
+            seen_from(at.z() + length / 2, at.head<2>().norm(), length, i == 0, i + 1 == pieces_.size());
         if (!(far < least)) continue;
         least = far;
-        const bool open = (i == 0 && beyond < 0) || (i + 1 == maps_.size() && beyond > 0);
-        best = {at.x(), at.y(), starts_[i] + half + (open ? at.z() : within)};
+        best = {at.x(), at.y(), pieces_[i].start + z};
     }
     return best;
 }
 
-std::size_t ArcChain::piece_at(double z) const {
-    std::size_t piece = starts_.size() - 1;
-    while (piece > 0 && z < starts_[piece]) --piece;
-    return piece;
-}
-
 Line ArcChain::line_at(double z) const {
-    const std::size_t i = piece_at(z);
-    return along(lines_[i], arcs_[i].curvature, z - starts_[i]);
+    const std::size_t i = stretch_at(std::span(pieces_), z);
+    return along(pieces_[i].line, arcs_[i].curvature, z - pieces_[i].start);
 }
 
 Vector3d ArcChain::bent(const Vector3d& at) const {
@@ -230,7 +215,7 @@ namespace {
 /// What is to be found of a chain: its numbers as one vector, of the changes from where it was.
 class Unknowns {
 public:
-    Unknowns(const ArcChain& from) : start_(from.line_at(0)), arcs_(from.arcs()) {}
+    explicit Unknowns(const ArcChain& from) : start_(from.line_at(0)), arcs_(from.arcs()) {}
 
     [[nodiscard]] Eigen::Index count() const { return 5 + 3 * static_cast<Eigen::Index>(arcs_.size()) - 1; }
 
@@ -345,8 +330,7 @@ std::vector<std::size_t> cut_evenly(std::span<const CenterPoint> points, const B
     return cuts;
 }
 
-}  // namespace
-
+/// Moves the chain to the points, without another arc, by damped least squares (Levenberg, Marquardt).
 ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, double radius,
                     double shortest) {
     constexpr int max_steps = 12;
@@ -382,6 +366,8 @@ ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, 
     }
     return chain;
 }
+
+}  // namespace
 
 std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, double radius, double shortest,
                                  double tolerance, std::size_t max_arcs) {

@@ -21,6 +21,13 @@ struct CenterPoint {
     double weight;  ///< share of the surface about it
 };
 
+/// Sections along a body that have a center each: so many radii apart, as far as these are enough of them and
+/// no more than that.
+inline constexpr double center_step = 0.75, fewest_centers = 12, most_centers = 96;
+
+/// Adds a point behind the others.
+void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight);
+
 /// Points along the middle of a body, from one end to the other.
 struct CenterPoints {
     std::vector<CenterPoint> points;
@@ -57,12 +64,14 @@ public:
     [[nodiscard]] const std::vector<ChainArc>& arcs() const { return arcs_; }
 
 private:
-    [[nodiscard]] std::size_t piece_at(double z) const;
+    struct Piece {
+        double start;
+        Line line;  // where the arc begins, with the carried frame
+        Straightened about_middle;
+    };
 
     std::vector<ChainArc> arcs_;
-    std::vector<Line> lines_;  // where arcs begin, with the carried frame
-    std::vector<double> starts_;
-    std::vector<Straightened> maps_;
+    std::vector<Piece> pieces_;  // one for each
 };
 
 /// Returns the chain of fewest arcs, two or more, that is within `tolerance` (rms) of the points, or that of
@@ -70,9 +79,5 @@ private:
 /// One that has hardly an inner side at a distance of `radius` is avoided, but the caller has to look.
 [[nodiscard]] std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, double radius,
                                                double shortest, double tolerance, std::size_t max_arcs);
-
-/// Moves the chain to the points, without another arc.
-[[nodiscard]] ArcChain settled_on(const ArcChain& chain, std::span<const CenterPoint> points, double radius,
-                                  double shortest);
 
 }  // namespace goffer::fit

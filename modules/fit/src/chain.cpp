@@ -35,11 +35,12 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
     struct Sums {
         Matrix3d normal = Matrix3d::Zero();
         Vector3d right = Vector3d::Zero();
-        double weight = 0, z = 0, area = 0;
+        double weight = 0, z = 0;
     };
     const View view = view_about(body, chain);
     const auto [low, high] = extent(body, view);
-    const double count = std::clamp((high - low) / (0.75 * measure.radius), 12.0, 96.0);
+    const double count =
+        std::clamp((high - low) / (center_step * measure.radius), fewest_centers, most_centers);
     const Slices slices(body, view, static_cast<std::size_t>(count));
     std::vector<Sums> sums(slices.count());
     double all = 0;
@@ -58,9 +59,7 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
         if (!(own.weight > 0.1 * all / static_cast<double>(sums.size()))) continue;
         const Vector3d by = least_squares(own.normal, own.right);
         if (!(by.tail<2>().norm() < measure.radius)) continue;
-        CenterPoint point{chain.bent({by[1], by[2], own.z / own.weight}), 0, own.weight / all};
-        if (!points.empty()) point.along = points.back().along + (point.place - points.back().place).norm();
-        points.push_back(point);
+        append(points, chain.bent({by[1], by[2], own.z / own.weight}), own.weight / all);
     }
     return points;
 }
@@ -160,13 +159,7 @@ double aside(const std::vector<CenterPoint>& points, const Line& line) {
 /// The radius of a tube that has the body's area and goes once across its box, at least: a body that runs to
 /// and fro is slimmer.
 double slimmest(const Body& body) {
-    double area = 0;
-    for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
-        const Vector3d& a = body.points[body.triangles[t]];
-        area +=
-            (body.points[body.triangles[t + 1]] - a).cross(body.points[body.triangles[t + 2]] - a).norm() / 2;
-    }
-    return area / (2 * std::numbers::pi);
+    return area_of(body) / (2 * std::numbers::pi);
 }
 
 /// Whether all of the body lies between the ends of the cylinder. A ring, say, has none that a chain finds.

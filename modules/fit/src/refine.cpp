@@ -302,13 +302,12 @@ int fold_count(std::span<const Stretch> stretches, Profile profile) {
 }
 
 std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& options) {
-    BindOptions unsaid = with_regions_of(cylinder, options);
+    BindOptions unsaid = options;
     unsaid.folds.reset();
     for (RegionOptions& region : unsaid.regions) region.folds.reset();
-    Cylinder straight = cylinder;  // whose regions are said
-    straight.arcs.clear();
-    const std::vector<Stretch> stretches = stretches_of(straight, unsaid);
-    const std::size_t regions = regions_of(unsaid).size(), of_region = stretches.size() / regions;
+    const std::vector<Stretch> stretches = stretches_of(cylinder, unsaid);
+    const std::size_t regions = regions_of(with_regions_of(cylinder, unsaid)).size(),
+                      of_region = stretches.size() / regions;
     std::vector<int> folds;
     folds.reserve(regions);
     for (std::size_t r = 0; r < regions; ++r)

@@ -2,6 +2,7 @@
 #include "rest.hpp"
 
 #include "parts.hpp"
+#include "stretches.hpp"
 #include "text.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
@@ -172,6 +173,11 @@ std::vector<double> radii_of(const Cylinder& cylinder, double start, double leng
                     static_cast<std::size_t>(std::clamp(quarters, min_steps, max_steps)) + 1);
 }
 
+double radius_of(const Cylinder& cylinder, double start, double length) {
+    const std::vector<double> radii = radii_of(cylinder, start, length);
+    return radii.empty() ? cylinder.radius : paper::Spline(length, radii).mean();
+}
+
 double thickest_of(const Cylinder& cylinder, double start, double length) {
     const std::vector<double> radii = radii_of(cylinder, start, length);  // a spline is within its values
     return radii.empty() ? cylinder.radius : *std::ranges::max_element(radii);
@@ -184,7 +190,7 @@ Cylinder with_one_radius(const Cylinder& cylinder) {
     plain.length = 0;
     double start = 0;
     for (RestArc& arc : plain.arcs) {
-        const double own = paper::Spline(arc.length, radii_of(cylinder, start, arc.length)).mean();
+        const double own = radius_of(cylinder, start, arc.length);
         start += arc.length;
         arc.length += arc.angle * (plain.radius - own);
         plain.length += arc.length;
@@ -234,13 +240,11 @@ paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Piece& piece : pieces_) {
         paper::Cylindrical at = piece.straightened(place);
-        const double within = std::clamp(at.z, 0.0, piece.length), beyond = at.z - within;
-        const double far = std::hypot(at.rho, beyond);
+        const auto [z, far] =
+            seen_from(at.z, at.rho, piece.length, &piece == &pieces_.front(), &piece == &pieces_.back());
         if (!(far < least)) continue;
         least = far;
-        const bool open =
-            (&piece == &pieces_.front() && beyond < 0) || (&piece == &pieces_.back() && beyond > 0);
-        at.z = piece.start + (open ? at.z : within);
+        at.z = piece.start + z;
         nearest = at;
     }
     return nearest;
@@ -251,9 +255,7 @@ double Straightening::height(const glm::dvec3& position) const {
 }
 
 const Straightening::Piece& Straightening::piece_at(double z) const {
-    std::size_t piece = pieces_.size() - 1;
-    while (piece > 0 && z < pieces_[piece].start) --piece;
-    return pieces_[piece];
+    return pieces_[stretch_at(std::span(pieces_), z)];
 }
 
 namespace {
@@ -372,9 +374,7 @@ std::vector<RestRegion> rest_regions(const Binding& binding) {
 }
 
 std::size_t region_at(std::span<const RestRegion> regions, double z) {
-    std::size_t region = regions.size() - 1;
-    while (region > 0 && z < regions[region].start) --region;
-    return region;
+    return stretch_at(regions, z);
 }
 
 bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& region, double radius,

@@ -69,6 +69,9 @@ void join_folds(std::vector<RestRegion>& regions);
 /// each center line stays where it is.
 [[nodiscard]] Cylinder with_one_radius(const Cylinder& cylinder);
 
+/// Returns the mean radius of such a stretch, which is that of a region there.
+[[nodiscard]] double radius_of(const Cylinder& cylinder, double start, double length);
+
 /// Returns a radius that no part of such a stretch is thicker than, nor the shape of a region there.
 [[nodiscard]] double thickest_of(const Cylinder& cylinder, double start, double length);
 

@@ -130,7 +130,7 @@ Cylinder along_chain(const Cylinder& plain, const std::vector<double>& radii) {
         double start = 0, length = 0;
         for (std::size_t i = 0; i < shaped.arcs.size(); ++i) {
             RestArc& arc = shaped.arcs[i];
-            const double mean = paper::Spline(arc.length, radii_of(shaped, start, arc.length)).mean();
+            const double mean = radius_of(shaped, start, arc.length);
             const double thickest = thickest_of(shaped, start, arc.length);
             start += arc.length;
             arc.length = plain.arcs[i].length + arc.angle * (mean - plain.radius);
@@ -147,7 +147,7 @@ Cylinder along_chain(const Cylinder& plain, const std::vector<double>& radii) {
 Cylinder fit_shape(const Geometry& geometry, const Cylinder& cylinder) {
     check(geometry);
     check(cylinder);
-    const Cylinder plain = with_one_radius(cylinder);
+    Cylinder plain = with_one_radius(cylinder);
     check(plain);
     std::vector<double> radii = mean_radii(geometry, plain);
     if (radii.empty()) return plain;

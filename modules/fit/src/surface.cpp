@@ -43,6 +43,15 @@ Body body_of(const Geometry& geometry) {
     return body;
 }
 
+double area_of(const Body& body) {
+    double area = 0;
+    for (std::size_t t = 0; t < body.triangles.size(); t += 3) {
+        const Vector3d& a = body.points[body.triangles[t]];
+        area += (body.points[body.triangles[t + 1]] - a).cross(body.points[body.triangles[t + 2]] - a).norm();
+    }
+    return area / 2;
+}
+
 Principal principal_axis(const Body& body) {
     double area = 0;
     Vector3d first = Vector3d::Zero();

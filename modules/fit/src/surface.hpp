@@ -40,6 +40,9 @@ struct Body {
 
 [[nodiscard]] Body body_of(const Geometry& geometry);
 
+/// The area of its triangles, in units of its size.
+[[nodiscard]] double area_of(const Body& body);
+
 /// Centroid and long direction of the surface.
 struct Principal {
     Vector3d centroid;
