@@ -18,14 +18,6 @@ using namespace goffer;
 using namespace goffer::test;
 using nlohmann::json;
 
-namespace {
-
-void copy_of(const Folder& folder, const std::string& name) {
-    std::filesystem::copy_file(std::filesystem::path(GOFFER_SOURCE_DIR) / "tests/data" / name, folder / name);
-}
-
-}  // namespace
-
 TEST_CASE("bake: a body file bends as its model does, to the same floats") {
     const Folder folder;
     for (const std::string model : {"log_01.glb", "insect_leg.glb", "blub_open.obj", "fuze.ply"}) {

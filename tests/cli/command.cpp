@@ -76,6 +76,10 @@ std::string base(const Folder& folder, const std::string& name, const Words& mor
     return name;
 }
 
+void copy_of(const Folder& folder, const std::string& name) {
+    std::filesystem::copy_file(std::filesystem::path(GOFFER_SOURCE_DIR) / "tests/data" / name, folder / name);
+}
+
 double farthest(const mesh::Mesh& a, const mesh::Mesh& b) {
     REQUIRE(a.positions.size() == b.positions.size());
     double most = 0;

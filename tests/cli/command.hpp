@@ -45,6 +45,9 @@ inline constexpr double base_length = 10, base_radius = 1;
 /// A base cylinder of that length and radius (64 columns, 161 rows) in `folder`; returns its name.
 std::string base(const Folder& folder, const std::string& name = "base.ply", const Words& more = {});
 
+/// Copies a bundled model, or another file of tests/data, into `folder`.
+void copy_of(const Folder& folder, const std::string& name);
+
 /// The largest distance between vertices of the same number; there must be as many of each.
 [[nodiscard]] double farthest(const mesh::Mesh& a, const mesh::Mesh& b);
 
