@@ -48,7 +48,10 @@ TEST_CASE("P1, P2, P4: bodies bent at rest along chains of arcs agree with the d
     Worst worst;
     for (int trial = 0; trial < rounds(16, 6); ++trial) {
         CAPTURE(trial);
-        const BoundCase one = random_chain(random, 2 + random() % 5);
+        fit::BindOptions options;
+        options.profile = random_profile(random);
+        options.folds = static_cast<int>(random() % 5);
+        const BoundCase one = random_arcs(random, 2 + random() % 5, options);
         check_rest(one);
         worst.add(worst_of(random, one, 5e-6, 0.05));  // as with an onset, which it has
     }

@@ -173,32 +173,59 @@ TEST_CASE("chains: a slender S is no arc of a wide ring") {
     CHECK(std::abs(fitted.radius - 1) < 0.05);
 }
 
-TEST_CASE("chains: folds run on between arcs only where the body's own regions may share them") {
-    // Halves of an arc whose radii differ by less than anyone sees, and a little more.
+/// The surface of a base.
+Solid surface_of(const Cylinder& cylinder) {
+    constexpr std::uint32_t rows = 160, sides = 16;
+    std::vector<fit::BasePoint> points;
+    for (std::uint32_t i = 0; i < (rows + 1) * sides; ++i)
+        points.push_back(
+            {2 * std::numbers::pi * (i % sides) / sides, cylinder.length * (i / sides) / rows, 1});
+    Solid solid;
+    for (const glm::dvec3& place : fit::places_on_base(cylinder, points)) solid.positions.emplace_back(place);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+        for (std::uint32_t c = 0; c < sides; ++c) {
+            const std::uint32_t a = sides * row + c, b = sides * row + (c + 1) % sides;
+            solid.triangles.insert(solid.triangles.end(), {a, b, a + sides, b, b + sides, a + sides});
+        }
+    }
+    return solid;
+}
+
+TEST_CASE("chains: folds run on between arcs, unless one is bent as far as it can be") {
+    const auto joined = [](const Cylinder& cylinder, std::optional<double> onset = {}) {
+        fit::BindOptions options;
+        options.onset = onset;
+        return fit::bind(surface_of(cylinder).geometry(), cylinder, options).regions[0].blend != 0;
+    };
     Cylinder cylinder;
-    cylinder.arcs = {{9, 1.5, 0}, {9, 1.5, 0}};
     cylinder.length = 18;
     cylinder.radius = 1;
+    // Halves of an arc whose radii are the same, differ by less than anyone sees, and more; and different
+    // arcs.
     for (const double more : {0.0, 1e-9, 1e-3, 0.2}) {
-        cylinder.radii = {1 - more, 1 - more, 1, 1 + more, 1 + more};
-        std::vector<fit::BasePoint> points;
-        for (int row = 0; row <= 160; ++row)
-            for (int c = 0; c < 16; ++c)
-                points.push_back({2 * std::numbers::pi * c / 16, cylinder.length * row / 160, 1});
-        Solid solid;
-        for (const glm::dvec3& place : fit::places_on_base(cylinder, points))
-            solid.positions.emplace_back(place);
-        for (std::uint32_t row = 0; row < 160; ++row) {
-            for (std::uint32_t c = 0; c < 16; ++c) {
-                const std::uint32_t a = 16 * row + c, b = 16 * row + (c + 1) % 16;
-                solid.triangles.insert(solid.triangles.end(), {a, b, a + 16, b, b + 16, a + 16});
-            }
-        }
         CAPTURE(more);
-        fit::Binding binding;
-        REQUIRE_NOTHROW(binding = fit::bind(solid.geometry(), cylinder));
-        CHECK((binding.regions[0].blend != 0) == (more == 0));
+        cylinder.radii = {1 - more, 1 - more, 1, 1 + more, 1 + more};
+        cylinder.arcs = {{9, 1.5, 0}, {9, 1.5, 0}};
+        CHECK(joined(cylinder));
+        cylinder.arcs[1] = {9, 1, 2};
+        CHECK(joined(cylinder));
+        CHECK(joined(cylinder, 0));
     }
+    cylinder.radii.clear();
+    // Without an onset, the squeezes of a straight region are not compared with those at rest.
+    cylinder.arcs[1].angle = 0;
+    CHECK(joined(cylinder));
+    CHECK_FALSE(joined(cylinder, 0));
+    cylinder.arcs[1].angle = 4.2;
+    CHECK(joined(cylinder));
+    cylinder.arcs[1].angle = 4.3;
+    CHECK_FALSE(joined(cylinder));
+    // A thin stretch that is bent that far, beside a thick one whose folds would reach into it.
+    cylinder.radii = {1.3, 1.3, 1.3, 1.3, 0.7, 0.7, 0.7, 0.7};
+    cylinder.arcs[1].angle = 4;
+    CHECK(joined(cylinder));
+    cylinder.arcs[1].angle = 4.2;
+    CHECK_FALSE(joined(cylinder));
 }
 
 TEST_CASE("chains: a ring gets none, nor does a wavy relief") {

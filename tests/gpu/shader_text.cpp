@@ -103,7 +103,8 @@ TEST_CASE("the shader's text agrees with the double closed form, for bodies of e
     Worst worst;
     for (int trial = 0; trial < 24; ++trial) {
         CAPTURE(trial);
-        const BoundCase one = random_case(random, 1 + random() % 6, trial % 3 == 0);
+        const BoundCase one = trial % 4 == 3 ? random_arcs(random, 2 + random() % 4, {.folds = 20})
+                                             : random_case(random, 1 + random() % 6, trial % 3 == 0);
         const std::size_t count = one.test_mesh.positions.size();
         const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
         const Expected expected(ChainReference(one.test_mesh, one.options, one.binding, poses), count);

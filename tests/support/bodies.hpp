@@ -185,9 +185,10 @@ inline void blend_some(Random& random, std::span<bend::RegionInput> regions,
                        std::span<bend::RestVertex> vertices) {
     for (std::size_t r = 0; r + 1 < regions.size(); ++r) {
         const bend::RegionInput &own = regions[r], &next = regions[r + 1];
-        const bool same_arc = own.rest_angle == next.rest_angle && own.rest_direction == next.rest_direction;
-        const bool alike = (own.onset != 0) == (next.onset != 0) || own.rest_angle != 0;
-        if (random() % 3 == 0 || !same_arc || !alike) continue;
+        const auto compares = [](const bend::RegionInput& region) {
+            return region.rest_angle != 0 || region.onset != 0;
+        };
+        if (random() % 3 == 0 || compares(own) != compares(next)) continue;
         regions[r].blend = uniform(random, 0.1, 0.5);
         regions[r].blend_gain = uniform(random, 0.5, 2);
     }

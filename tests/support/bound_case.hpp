@@ -76,12 +76,9 @@ inline BoundCase random_case(Random& random, std::size_t regions, bool bent) {
 }
 
 /// A body that is bent at rest along a chain of arcs.
-inline BoundCase random_chain(Random& random, std::size_t arcs) {
+inline BoundCase random_arcs(Random& random, std::size_t arcs, const fit::BindOptions& options) {
     const double slenderness = uniform(random, 8, 30);
     TestMesh test_mesh = random_mesh(random, slenderness, std::pow(10, uniform(random, -3, 3)));
-    fit::BindOptions options;
-    options.profile = random_profile(random);
-    options.folds = static_cast<int>(random() % 5);
     std::vector<fit::RestArc> rest;
     double sum = 0;
     for (std::size_t i = 0; i < arcs; ++i) {

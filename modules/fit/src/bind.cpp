@@ -64,7 +64,7 @@ void check_fold_length(double radii) {
 
 /// The regions' places on the axis, and how many folds each has and can carry.
 std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylinder,
-                                const BindOptions& options, std::vector<RestRegion>& rest) {
+                                const BindOptions& options, double onset, std::vector<RestRegion>& rest) {
     std::vector<RegionBinding> found;
     const Rows rows(geometry, cylinder);
     const bool even = options.profile.kind == Profile::Kind::even;
@@ -91,7 +91,7 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
         }
     }
     if (even && options.folds_over_joints && options.amplitude != Amplitude::area) {
-        join_folds(rest);
+        join_folds(rest, cylinder.radius, onset);
         for (std::size_t r = 0; r < rest.size(); ++r)
             found[r].wave = rest[r].folds, found[r].blend = rest[r].blend;
     }
@@ -382,7 +382,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     check_options(options, cylinder, onset);
 
     std::vector<RestRegion> places;
-    std::vector<RegionBinding> found = plan(geometry, cylinder, options, places);
+    std::vector<RegionBinding> found = plan(geometry, cylinder, options, onset, places);
     const bool even = options.profile.kind == Profile::Kind::even;
     std::shared_ptr<Parts> parts_found;
     const bool wrinkles =

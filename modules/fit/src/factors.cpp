@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -162,21 +163,31 @@ std::vector<std::uint32_t> triangles_of(const bend::Region& region, std::span<co
     return own;
 }
 
+/// A pose as a vector, which points where it bends and is as long as its angle.
+glm::vec2 arc_of(const bend::Pose& pose) {
+    return pose.angle * glm::vec2(std::cos(pose.direction), std::sin(pose.direction));
+}
+
+bend::Pose bent_by(const bend::Pose& pose, glm::vec2 change) {
+    const glm::vec2 arc = arc_of(pose) + change;
+    return {glm::length(arc), std::atan2(arc.y, arc.x)};
+}
+
 /// Bends a body, one region at a time, together with those that its folds run on into.
 class Poser {
 public:
     explicit Poser(const bend::Body& body) : body_(body), poses_(body.rest_poses()) {}
 
-    /// The surface with a region in a pose, and others at rest, but for those that share its wave: they are
-    /// bent along the same arc, as far as they can, so that what passes over the joints is neither lost nor
-    /// gained.
+    /// The surface with a region in a pose, and others at rest, but for those that share its wave: their
+    /// curvatures change as its own does, as far as they can, so that what passes over the joints is neither
+    /// lost nor gained.
     void bend(std::size_t region, const bend::Pose& pose, Surface& surface) {
         const std::span<const bend::RegionInput> inputs = body_.region_inputs();
         const bend::Pose rest = body_.rest_pose(region);
         const auto follow = [&](std::size_t r) {
-            const auto share = static_cast<float>(inputs[r].length / inputs[region].length);
-            const float angle = body_.rest_pose(r).angle + share * (pose.angle - rest.angle);
-            poses_[r] = {std::min(angle, body_.max_angle(r)), pose.direction};
+            const float share = static_cast<float>(inputs[r].length / inputs[region].length);
+            poses_[r] = bent_by(body_.rest_pose(r), share * (arc_of(pose) - arc_of(rest)));
+            poses_[r].angle = std::min(poses_[r].angle, body_.max_angle(r));
         };
         for (std::size_t r = region; r > 0 && inputs[r - 1].blend != 0; --r) follow(r - 1);
         for (std::size_t r = region; inputs[r].blend != 0; ++r) follow(r + 1);

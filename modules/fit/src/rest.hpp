@@ -36,8 +36,9 @@ struct RestRegion {
 /// that of the arc that begins there.
 [[nodiscard]] paper::Pose rest_of(const Cylinder& cylinder, double start, double length);
 
-/// Lets the folds of neighboring regions run on over their joints, wherever both wrinkle there.
-void join_folds(std::vector<RestRegion>& regions);
+/// Lets the folds of neighboring regions run on over their joints, wherever both wrinkle there. `radius`: of
+/// the base.
+void join_folds(std::vector<RestRegion>& regions, double radius, double onset);
 
 /// Returns bend::RegionInput::blend_gain at the joint of two regions.
 [[nodiscard]] double gain_at_joint(const RestRegion& region, const RestRegion& next);

@@ -160,14 +160,16 @@ BodyFault check_counts(const BodyInput& input) noexcept {
     return left == 0 ? BodyFault{} : BodyFault{BodyField::vertex_count, Reason::count};
 }
 
-/// Whether two regions are bent along the same arc at rest, as neighbors whose squeezes are compared must be.
-bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept {
-    if (a.rest_angle == 0 && b.rest_angle == 0) return true;
-    constexpr double tolerance = 1e-6;
-    const double curvature = a.rest_angle / a.length, other = b.rest_angle / b.length;
-    const double turned = std::remainder(a.rest_direction - b.rest_direction, 2 * std::numbers::pi);
-    return std::fabs(curvature - other) <= tolerance * curvature && std::fabs(turned) <= tolerance &&
-           radius_of(a, radius) == radius_of(b, radius);
+/// Whether wrinkles may pass between regions that are bent along different arcs at rest: columns near the
+/// joint must not be squeezed to nothing in either, whose squeezes are compared there.
+bool bears_other_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept {
+    constexpr double most = 0.98;
+    for (const RegionInput* region : {&a, &b}) {
+        const double squeeze =
+            2 * region->rest_angle * radius_of(*region, radius) * region->max_scale / region->length;
+        if (!(squeeze <= most)) return false;
+    }
+    return true;
 }
 
 /// Checks what region `r` says of its joint with the next one.
@@ -186,8 +188,9 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
                       own.blend + next.blend <= next.length * (1 + 1e-9);
     const double radius = radius_of(own, input.radius), next_radius = radius_of(next, input.radius);
     const bool similar = radius <= next_radius * Range::max_scale && next_radius <= radius * Range::max_scale;
-    const bool alike = similar && compares_with_rest(own) == compares_with_rest(next) &&
-                       share_rest_arc(own, next, input.radius);
+    const bool alike =
+        similar && compares_with_rest(own) == compares_with_rest(next) &&
+        (share_rest_arc(own, next, input.radius) || bears_other_arc(own, next, input.radius));
     if (!fits || !alike || own.table.empty() || next.table.empty()) return blend;
     const double most = Range::max_blend_gain;
     const Limited gain{BodyField::blend_gain, own.blend_gain, 1 / most, most};

@@ -49,9 +49,10 @@ Words words_of(BodyField field) noexcept {
             return {"regions", ".factors",
                     "no rows, or at least two of finite numbers, with a max_angle of at least 1e-12"};
         case BodyField::blend:
-            return {"regions", ".blend",
-                    "0, or from 1e-5 of both lengths to the room in both regions, which wrinkle; on one rest "
-                    "arc, or straight with onsets or without"};
+            return {
+                "regions", ".blend",
+                "0, or from 1e-5 of both lengths to the room in both, which wrinkle; if along two rest arcs, "
+                "gentle ones; both with onsets, or neither"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};

@@ -4,11 +4,30 @@
 #include "body/body_data.hpp"
 #include "kernel/neighbor.hpp"
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace goffer::bend {
 namespace {
+
+/// kappa_0 and rest_curl of a region: see CoefficientsOf.
+glm::dvec3 rest_squeeze(const RegionInput& region, double radius) noexcept {
+    const double kappa = region.rest_angle * radius / region.length;
+    return kappa * glm::dvec3(1, std::cos(region.rest_direction), std::sin(region.rest_direction));
+}
+
+/// Sets what `joint` has of the rest arcs on both sides, if these are not parts of one.
+void set_arcs(const RegionInput& own, const RegionInput& neighbor, double radius, JointBlend& joint) noexcept {
+    if (share_rest_arc(own, neighbor, radius)) return;
+    const double own_radius = radius_of(own, radius);  // s is over that of the region itself
+    const glm::dvec3 change = rest_squeeze(own, own_radius) - rest_squeeze(neighbor, own_radius);
+    joint.other_arc = true;
+    joint.rest_kappa = static_cast<float>(change[0]);
+    for (int i = 0; i < 2; ++i) joint.rest_curl[i] = static_cast<float>(change[i + 1]);
+}
 
 /// `gain`: the neighbor's wave over the own one at the joint; `toward`: 1 where the region ends, -1 where it
 /// begins.
@@ -21,6 +40,7 @@ JointBlend blend_between(const RegionInput& own, const RegionInput& neighbor, do
     joint.per_height = static_cast<float>(toward * steps);
     joint.per_length = static_cast<float>(toward / blend);
     joint.squeeze = static_cast<float>(scale);
+    set_arcs(own, neighbor, radius, joint);
     // Squeezes that are relative have the radius about a vertex in them, others as a factor on T and its
     // root.
     const bool relative = compares_with_rest(own);
@@ -33,6 +53,15 @@ JointBlend blend_between(const RegionInput& own, const RegionInput& neighbor, do
 }
 
 }  // namespace
+
+bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept {
+    if (a.rest_angle == 0 && b.rest_angle == 0) return true;
+    constexpr double tolerance = 1e-6;
+    const double curvature = a.rest_angle / a.length, other = b.rest_angle / b.length;
+    const double turned = std::remainder(a.rest_direction - b.rest_direction, 2 * std::numbers::pi);
+    return std::fabs(curvature - other) <= tolerance * curvature && std::fabs(turned) <= tolerance &&
+           radius_of(a, radius) == radius_of(b, radius);
+}
 
 Joints joints_of(std::span<const RegionInput> regions, std::size_t r, double radius) noexcept {
     Joints joints;

@@ -28,6 +28,9 @@ struct Joint {
     }
 };
 
+/// Whether two regions are bent along the same arc at rest, or neither is. `radius`: of the body.
+[[nodiscard]] bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept;
+
 /// The joints where a region begins and ends.
 struct Joints {
     Joint below, above;

@@ -59,6 +59,11 @@ struct JointBlend {
     /// relative: its wave over that of the region, and the radii of both, may differ.
     float gain[amplitude_terms];
     float squeeze;
+    /// Where squeezes are relative and the neighbor is bent along another arc at rest, the scale of a column
+    /// in the neighbor at rest, over that in the region, is 1 + (kappa + curl . u) s / S_0, with u = (cos
+    /// beta, sin beta).
+    bool other_arc;
+    float rest_kappa, rest_curl[2];
 };
 
 /// Rest columns that have their wrinkles: of vertices near a joint, for kernels that add none. The first ones

@@ -29,13 +29,36 @@ Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
     return {x * x * (L::splat(1.5f) - x), L::splat(3.0f * joint.per_length) * L::nmadd(x, x, x)};
 }
 
-/// Sets what the columns of `b` have of their wrinkle.
-template <class L, Squeeze squeeze, bool directions, class K>
-void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i) {
-    if constexpr (squeeze == Squeeze::relative) {
-        set_relative_wrinkle<L, directions>(rest, k, b, i);
+/// Sets what columns near a joint have of their wrinkle as the neighbor makes it, whose rest arc is another.
+/// Rest columns are over S_0 of the region itself, and so is the amplitude: R takes one S_0 to the other.
+template <class L, bool directions, class K>
+void set_wrinkle_of_other_arc(const RestColumns& rest, const K& k, const JointBlend& joint, Bent<L>& b,
+                              std::size_t i) {
+    using Vec = typename L::Vec;
+    const Vec one = L::splat(1.0f);
+    RestScale<L> at = load_rest_scale<L>(rest, i);
+    const Vec more =
+        L::madd(L::splat(joint.rest_curl[1]), at.sine,
+                L::madd(L::splat(joint.rest_curl[0]), at.cosine, L::splat(joint.rest_kappa) * at.scale));
+    const Vec ratio = one + more, inverse = L::reciprocal(ratio);
+    at = {at.cosine * inverse, at.sine * inverse, at.scale * inverse};
+    set_relative_wrinkle<L, directions>(at, k, b);
+    if constexpr (directions) {
+        b.less_by_scale = L::madd(b.amplitude, more, b.less_by_scale);
+        b.slope = b.slope * ratio;
+    }
+    b.amplitude = b.amplitude * ratio;
+}
+
+/// Sets what the columns of `b` have of their wrinkle. `neighbor`: as the region beyond `joint` makes it.
+template <class L, Squeeze squeeze, bool directions, bool neighbor, class K>
+void set_wrinkle(const RestColumns& rest, const K& k, const JointBlend& joint, Bent<L>& b, std::size_t i) {
+    if constexpr (squeeze != Squeeze::relative) {
+        set_plain_column<L, squeeze, directions>(rest, k, b, i);
+    } else if (neighbor && joint.other_arc) {
+        set_wrinkle_of_other_arc<L, directions>(rest, k, joint, b, i);
     } else {
-        set_plain_wrinkle<L, squeeze, directions>(rest, k, b, i);
+        set_relative_wrinkle<L, directions>(load_rest_scale<L>(rest, i), k, b);
     }
 }
 
@@ -58,8 +81,8 @@ Wrinkled<L> blend_batch(const RestColumns& rest, const K& k, const K& other_k, c
     using Vec = typename L::Vec;
     Wrinkled<L> result;
     Bent<L> b, other;
-    set_wrinkle<L, squeeze, directions>(rest, k, b, i);
-    set_wrinkle<L, squeeze, directions>(rest, other_k, other, i);
+    set_wrinkle<L, squeeze, directions, false>(rest, k, joint, b, i);
+    set_wrinkle<L, squeeze, directions, true>(rest, other_k, joint, other, i);
     const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
     // Of vertices that are not near the joint the other region's wrinkle may be no number.
     const Vec zero = L::splat(0.0f);

@@ -68,7 +68,7 @@ bool has_shape(const Rest& rest) {
 
 /// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa T.
 template <class L, Squeeze squeeze, bool slope, class Rest, class K>
-void set_plain_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
+void set_plain_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     const auto [h_prime, h] =
         rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
@@ -90,21 +90,27 @@ void set_plain_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) 
     }
 }
 
-/// The same for columns whose squeeze is relative to that at rest.
-template <class L, bool slope, class Rest, class K>
-void set_relative_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
+/// The columns rest_cosine, rest_sine and rest_scale.
+template <class L>
+struct RestScale {
+    typename L::Vec cosine, sine, scale;
+};
+
+template <class L, class Rest>
+RestScale<L> load_rest_scale(const Rest& rest, std::size_t i) {
+    return {L::load(rest.rest_cosine + i), L::load(rest.rest_sine + i), L::load(rest.rest_scale + i)};
+}
+
+/// Sets the wrinkle of columns whose squeeze is relative to that at rest.
+template <class L, bool slope, class K>
+void set_relative_wrinkle(const RestScale<L>& rest, const K& k, Bent<L>& b) {
     using Vec = typename L::Vec;
-    const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},
-                                         k.cos_direction, k.sin_direction);
-    b.c = turn.cosine;
-    b.s = turn.sine;
-    const Vec rest_cosine = L::load(rest.rest_cosine + i);
-    const Vec rest_sine = L::load(rest.rest_sine + i);
+    const auto& [rest_cosine, rest_sine, rest_scale] = rest;
     const Vec zero = L::splat(0.0f);
-    const Vec q = L::max(L::madd(L::splat(k.curl_change[1]), rest_sine,
-                                 L::madd(L::splat(k.curl_change[0]), rest_cosine,
-                                         L::splat(k.kappa_change) * L::load(rest.rest_scale + i))),
-                         zero);
+    const Vec q = L::max(
+        L::madd(L::splat(k.curl_change[1]), rest_sine,
+                L::madd(L::splat(k.curl_change[0]), rest_cosine, L::splat(k.kappa_change) * rest_scale)),
+        zero);
     const Vec per_root = L::rsqrt(q + L::splat(k.onset));
     const Vec root = q * per_root;
     const Vec x = root * root;
@@ -122,15 +128,25 @@ void set_relative_wrinkle(const Rest& rest, const K& k, Bent<L>& b, std::size_t 
     }
 }
 
+/// Sets their directions too.
+template <class L, bool slope, class Rest, class K>
+void set_relative_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
+    const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},
+                                         k.cos_direction, k.sin_direction);
+    b.c = turn.cosine;
+    b.s = turn.sine;
+    set_relative_wrinkle<L, slope>(load_rest_scale<L>(rest, i), k, b);
+}
+
 /// Computes what depends on the column of a vertex. `slope`: normals or tangents are wanted.
 template <class L, Squeeze squeeze, bool slope, class Rest, class K>
 Bent<L> turn_batch(const Rest& rest, const K& k, std::size_t i) {
     using Vec = typename L::Vec;
     Bent<L> b;
     if constexpr (squeeze == Squeeze::relative) {
-        set_relative_wrinkle<L, slope>(rest, k, b, i);
+        set_relative_column<L, slope>(rest, k, b, i);
     } else {
-        set_plain_wrinkle<L, squeeze, slope>(rest, k, b, i);
+        set_plain_column<L, squeeze, slope>(rest, k, b, i);
     }
     Vec rho = L::load(rest.rho + i);
     if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(rest.radial_offset + i), rho);

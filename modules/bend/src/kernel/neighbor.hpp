@@ -25,7 +25,7 @@ void take_as_own(const K& neighbor, const JointBlend& joint, bool relative, K& o
     take(neighbor.onset, 1, own.onset);
     take(neighbor.kappa_change, joint.squeeze, own.kappa_change);
     for (std::size_t n = 0; n < 2; ++n) {
-        take(neighbor.rest_curl[n], 1, own.rest_curl[n]);
+        take(neighbor.rest_curl[n], joint.squeeze, own.rest_curl[n]);
         take(neighbor.curl_change[n], joint.squeeze, own.curl_change[n]);
     }
 }

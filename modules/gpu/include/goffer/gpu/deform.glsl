@@ -47,13 +47,28 @@ struct GofferWrinkle {
     float less_by_scale;
 };
 
-// That of the region whose rows begin at `row`, if the vertex is `ratio` times as far from the axis.
-GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio) {
+// kappa_0 and rest_curl of the region whose rows begin at `row`.
+vec3 goffer_rest_squeeze(int row) {
+    vec4 rest = goffer_row(row + 15);
+    return vec3(1.0f - goffer_row(row).z - goffer_row(row + 16).w, rest.z, rest.w);
+}
+
+// The scale of the vertex's column at rest in the region whose rows begin at `row`, over that in its own one.
+float goffer_rest_ratio(GofferVertex vertex, int own_row, int row, float ratio) {
+    vec3 change = goffer_rest_squeeze(own_row) - ratio * goffer_rest_squeeze(row);
+    float cosine = vertex.column.x * vertex.column.x - 1.0f;
+    float sine = vertex.column.x * vertex.column.y;
+    return 1.0f + vertex.shape.z * (change.x + change.y * cosine + change.z * sine);
+}
+
+// That of the region whose rows begin at `row`, if the vertex is `ratio` times as far from the axis. `rest_ratio`: 1 in
+// the vertex's own region.
+GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio, float rest_ratio) {
     GofferWrinkle wrinkle;
     vec4 change = goffer_row(row + 16);
     if (change.z > 0.0f) {  // relative to the rest arc
         vec4 rest = goffer_row(row + 15);
-        float rest_scale = vertex.shape.z;
+        float rest_scale = vertex.shape.z / rest_ratio;
         float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
         float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
         float q = ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
@@ -61,12 +76,14 @@ GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio) {
         float root = q * per_root;
         float x = root * root;
         wrinkle.amplitude = root * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
-        float rest_slope = rest.z * rest_sine - rest.w * rest_cosine;
+        float rest_slope = ratio * (rest.z * rest_sine - rest.w * rest_cosine);
         float turned = ratio * (change.y * rest_cosine - change.x * rest_sine);
         float per_q = per_root * (1.0f - 0.5f * root * per_root) *
                       goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
         wrinkle.slope = wrinkle.amplitude * rest_slope + (q > 0.0f ? per_q * (turned - q * rest_slope) : 0.0f);
-        wrinkle.less_by_scale = per_q * q;
+        wrinkle.less_by_scale = per_q * q + (rest_ratio - 1.0f) * wrinkle.amplitude;
+        wrinkle.amplitude *= rest_ratio;
+        wrinkle.slope *= rest_ratio;
     } else {
         vec4 pose = goffer_row(row);
         float h_prime = vertex.column.y * pose.x - vertex.column.x * pose.y;
@@ -94,10 +111,12 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     float c = t - 1.0f;
     float s = h * h_prime;
 
-    GofferWrinkle wrinkle = goffer_wrinkle(vertex, row, 1.0f);
+    GofferWrinkle wrinkle = goffer_wrinkle(vertex, row, 1.0f, 1.0f);
     float difference = 0.0f;  // to what the region beyond a joint makes of it
     if (vertex.joint.x != 0.0f) {
-        GofferWrinkle other = goffer_wrinkle(vertex, vertex.joint.x > 0.0f ? row + 17 : row - 17, vertex.joint.w);
+        int beyond = vertex.joint.x > 0.0f ? row + 17 : row - 17;
+        float ratio = vertex.joint.w;
+        GofferWrinkle other = goffer_wrinkle(vertex, beyond, ratio, goffer_rest_ratio(vertex, row, beyond, ratio));
         float share = abs(vertex.joint.x);
         float gain = vertex.joint.z;
         difference = gain * other.amplitude - wrinkle.amplitude;
