@@ -32,9 +32,9 @@ struct RegionInput {
     /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
     /// table; their radii are within a factor of 1000; either both or neither have an onset or a rest arc;
     /// their rest arcs are parts of one, or each leaves some room: 2 rest_angle radius max_scale <= 0.98
-    /// length; and the blend is from 1e-5 of the longer region to what both have room for. Among a region's vertices, those within that distance
-    /// of the joint below come before those of the joint above; kernels are fastest if the former come first
-    /// of all and the latter last.
+    /// length; and the blend is from 1e-5 of the longer region to what both have room for. Among a region's
+    /// vertices, those within that distance of the joint below come before those of the joint above; kernels
+    /// are fastest if the former come first of all and the latter last.
     double blend = 0;
     /// The wave g of the next region over that of this one at the joint. Used with a blend.
     double blend_gain = 1;
