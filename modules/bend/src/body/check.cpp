@@ -188,9 +188,8 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
                       own.blend + next.blend <= next.length * (1 + 1e-9);
     const double radius = radius_of(own, input.radius), next_radius = radius_of(next, input.radius);
     const bool similar = radius <= next_radius * Range::max_scale && next_radius <= radius * Range::max_scale;
-    const bool alike =
-        similar && compares_with_rest(own) == compares_with_rest(next) &&
-        (share_rest_arc(own, next, input.radius) || bears_other_arc(own, next, input.radius));
+    const bool alike = similar && compares_with_rest(own) == compares_with_rest(next) &&
+                       (share_rest_arc(own, next, input.radius) || bears_other_arc(own, next, input.radius));
     if (!fits || !alike || own.table.empty() || next.table.empty()) return blend;
     const double most = Range::max_blend_gain;
     const Limited gain{BodyField::blend_gain, own.blend_gain, 1 / most, most};
