@@ -316,7 +316,10 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
                   const RestMesh& mesh, std::vector<RestRegion>& places, std::vector<RegionBinding>& found,
                   const Share& share) {
     std::vector<double> heights;
-    for (const bend::RestVertex& vertex : mesh.vertices) heights.push_back(vertex.z);
+    for (std::size_t r = 0; r < places.size(); ++r) {
+        for (std::size_t i = body.regions()[r].first; i < body.regions()[r].last; ++i)
+            heights.push_back(places[r].start + mesh.vertices[i].z);
+    }
     constexpr int least_folds =
         4;  // of a region whose wave runs on: fewer have no room to change their depth
     std::vector<std::vector<double>> factors(places.size());

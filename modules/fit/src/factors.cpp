@@ -30,8 +30,8 @@ constexpr double most_slice = 1.5;       // factor of a slice
 constexpr double area_tolerance = 2e-5;  // of the region's area
 constexpr int max_steps = 6;             // of Newton's method, which needs two or three
 
-/// A region's surface in one pose. The map is linear in the wrinkle's amplitude, so that the bare bend and
-/// the wrinkled one give all of them.
+/// A region's surface in one pose, at the places of the body's vertices. The map is linear in the wrinkle's
+/// amplitude, so that the bare bend and the wrinkled one give all of them.
 struct Surface {
     std::vector<glm::vec3> bare;
     std::vector<glm::vec3> wrinkle;  // what the wrinkle adds
@@ -173,10 +173,15 @@ bend::Pose bent_by(const bend::Pose& pose, glm::vec2 change) {
     return {glm::length(arc), std::atan2(arc.y, arc.x)};
 }
 
-/// Bends a body, one region at a time, together with those that its folds run on into.
+/// Bends a body, one region at a time, together with those that its folds run on into. Of the surface it sets
+/// what `triangles` need, which are vertices of the body, one at least.
 class Poser {
 public:
-    explicit Poser(const bend::Body& body) : body_(body), poses_(body.rest_poses()) {}
+    Poser(const bend::Body& body, std::span<const std::uint32_t> triangles)
+        : body_(body), poses_(body.rest_poses()) {
+        const auto [first, last] = std::ranges::minmax(triangles);
+        first_ = first, last_ = last + std::size_t{1};
+    }
 
     /// The surface with a region in a pose, and others at rest, but for those that share its wave: their
     /// curvatures change as its own does, as far as they can, so that what passes over the joints is neither
@@ -194,7 +199,7 @@ public:
         poses_[region] = pose;
         deform(0, surface.bare);
         deform(1, surface.wrinkle);
-        for (std::size_t i = 0; i < surface.bare.size(); ++i) surface.wrinkle[i] -= surface.bare[i];
+        for (std::size_t i = first_; i < last_; ++i) surface.wrinkle[i] -= surface.bare[i];
     }
 
     /// The body at rest.
@@ -214,10 +219,15 @@ private:
         job.wrinkle_weight = wrinkle_weight;
         job.transform[3] = -glm::vec3(body_.origin());  // so that no digits are lost far from the origin
         job.positions = interleaved<3>(&positions[0].x, positions.size());
-        bend::run(job);
+        if (last_ - first_ == body_.vertex_count()) {
+            bend::run(job);
+        } else {
+            bend::run_range(job, first_, last_);
+        }
     }
 
     const bend::Body& body_;
+    std::size_t first_, last_;
     std::vector<bend::Pose> poses_;
 };
 
@@ -226,7 +236,7 @@ template <class RowDone>
 void solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
                      std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table,
                      const RowDone& row_done) {
-    Poser poser(body);
+    Poser poser(body, triangles);
     Surface surface;
     std::vector<NormalPowers> normals;
     double square = 1;
@@ -277,20 +287,23 @@ using SliceAreas = std::vector<double>;
 /// Factors along z, in what they change.
 class SliceSolver {
 public:
-    SliceSolver(std::span<const std::uint32_t> triangles, std::span<const double> heights, double length,
-                std::size_t knots)
+    /// The slices lie between the heights `low` and `high`.
+    SliceSolver(std::span<const std::uint32_t> triangles, std::span<const double> heights, double low,
+                double high, std::size_t knots)
         : triangles_(triangles), knots_(knots) {
-        for (const double z : heights) places_.push_back(slice_at(z / length));
+        const auto slice = [&](double z) { return slice_at((z - low) / (high - low)); };
+        for (const double z : heights) places_.push_back(slice(z));
         for (std::size_t t = 0; t < triangles.size(); t += 3) {
             const double z = heights[triangles[t]] + heights[triangles[t + 1]] + heights[triangles[t + 2]];
-            slices_.push_back(slice_at(z / 3 / length));
+            slices_.push_back(slice(z / 3));
         }
     }
 
     /// Adds the areas of the slices with the wrinkle times `factors`.
     void add_areas(const Surface& surface, std::span<const double> factors, SliceAreas& areas) const {
+        const auto [first, last] = std::ranges::minmax(triangles_);
         std::vector<glm::vec3> at(surface.bare.size());
-        for (std::size_t i = 0; i < at.size(); ++i) {
+        for (std::size_t i = first; i <= last; ++i) {
             const Slice& place = places_[i];
             const double factor =
                 factors[place.first] + place.next * (factors[place.first + 1] - factors[place.first]);
@@ -358,15 +371,17 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     const std::vector<std::uint32_t> triangles =
         triangles_of(body.regions()[region], geometry.triangles, places_in_body(order));
     if (body.region_inputs()[region].table.empty() || triangles.empty()) return {};
-    const SliceSolver solver(triangles, heights, body.region_inputs()[region].length, knots);
+    double low = 0;
+    for (std::size_t r = 0; r < region; ++r) low += body.region_inputs()[r].length;
+    const SliceSolver solver(triangles, heights, low, low + body.region_inputs()[region].length, knots);
     std::vector<Surface> surfaces;
     const std::vector<double> none(knots, 0);
     std::vector<double> factors(knots, 1);
     SliceAreas wanted(knots), bare(knots);
-    const Surface at_rest = Poser(body).rest();
+    const Surface at_rest = Poser(body, triangles).rest();
     const std::vector<bend::Pose> poses = slice_poses(body, region);
     for (const bend::Pose& pose : poses) {
-        Poser(body).bend(region, pose, surfaces.emplace_back());
+        Poser(body, triangles).bend(region, pose, surfaces.emplace_back());
         solver.add_areas(at_rest, none, wanted);
         solver.add_areas(surfaces.back(), none, bare);
         share.step(0, 2).tell(surfaces.size(), poses.size());
@@ -384,14 +399,13 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
 void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
                    std::span<bend::RegionInput> regions, const Share& share) {
     const std::vector<std::uint32_t> place = places_in_body(order);
-    const Surface at_rest = Poser(body).rest();
     for (std::size_t r = 0; r < regions.size(); ++r) {
         std::vector<std::uint32_t> triangles = triangles_of(body.regions()[r], geometry.triangles, place);
         if (regions[r].table.empty() || triangles.empty()) continue;
         // Whole lanes: points, which have no area.
         while (triangles.size() % (3 * lanes) != 0) triangles.push_back(triangles[0]);
         std::vector<NormalPowers> normals;
-        gather(at_rest, triangles, normals);
+        gather(Poser(body, triangles).rest(), triangles, normals);
         const double wanted = area_of(normals, 0).area;
         regions[r].factors = factors_of(body, r, triangles, wanted, share.step(r, regions.size()));
     }

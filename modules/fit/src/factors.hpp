@@ -21,7 +21,7 @@ void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<c
 
 /// Solves the factors m(z) of region `region`, 0..1.5, control values at equal steps of its length, with
 /// which each of its slices keeps its area in a pose that bends it far, on the mean of several directions.
-/// `heights`: z of each of the body's vertices, within its region. `folds`: those of the region. Empty: the
+/// `heights`: z of each of the body's vertices, from its base on. `folds`: those of the region. Empty: the
 /// region has no wrinkles. See modules/paper/README.md, "Amplitude modes".
 [[nodiscard]] std::vector<double> solve_weights(const bend::Body& body, const Geometry& geometry,
                                                 std::span<const std::uint32_t> order,

@@ -78,8 +78,8 @@ struct Binding {
 /// that is bent at rest or has an onset or a wrinkle_range (use Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
-/// the mesh some 500 times for each region, in parallel in the caller's oneTBB arena; all else runs on the
-/// calling thread. Thread-safe.
+/// each vertex some 500 times, in parallel in the caller's oneTBB arena; all else runs on the calling thread.
+/// Thread-safe.
 [[nodiscard]] Binding bind(const Geometry& geometry, const Cylinder& cylinder,
                            const BindOptions& options = {});
 
