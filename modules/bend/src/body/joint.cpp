@@ -20,7 +20,8 @@ glm::dvec3 rest_squeeze(const RegionInput& region, double radius) noexcept {
 }
 
 /// Sets what `joint` has of the rest arcs on both sides, if these are not parts of one.
-void set_arcs(const RegionInput& own, const RegionInput& neighbor, double radius, JointBlend& joint) noexcept {
+void set_arcs(const RegionInput& own, const RegionInput& neighbor, double radius,
+              JointBlend& joint) noexcept {
     if (share_rest_arc(own, neighbor, radius)) return;
     const double own_radius = radius_of(own, radius);  // s is over that of the region itself
     const glm::dvec3 change = rest_squeeze(own, own_radius) - rest_squeeze(neighbor, own_radius);
