@@ -29,18 +29,28 @@ Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
     return {x * x * (L::splat(1.5f) - x), L::splat(3.0f * joint.per_length) * L::nmadd(x, x, x)};
 }
 
-/// Sets what columns near a joint have of their wrinkle as the neighbor makes it, whose rest arc is another.
-/// Rest columns are over S_0 of the region itself, and so is the amplitude: R takes one S_0 to the other.
+/// Sets what the columns of `b` have of their wrinkle.
+template <class L, Squeeze squeeze, bool directions, class K>
+void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i) {
+    if constexpr (squeeze == Squeeze::relative) {
+        set_relative_wrinkle<L, directions>(load_rest_scale<L>(rest, i), k, b);
+    } else {
+        set_plain_column<L, squeeze, directions>(rest, k, load_scale<L, squeeze>(rest, i), b, i);
+    }
+}
+
+/// Sets the relative wrinkle that the neighbor makes of columns, whose rest arc is another. `at` is over S_0
+/// of the region itself, and so is the amplitude: R takes one S_0 to the other.
 template <class L, bool directions, class K>
-void set_wrinkle_of_other_arc(const RestColumns& rest, const K& k, const JointBlend& joint, Bent<L>& b,
-                              std::size_t i) {
+void set_wrinkle_of_other_arc(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
+    // Of vertices near the joint R is more than 0.01. Lanes of other regions' vertices may have any number.
+    constexpr float least = 0.005f;
     const Vec one = L::splat(1.0f);
-    RestScale<L> at = load_rest_scale<L>(rest, i);
     const Vec more =
         L::madd(L::splat(joint.rest_curl[1]), at.sine,
                 L::madd(L::splat(joint.rest_curl[0]), at.cosine, L::splat(joint.rest_kappa) * at.scale));
-    const Vec ratio = one + more, inverse = L::reciprocal(ratio);
+    const Vec ratio = L::max(one + more, L::splat(least)), inverse = L::reciprocal(ratio);
     at = {at.cosine * inverse, at.sine * inverse, at.scale * inverse};
     set_relative_wrinkle<L, directions>(at, k, b);
     if constexpr (directions) {
@@ -50,15 +60,25 @@ void set_wrinkle_of_other_arc(const RestColumns& rest, const K& k, const JointBl
     b.amplitude = b.amplitude * ratio;
 }
 
-/// Sets what the columns of `b` have of their wrinkle. `neighbor`: as the region beyond `joint` makes it.
-template <class L, Squeeze squeeze, bool directions, bool neighbor, class K>
-void set_wrinkle(const RestColumns& rest, const K& k, const JointBlend& joint, Bent<L>& b, std::size_t i) {
-    if constexpr (squeeze != Squeeze::relative) {
-        set_plain_column<L, squeeze, directions>(rest, k, b, i);
-    } else if (neighbor && joint.other_arc) {
-        set_wrinkle_of_other_arc<L, directions>(rest, k, joint, b, i);
+/// Sets what the columns of `b` have of the wrinkle of the region beyond `joint`. Where a vertex has no share
+/// of it, the column counts as one without thickness, since the neighbor's table may not be made for its own.
+template <class L, Squeeze squeeze, bool directions, class K>
+void set_neighbor_wrinkle(const RestColumns& rest, const K& k, const JointBlend& joint, typename L::Vec share,
+                          Bent<L>& b, std::size_t i) {
+    const auto if_near = [share](typename L::Vec value) {
+        const typename L::Vec zero = L::splat(0.0f);
+        return L::where_less(zero, share, value, zero);
+    };
+    if constexpr (squeeze == Squeeze::relative) {
+        const auto [cosine, sine, scale] = load_rest_scale<L>(rest, i);
+        const RestScale<L> at = {if_near(cosine), if_near(sine), if_near(scale)};
+        if (joint.other_arc) {
+            set_wrinkle_of_other_arc<L, directions>(at, k, joint, b);
+        } else {
+            set_relative_wrinkle<L, directions>(at, k, b);
+        }
     } else {
-        set_relative_wrinkle<L, directions>(load_rest_scale<L>(rest, i), k, b);
+        set_plain_column<L, squeeze, directions>(rest, k, if_near(load_scale<L, squeeze>(rest, i)), b, i);
     }
 }
 
@@ -81,20 +101,14 @@ Wrinkled<L> blend_batch(const RestColumns& rest, const K& k, const K& other_k, c
     using Vec = typename L::Vec;
     Wrinkled<L> result;
     Bent<L> b, other;
-    set_wrinkle<L, squeeze, directions, false>(rest, k, joint, b, i);
-    set_wrinkle<L, squeeze, directions, true>(rest, other_k, joint, other, i);
     const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
-    // Of vertices that are not near the joint the other region's wrinkle may be no number.
-    const Vec zero = L::splat(0.0f);
-    other.amplitude = L::where_less(zero, share.value, other.amplitude, zero);
+    set_wrinkle<L, squeeze, directions>(rest, k, b, i);
+    set_neighbor_wrinkle<L, squeeze, directions>(rest, other_k, joint, share.value, other, i);
     const Vec difference = other.amplitude - b.amplitude;
     b.amplitude = L::madd(share.value, difference, b.amplitude);
     const Vec offset = L::load(rest.radial_offset + i);
     result.rho = L::madd(b.amplitude, offset, L::load(rest.rho + i));
     if constexpr (directions) {
-        other.slope = L::where_less(zero, share.value, other.slope, zero);
-        if (has_shape<squeeze>(rest))
-            other.less_by_scale = L::where_less(zero, share.value, other.less_by_scale, zero);
         b.slope = L::madd(share.value, other.slope - b.slope, b.slope);
         if (has_shape<squeeze>(rest))
             b.less_by_scale = L::madd(share.value, other.less_by_scale - b.less_by_scale, b.less_by_scale);

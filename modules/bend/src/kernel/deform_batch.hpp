@@ -66,9 +66,16 @@ bool has_shape(const Rest& rest) {
     return squeeze == Squeeze::shaped || (squeeze == Squeeze::relative && rest.scale != nullptr);
 }
 
-/// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa T.
+/// Loads s where a plain kernel asks for it, or else returns 1.
+template <class L, Squeeze squeeze, class Rest>
+typename L::Vec load_scale(const Rest& rest, std::size_t i) {
+    if constexpr (squeeze == Squeeze::shaped) return L::load(rest.scale + i);
+    return L::splat(1.0f);
+}
+
+/// Sets the directions of columns, and their wrinkle if they are squeezed by q = kappa s T, with s = `scale`.
 template <class L, Squeeze squeeze, bool slope, class Rest, class K>
-void set_plain_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
+void set_plain_column(const Rest& rest, const K& k, typename L::Vec scale, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
     const auto [h_prime, h] =
         rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
@@ -77,7 +84,7 @@ void set_plain_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     b.c = t - L::splat(1.0f);
     b.s = h * h_prime;
     Vec x = t;
-    if constexpr (squeeze == Squeeze::shaped) x = t * L::load(rest.scale + i);
+    if constexpr (squeeze == Squeeze::shaped) x = t * scale;
     if constexpr (squeeze == Squeeze::none) return;
     const Vec size = L::abs(h);
     b.amplitude = size * long_polynomial<L>(k.amplitude, x);
@@ -146,7 +153,7 @@ Bent<L> turn_batch(const Rest& rest, const K& k, std::size_t i) {
     if constexpr (squeeze == Squeeze::relative) {
         set_relative_column<L, slope>(rest, k, b, i);
     } else {
-        set_plain_column<L, squeeze, slope>(rest, k, b, i);
+        set_plain_column<L, squeeze, slope>(rest, k, load_scale<L, squeeze>(rest, i), b, i);
     }
     Vec rho = L::load(rest.rho + i);
     if constexpr (squeeze != Squeeze::none) rho = L::madd(b.amplitude, L::load(rest.radial_offset + i), rho);
