@@ -33,7 +33,7 @@ enum class Shape {
 struct Grid {
     std::size_t columns, rows;
 
-    /// Of exactly `vertices` vertices: the columns divide them.
+    /// Makes a grid of exactly `vertices` vertices; the number of its columns divides them.
     explicit Grid(std::size_t vertices);
 
     [[nodiscard]] double beta(std::size_t column) const;

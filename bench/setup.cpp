@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t setup_vertices = 10'000;
 constexpr std::size_t instances = 1000;
 
-/// Of instance `index`: each has its own.
+/// Returns the pose of instance `index`: each has its own.
 bend::Pose pose_of(std::size_t index) {
     const auto at = static_cast<float>(index);
     return {1.0f + 0.5f * std::sin(at), at};

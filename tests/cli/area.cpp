@@ -29,7 +29,7 @@ Words damped(const char* amplitude) {
 
 constexpr std::array<int, 3> angles{30, 90, 180};
 
-/// Of the angles, by their places: all, or the one in the middle.
+/// The angles that are tried, by their places: all, or the one in the middle.
 const std::size_t first_angle = rounds<std::size_t>(0, 1), last_angle = rounds<std::size_t>(angles.size(), 2);
 
 /// A base cylinder of so many columns and 2 k steps + 1 rows, and what bending does to it.

@@ -14,7 +14,7 @@ using namespace goffer::test;
 
 namespace {
 
-/// Of a body that bends by 90 degrees.
+/// Takes a picture of a body that bends by 90 degrees.
 Pixels picture(const Folder& folder, const Words& words) {
     (void)well(folder,
                Words{"bend", "base.ply", "--angle", "90", "-o", "out.ply", "--png", "out.png"} + words);

@@ -112,9 +112,9 @@ TEST_CASE("suitability: a body far from any cylinder") {
     CHECK(said.find("--axis") != said.npos);
 }
 
-// The limits were found by looking at these. Of the models that bend well, blub_open.obj, a fish with fins,
-// is the farthest from a cylinder (0.51 radii), and cushion_02.glb the flattest (2.2). insect_leg.glb has
-// spurs beside its claws.
+// The limits were found by looking at these. Among the models that bend well, blub_open.obj, a fish with
+// fins, is the farthest from a cylinder (0.51 radii), and cushion_02.glb the flattest (2.2). insect_leg.glb
+// has spurs beside its claws.
 
 TEST_CASE("suitability: blub_open.obj") {
     check_warning_of_model("blub_open.obj", "");

@@ -42,7 +42,7 @@ TEST_CASE("suitability: a tube is one round shell, also as a soup") {
 }
 
 TEST_CASE("suitability: flatness is that of an ellipse, whichever way it lies and however the body winds") {
-    // Of an ellipse with half axes a and b, x^2 and y^2 are averaged along its circumference.
+    // Averages x^2 and y^2 of an ellipse with half axes a and b along its circumference.
     const double a = 1, b = 0.25;
     double xx = 0, yy = 0;
     for (int i = 0; i < 100000; ++i) {

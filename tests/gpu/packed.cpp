@@ -74,7 +74,7 @@ std::vector<Decoded> decoded(Api api, std::span<const bend::PackedVertex> vertic
     return result;
 }
 
-/// Of any bits, and each pair of extreme normals.
+/// Makes vertices of any bits, and one for each pair of extreme normals.
 std::vector<bend::PackedVertex> random_vertices(Random& random) {
     constexpr std::array<std::int16_t, 8> steps{-32768, -32767, -32766, -1, 0, 1, 32766, 32767};
     constexpr std::array<std::uint16_t, 5> places{0, 1, 32767, 65534, 65535};

@@ -11,8 +11,8 @@ namespace {
 constexpr const char* endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
 
 /// The parser of JSON copies and destroys trees in functions that must not throw, and allocates there: it
-/// ends the program where that fails. Of a glTF only what takes as much as its numbers do is refused,
-/// therefore.
+/// ends the program where that fails. For a glTF, therefore, only allocations as large as those for its
+/// numbers are refused.
 Diet diet_of(const std::string& ending) {
     return {.least = ending == ".gltf" || ending == ".glb" ? 2000u : 0u, .most = 300};
 }

@@ -162,7 +162,7 @@ TEST_CASE("textures: KHR_texture_transform, as its example has it: the lower lef
     const std::vector<glm::vec2> uvs = texture_uvs(mesh);
     for (std::size_t c = 0; c < uvs.size(); ++c) {
         const glm::vec2 was = mesh.uvs[0].values[mesh.corners[c]];
-        // Of v that points down: u' = v / 2, v' = 1 - u / 2.
+        // Where v points down, u' = v / 2 and v' = 1 - u / 2.
         CHECK(glm::distance(uvs[c], glm::vec2((1 - was.y) / 2, was.x / 2)) < 1e-6f);
     }
     info_of(document)["texCoord"] = 3;

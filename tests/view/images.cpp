@@ -118,7 +118,7 @@ TEST_CASE("images: damaged JPEGs") {
 }
 
 TEST_CASE("images: copies of half the size have the mean by area, in linear light") {
-    // Of white, black and white: two thirds of the light, which is 213 in sRGB.
+    // White, black and white have two thirds of the light, which is 213 in sRGB.
     const view::MipMap three(image_of(3, 1, {255, 255, 255, 0, 0, 0, 255, 255, 255}));
     REQUIRE(three.levels().size() == 2);
     CHECK(three.levels()[1].width == 1);

@@ -231,7 +231,7 @@ void check_output(const std::filesystem::path& file) {
 
 namespace {
 
-/// Those of a .gltf. Where it cannot be read, reading it says why.
+/// Returns the buffers that a .gltf names. Where it cannot be read, reading it says why.
 std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file) {
     if (io::ending_of(file) != ".gltf") return {};
     try {

@@ -81,7 +81,7 @@ mesh::Mesh rest_mesh(const bend::BodyFile& file, const bend::BodyFileLevel& leve
     return mesh;
 }
 
-/// Of a field that is a short text.
+/// Returns a field that is a text, or its beginning if it is long; nothing where there is no such field.
 std::string noted_text(const nlohmann::json& notes, const char* name) {
     constexpr std::size_t longest = 1000;
     const auto field = notes.find(name);
@@ -89,7 +89,7 @@ std::string noted_text(const nlohmann::json& notes, const char* name) {
     return field->get<std::string>().substr(0, longest);
 }
 
-/// Of a field that is a whole number from 0 to 1e6.
+/// Returns a field that is a whole number, clamped to 0..1e6; 0 where there is no such field.
 int noted_number(const nlohmann::json& notes, const char* name) {
     const auto field = notes.find(name);
     if (field == notes.end() || !field->is_number_integer()) return 0;

@@ -48,7 +48,7 @@ void report_rest(Report& report, const BindRequest& request, const BoundModel& m
     if (straight) report.line("straight residual", number(*straight) + " of the radius");
 }
 
-/// Of text out of a file, that a line of the report can hold.
+/// Lists texts out of a file, as many as a line of the report can hold.
 std::string list_of(const std::vector<std::string>& names) {
     constexpr std::size_t most = 12;
     std::string list = std::to_string(names.size());

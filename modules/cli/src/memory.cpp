@@ -32,7 +32,7 @@ std::optional<std::uint64_t> container() {
     return file >> bytes ? std::optional(bytes) : std::nullopt;
 }
 
-// Of a bare cylinder of 1 million vertices and 2 million triangles, `goffer bend` takes 0.61 GB as PLY and
+// For a bare cylinder of 1 million vertices and 2 million triangles, `goffer bend` takes 0.61 GB as PLY and
 // GLB, 0.66 GB as OBJ, and 0.85 GB with --png and --ghost (x86-64).
 constexpr std::uint64_t bytes_per_vertex = 300, bytes_per_triangle = 300;
 

@@ -99,8 +99,8 @@ struct Target {
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then);
 
-/// Says what each region was bent to, and warns of those that were clamped. Of a body that is bent at rest it
-/// also says what angles count from, and whether it is straightened, which is returned.
+/// Says what each region was bent to, and warns of those that were clamped. If the body is bent at rest, also
+/// says what angles count from, and whether it is straightened, which is returned.
 bool report_poses(Report& report, const PoseRequest& request, const std::vector<Target>& targets,
                   const BoundModel& model);
 

@@ -24,9 +24,9 @@ Buffer buffer_of(GLenum target, std::span<const std::byte> bytes) {
     return buffer;
 }
 
-/// New contents for a buffer that is bound, without waiting for who still reads the old ones. Of a large one
-/// OpenGL is asked whether it got there, which waits for the device: browsers refuse it by errors that say
-/// nothing.
+/// Gives a buffer that is bound new contents, without waiting for who still reads the old ones. If they are
+/// large, OpenGL is asked whether they got there, which waits for the device: browsers refuse them by errors
+/// that say nothing.
 void replace(GLenum target, std::span<const std::byte> bytes) {
     constexpr std::size_t large = std::size_t{1} << 28;
     const auto size = static_cast<GLsizeiptr>(bytes.size());

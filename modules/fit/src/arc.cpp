@@ -59,7 +59,7 @@ Line arc_of(double angle, const Chord& chord, const Vector3d& bow) {
 }
 
 /// The arc of the circle through a cloud's plane that lies nearest to its points (Kasa 1976): about that of a
-/// slender body, however far it is bent. Of two ways along it, the one that goes with its chord.
+/// slender body, however far it is bent. It runs the same way along the body as its chord.
 Line circle_through(const Body& cloud, const Line& chord) {
     const Vector3d& mean = chord.point;
     Matrix3d spread = Matrix3d::Zero();

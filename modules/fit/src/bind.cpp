@@ -173,7 +173,7 @@ struct Plan {
     double blend_gain;
 
     /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
-    /// no wrinkle at rest. Of bodies that are thousands of radii long it is the largest that a body can have.
+    /// no wrinkle at rest. In bodies that are thousands of radii long it is the largest that a body can have.
     [[nodiscard]] double max_angle(double factor) const {
         const double largest =
             rest.shape ? largest_angle(girths, options.profile, options.amplitude, rest.folds, factor)
@@ -256,8 +256,7 @@ struct Draft {
 constexpr double right_angle = std::numbers::pi / 2;
 
 /// Lowers factors on a region's wrinkle, at equal steps from end to end, so that in a body that is bent by a
-/// right angle it is nowhere deeper than a share of the radius there. Of one that is bent at rest, none is
-/// lowered.
+/// right angle it is nowhere deeper than a share of the radius there. Lowers none in a region bent at rest.
 void keep_shallow(double body_length, const RestRegion& rest, const bend::RegionInput& input, Profile profile,
                   std::vector<double>& factors) {
     constexpr double most_depth = 0.23;

@@ -19,9 +19,9 @@ constexpr std::size_t max_arcs = 12;
 struct Measure {
     double radius;
 
-    /// Of an arc: a joint takes a stretch of the body.
+    /// Arcs are no shorter than this: a joint takes a stretch of the body.
     [[nodiscard]] double shortest() const { return 1.5 * radius; }
-    /// Of points from the chain, rms.
+    /// Points may be this far from the chain, rms.
     [[nodiscard]] double tolerance() const { return 0.08 * radius; }
 };
 

@@ -172,7 +172,7 @@ void check_radii(const Cylinder& cylinder) {
                 "smaller angle, or no radii");
 }
 
-/// Of each arc of a chain what check_rest_angle() and check_radii() ask of one.
+/// Asks of each arc of a chain what check_rest_angle() and check_radii() ask of a single one.
 void check_arcs(const Cylinder& cylinder) {
     if (cylinder.arcs.empty()) return;
     if (cylinder.rest_angle != 0)

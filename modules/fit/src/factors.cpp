@@ -65,8 +65,8 @@ struct NormalPowers {
     Vectors bare, linear, square;
 };
 
-/// Of a region's triangles in one pose: gathered once, since Newton's method looks at them for several
-/// factors.
+/// Gathers the normals of a region's triangles in one pose. This is done once, since Newton's method looks at
+/// them for several factors.
 void gather(const Surface& surface, std::span<const std::uint32_t> triangles,
             std::vector<NormalPowers>& normals) {
     normals.clear();
@@ -173,8 +173,8 @@ bend::Pose bent_by(const bend::Pose& pose, glm::vec2 change) {
     return {glm::length(arc), std::atan2(arc.y, arc.x)};
 }
 
-/// Bends a body, one region at a time, together with those that its folds run on into. Of the surface it sets
-/// what `triangles` need, which are vertices of the body, one at least.
+/// Bends a body, one region at a time, together with those that its folds run on into. Sets the part of the
+/// surface that `triangles` need, which are vertices of the body, one at least.
 class Poser {
 public:
     Poser(const bend::Body& body, std::span<const std::uint32_t> triangles)

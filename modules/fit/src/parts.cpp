@@ -268,9 +268,9 @@ void Parts::weigh(const Depth& depth, const Depth& deepest) {
 }
 
 /// Each part is almost alone near its own outline, if the other's is much farther away than what they blend
-/// over. Of two that are equally far away the thicker one counts for more: where hairs grow out of a body,
-/// they go with it rather than let it be smooth. Thick parts come first, and what hardly counts beside them
-/// is left out.
+/// over. If two are equally far away, the thicker one counts for more: where hairs grow out of a body, they
+/// go with it rather than let it be smooth. Thick parts come first, and what hardly counts beside them is
+/// left out.
 Parts::Near Parts::near(const Slice& slice, double x, double y) {
     constexpr double least = 1e-3;  // of the greatest share so far
     const double core = slice.blend * slice.blend;

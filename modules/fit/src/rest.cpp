@@ -231,8 +231,8 @@ paper::Cylindrical Straightening::Piece::straightened(const glm::dvec3& in_body)
     return at;
 }
 
-/// Of a chain, the piece is that whose center line is nearest. Beyond the base and the tip the first and the
-/// last one go on.
+/// Takes the piece whose center line is nearest, if the body is bent along a chain. Beyond the base and the
+/// tip the first and the last one go on.
 paper::Cylindrical Straightening::vertex(const glm::dvec3& position) const {
     const glm::dvec3 place = in_body(position);
     if (pieces_.size() == 1) return pieces_[0].straightened(place);

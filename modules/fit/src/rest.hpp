@@ -32,8 +32,8 @@ struct RestRegion {
     paper::Pose rest = {};                           ///< the arc that it is bent along at rest
 };
 
-/// Returns the arc that the stretch of a base from z = `start` on is bent along at rest. Of a chain it is
-/// that of the arc that begins there.
+/// Returns the arc that the stretch of a base from z = `start` on is bent along at rest. If the base is a
+/// chain, this is the arc that begins there.
 [[nodiscard]] paper::Pose rest_of(const Cylinder& cylinder, double start, double length);
 
 /// Lets the folds of neighboring regions run on over their joints, wherever both wrinkle there. `radius`: of

@@ -40,7 +40,7 @@ Image decode_png(std::string_view file, std::uint64_t most_pixels) {
     const std::string bytes = without_color_spaces(file);
     png_image header{};
     header.version = PNG_IMAGE_VERSION;
-    // Of what it has taken, png_image_finish_read() frees all, and so does png_image_begin_.. where it fails.
+    // png_image_finish_read() frees all that was taken, and so does png_image_begin_.. where it fails.
     const auto check = [&](int good) {
         if (good == 0) throw Error(std::string("the PNG is broken: ") + header.message + "; export it again");
     };

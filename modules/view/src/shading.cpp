@@ -66,7 +66,7 @@ glm::vec3 toward_eye(const Surface& s, const glm::vec3& to_eye) {
     return cosine > 0.01f ? s.normal : glm::normalize(s.normal + (0.01f - cosine) * to_eye);
 }
 
-// Of the part of the key light's disc above the surface's horizon, the share that reaches it.
+// How much of the key light's disc reaches the surface, as a share of the part above its horizon.
 float key_share(const Scene& scene, const View& view, const Surface& s, const glm::vec3& normal,
                 Sampler& sampler, std::uint32_t rays) {
     const glm::vec3 axis = key_direction(view);

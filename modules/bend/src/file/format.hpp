@@ -85,8 +85,8 @@ struct FirstBandsRecord {
 
 struct BandsRecord {
     FirstBandsRecord first;
-    /// Of the region's vertices: those near the joint below come before `below_last`, those near the joint
-    /// above from `above_first` on. See Joint, and for the scales Joint::max_scale.
+    /// The region's vertices near the joint below come before `below_last`, those near the joint above from
+    /// `above_first` on. See Joint, and for the scales Joint::max_scale.
     std::uint64_t below_last, above_first;
     float below_scale, above_scale;
 };

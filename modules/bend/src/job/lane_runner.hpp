@@ -18,8 +18,8 @@ namespace goffer::bend {
 /// and what is left of a line waits for the next tiles. Lives on the stack and takes at most 56 KB.
 class LaneRunner {
 public:
-    /// Whether it can deform that many instances of the batch, and a BatchRunner would take longer. Of
-    /// previous positions that is meant of a batch that has them as its positions.
+    /// Whether it can deform that many instances of the batch, and a BatchRunner would take longer. A batch
+    /// with previous positions would be deformed as two, of which one has these as its positions.
     [[nodiscard]] static bool suits(const Batch& batch, std::size_t instances,
                                     const KernelSet& kernels) noexcept;
 
@@ -58,7 +58,7 @@ private:
     /// Room for a tile of ten values, two lines of them for each member, and one that makes that odd.
     static constexpr std::size_t max_values = 10;
     static constexpr std::size_t max_lines = max_values * tile_vertices + setup_width * (2 * max_values + 1);
-    /// Of regions r - 1, r and r + 1, at their indices modulo 3.
+    /// Squeezes and coefficients are kept for regions r - 1, r and r + 1, at their indices modulo 3.
     static constexpr std::size_t kept = 3;
 
     const Batch& batch_;

@@ -44,7 +44,7 @@ void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i)
 template <class L, bool directions, class K>
 void set_wrinkle_of_other_arc(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
-    // Of vertices near the joint R is more than 0.01. Lanes of other regions' vertices may have any number.
+    // R is more than 0.01 at vertices near the joint. Lanes of other regions' vertices may have any number.
     constexpr float least = 0.005f;
     const Vec one = L::splat(1.0f);
     const Vec more =

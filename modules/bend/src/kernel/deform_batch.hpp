@@ -135,7 +135,7 @@ void set_relative_wrinkle(const RestScale<L>& rest, const K& k, Bent<L>& b) {
     }
 }
 
-/// Sets their directions too.
+/// Sets the directions of columns, and their wrinkle if the squeeze is relative to that at rest.
 template <class L, bool slope, class Rest, class K>
 void set_relative_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},

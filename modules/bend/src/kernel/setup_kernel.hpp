@@ -77,7 +77,7 @@ struct SeparateResult {
     }
 };
 
-/// Those of all instances side by side.
+/// Coefficients of the instances in one register, among those of all instances side by side.
 template <class L>
 struct LaneResult {
     LaneCoefficients& k;

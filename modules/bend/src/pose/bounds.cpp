@@ -106,7 +106,8 @@ public:
           m0_(k.matrix[row] / scale_),
           m2_(k.matrix[8 + row] / scale_),
           across_(splat(std::fabs(k.matrix[4 + row]) / scale_)) {
-        // Of a whole register: compilers take two roots for half of one, and trap on what is in the other.
+        // Takes the roots of a whole register: for two, compilers fill half of one, and trap on what is in
+        // the other half.
         const float square = m0_ * m0_ + m2_ * m2_, both = square + across_[0] * across_[0];
         const Float4 roots = sqrt(Float4{square, both, square, both});
         in_plane_ = roots[0];

@@ -50,7 +50,7 @@ PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(
     set_identities();
 }
 
-/// Those of the first region, for all lanes.
+/// Sets the frames of the first region, for all lanes.
 void PosedGroup::set_frames() noexcept {
     for (std::size_t c = 0; c < 12; ++c)
         std::fill_n(columns_.frame[c], setup_width,

@@ -18,7 +18,7 @@ namespace {
 void report_motion(Report& report, const AnimateRequest& request, const AnimateOptions& options,
                    const Survey& survey, const BoundModel& model) {
     const double reached = degrees(*std::ranges::max_element(survey.largest));
-    // Of glTF, from the first key to the last; of all else, each frame is shown for its time.
+    // A glTF lasts from its first key to its last; in all else, each frame is shown for its time.
     const double seconds = static_cast<double>(request.frames - (request.gltf_wanted ? 1 : 0)) / options.fps;
     nlohmann::ordered_json& json = report.json;
     json["regions"] = model.binding.body.region_count();

@@ -42,7 +42,7 @@ void read_pieces(const InputFile& file, std::uint64_t offset,
 /// The checksum of a whole file.
 [[nodiscard]] std::uint64_t hash_of_file(const std::filesystem::path& file);
 
-/// Of bytes in memory.
+/// The checksum of bytes in memory.
 [[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes);
 [[nodiscard]] std::uint64_t hash_of(std::string_view text);
 

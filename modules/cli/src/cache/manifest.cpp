@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of what a manifest says, whatever the order of its members.
+/// Returns the checksum of what a manifest says, whatever the order of its members.
 std::uint64_t checksum_of(const nlohmann::json& said) {
     return hash_of(said.dump());
 }

@@ -80,7 +80,7 @@ struct Plan {
     [[nodiscard]] std::uint64_t shards() const noexcept {
         return (frames + frames_per_shard - 1) / frames_per_shard * firsts.size();
     }
-    /// Of shard `index` < shards(): all instances of the first frames come first.
+    /// The range of shard `index` < shards(). All instances of the first frames come first.
     [[nodiscard]] ShardRange range(std::uint64_t index) const noexcept;
     /// The shard that has an instance in a frame.
     [[nodiscard]] std::uint64_t shard_of(std::uint64_t frame, std::uint64_t instance) const noexcept;

@@ -33,7 +33,7 @@ std::string where_in(const Scene& scene, const std::string& what) {
     return io::about(scene.file, what);
 }
 
-/// Of a model that is there; where it is not, binding it says so.
+/// Returns the buffers that a model names, if it is there; where it is not, binding it says so.
 std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file,
                                               const mesh::LoadOptions& options) {
     std::error_code no_file;

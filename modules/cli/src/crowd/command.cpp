@@ -92,7 +92,7 @@ std::string place_of(const BoundModel& model, std::span<const BoundModel> models
     return models.size() > 1 ? model.file.string() + ": " : "";
 }
 
-/// Of what a model's regions are asked for and cannot do.
+/// Warns of what a model's regions are asked for and cannot do.
 void warn_of_regions(Report& report, const CrowdRequest& request, const BoundModel& model,
                      const std::string& where) {
     const bend::Body& body = model.binding.body;

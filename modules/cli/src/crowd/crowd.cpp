@@ -45,7 +45,7 @@ std::size_t instances_of(std::size_t model, std::size_t models, std::size_t inst
     return (instances + models - 1 - model) / models;
 }
 
-/// Of each model, about as many.
+/// Returns a group for each model, each of about as many instances.
 std::vector<measure::CrowdGroup> groups_of(std::span<const BoundModel> models, std::size_t instances) {
     std::vector<measure::CrowdGroup> groups;
     for (std::size_t i = 0; i < models.size(); ++i) {

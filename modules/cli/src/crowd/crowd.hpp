@@ -37,7 +37,7 @@ struct Spot {
 
 /// A crowd that moves like grass in the wind: instances of all models, about as many of each, on a grid.
 /// Every one stands with its base end on the ground (z = 0) and its axis up, is scaled to a length of 1, and
-/// is turned its own way. Of several regions each follows the one below it, as a wave does.
+/// is turned its own way. Where there are several regions, each follows the one below it, as a wave does.
 class Crowd {
 public:
     /// `models`, each bound with as many regions as the plan has poses, must outlive the crowd. Throws
@@ -59,7 +59,7 @@ public:
     /// Fills as much memory as a frame writes past the cache (measure::fill): the least that it can cost.
     void fill(float seed, int threads);
 
-    /// Of instance `index`: which of the models it is, and where it stands.
+    /// Return which of the models instance `index` is, and where it stands.
     [[nodiscard]] std::size_t model(std::size_t index) const noexcept { return members_[index].model; }
     [[nodiscard]] Spot spot(std::size_t index) const noexcept;
     /// Instances that stand side by side.

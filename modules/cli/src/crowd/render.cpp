@@ -54,7 +54,7 @@ Vertices read_packed(const bend::DeformJob& job) {
     return vertices;
 }
 
-/// Of a crowd that has not asked for normals.
+/// Makes the normals of an instance, for a crowd that has not asked for them.
 std::vector<glm::vec3> make_normals(bend::DeformJob job) {
     std::vector<glm::vec3> normals(job.body->vertex_count());
     job.positions = {};

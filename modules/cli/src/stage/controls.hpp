@@ -25,7 +25,7 @@ struct Controls {
     std::vector<Bend> regions{{90, 0}};  ///< one for each region of the body on stage
     int region_count = 1;                ///< that it is to have
     bool animated = false;
-    /// Of these the words are made. Folds below 0, a fold length of 0, an onset below 0: what suits the body.
+    /// The words are made of these. Folds below 0, a fold length of 0, an onset below 0: what suits the body.
     int folds = -1;
     std::string folds_list;  ///< in place of `folds`, if not empty: one number for each region
     float fold_length = 0, onset = -0.01f, roundness = 0.25f;

@@ -44,7 +44,7 @@ public:
     /// Reads `frame`. Throws mesh::Error if it is not finite.
     void read(std::size_t frame, bool with_normals);
 
-    /// Those of the frame that was read last.
+    /// Return what the frame that was read last has.
     [[nodiscard]] const std::vector<glm::vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<glm::vec3>& normals() const { return normals_; }
     [[nodiscard]] glm::dvec3 shift(std::size_t entry) const {
@@ -52,7 +52,7 @@ public:
     }
     /// Zero where the rest has no normal.
     [[nodiscard]] glm::dvec3 turn(std::size_t entry) const;
-    /// Both of all entries; `turns` is empty where there are no normals.
+    /// Copies the shifts and turns of all entries; `turns` is empty where there are no normals.
     void copy(std::span<glm::vec3> shifts, std::span<glm::vec3> turns) const;
 
 private:

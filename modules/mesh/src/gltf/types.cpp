@@ -26,8 +26,7 @@ bool is_whole(const Json& json) {
     return value >= 0 && value == std::floor(value);
 }
 
-/// Looks for fields of the wrong type; what `extras` and extensions hold is theirs.
-/// The path of a member. Of a long name, which many paths may have in them, it has the beginning.
+/// The path of a member. It has only the beginning of a long name, which many paths may have in them.
 std::string member_of(const std::string& path, const std::string& name) {
     constexpr std::size_t most = 100;
     std::string place = path;
@@ -41,6 +40,7 @@ std::string element_of(const std::string& path, std::size_t element) {
     return place.append("[").append(std::to_string(element)).append("]");
 }
 
+/// Looks for fields of the wrong type; what `extras` and extensions hold is theirs.
 class TypeChecker {
 public:
     void check(const Json& json, const std::string& key, const std::string& path) {

@@ -284,7 +284,7 @@ void ObjReader::read_library(const std::filesystem::path& library, std::vector<t
     find_textures(library, std::span(found).subspan(before));
 }
 
-/// As Windows has it, too.
+/// Replaces the backslashes that paths have on Windows.
 std::string with_slashes(std::string name) {
     std::ranges::replace(name, '\\', '/');
     return name;

@@ -75,7 +75,7 @@ struct Batch {
     /// Each element is the pose of the first region; those of the other regions follow it in memory, so that
     /// the stride is at least region_count() poses, or 0: the same for all. Must be given. (A member of type
     /// Pose has one: for a body of n regions the struct needs Pose[n], or an array that is as long as that of
-    /// the body with the most regions. Of a plain array of n poses for each instance, `count` is the number
+    /// the body with the most regions. For a plain array of n poses for each instance, `count` is the number
     /// of instances, and the stride n times that of strided().)
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};           ///< as DeformJob::transform; default: the identity

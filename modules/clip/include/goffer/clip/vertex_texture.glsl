@@ -54,7 +54,7 @@ vec3 goffer_decode_position(vec3 texel, GofferClip clip) {
     return clip.low + texel * (clip.high - clip.low);
 }
 
-// Of unit length only after normalize().
+// The result is of unit length only after normalize().
 vec3 goffer_decode_normal(vec3 texel) {
     return texel * 2.0f - 1.0f;
 }

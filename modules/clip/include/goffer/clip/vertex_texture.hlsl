@@ -59,7 +59,7 @@ float3 goffer_decode_position(float3 texel, GofferClip clip) {
     return clip.low + texel * (clip.high - clip.low);
 }
 
-// Of unit length only after normalize().
+// The result is of unit length only after normalize().
 float3 goffer_decode_normal(float3 texel) {
     return texel * 2.0f - 1.0f;
 }

@@ -63,8 +63,8 @@ struct Skin {
 class Mesh {
 public:
     /// Uploads what never changes: the body's columns, and `triangles`, 3 vertices of the body each, every
-    /// one < body.vertex_count(). `parts` lie within them. `body` is not empty, and not needed afterward. Of
-    /// a texture that is larger than the device takes, some rows and columns are left out.
+    /// one < body.vertex_count(). `parts` lie within them. `body` is not empty, and not needed afterward. If
+    /// a texture is larger than the device takes, some of its rows and columns are left out.
     Mesh(const bend::Body& body, std::span<const std::uint32_t> triangles, std::span<const Part> parts,
          const Skin& skin = {});
     Mesh(Mesh&&) noexcept;

@@ -61,8 +61,8 @@ float goffer_rest_ratio(GofferVertex vertex, int own_row, int row, float ratio) 
     return 1.0f + vertex.shape.z * (change.x + change.y * cosine + change.z * sine);
 }
 
-// That of the region whose rows begin at `row`, if the vertex is `ratio` times as far from the axis. `rest_ratio`: 1 in
-// the vertex's own region.
+// The wrinkle of the vertex in the region whose rows begin at `row`, if the vertex is `ratio` times as far from the
+// axis. `rest_ratio`: 1 in the vertex's own region.
 GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio, float rest_ratio) {
     GofferWrinkle wrinkle;
     vec4 change = goffer_row(row + 16);

@@ -27,7 +27,7 @@ template <class Work>
 /// The smallest of `values` that `share` (0 to 1) of them do not exceed; 0 where there are none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-/// That of one half.
+/// The quantile of one half.
 [[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace goffer::measure

@@ -30,8 +30,8 @@ enum class Accuracy {
 /// thread-safe.
 class Wave {
 public:
-    /// A node of the quadrature: the integral of F(g, g'^2) over u in 0..1 is the sum of weight * F. Of
-    /// Profile::even one half fold stands for all that are alike.
+    /// A node of the quadrature: the integral of F(g, g'^2) over u in 0..1 is the sum of weight * F. With
+    /// Profile::even, one half fold stands for all that are alike.
     struct Node {
         double weight;
         double shape;  ///< g(u)
