@@ -9,5 +9,5 @@ set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)
 
 # Header-only packages are the machine's own. Debian's cross compiler looks into /usr/include itself, after its own
 # headers; CMake knows that and leaves that folder out of the command line, where it would come before them.
-# Of these packages xsimd alone may have its config file where only the machine's own architecture is looked for.
+# Among these packages, xsimd alone may have its config file where only the machine's own architecture is looked for.
 set(xsimd_DIR /usr/lib/${CMAKE_HOST_SYSTEM_PROCESSOR}-linux-gnu/cmake/xsimd CACHE PATH "Where xsimdConfig.cmake is")

@@ -11,7 +11,7 @@ set multiplot layout rows, column_count margins screen 0.05, 0.985, 60.0 / (175 
 
 spaced(text) = system("echo '".text."' | tr _ ' '")
 
-# Of many commits, some ten are named.
+# Where there are many commits, some ten are named.
 count = words(commits)
 step = (count + 9) / 10
 set xrange [-0.5 : count - 0.5]

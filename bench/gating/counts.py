@@ -25,7 +25,7 @@ LIBRARIES = (("engine", "goffer_engine"), ("modules/bend", "goffer_bend"))
 
 @dataclasses.dataclass(frozen=True)
 class Work:
-    """Of one frame."""
+    """The instructions that one frame takes."""
 
     instructions: float = 0
     slow: float = 0  # divisions and roots
@@ -105,7 +105,7 @@ def per_instance(frames: dict[tuple[int, int], Work]) -> Work:
 
 
 def work_counts(program: str) -> dict[str, float]:
-    """Of each kernel and set of streams."""
+    """Counts the work of each kernel, for each set of streams."""
     counts = {}
     for (isa, streams), frames in profiles(program).items():
         vertex, instance = per_vertex(frames), per_instance(frames)

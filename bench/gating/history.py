@@ -43,8 +43,8 @@ def record(path: pathlib.Path, parts: list[Part], facts: dict[str, str]) -> None
 
 
 def read(path: pathlib.Path) -> tuple[list[str], Series]:
-    """The commits in the order that they were first recorded in, and the values. Of the processor and the compiler of
-    the last line alone: others' are not to be compared with them."""
+    """The commits in the order that they were first recorded in, and the values. Takes only the lines that
+    have the processor and the compiler of the last one: others' values are not to be compared with its."""
     try:
         with open(path, encoding="utf-8", newline="") as file:
             lines = list(csv.DictReader(file))

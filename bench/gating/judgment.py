@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What pairs of times say about a case.
 
-A pair's figure is the logarithm of head / base. Of the pairs of a case there are the median, a bootstrap interval for
-it, and Wilcoxon's signed-rank test of no change. With m cases the interval is at the level 1 - alpha / m (Bonferroni),
-and the p values are Holm's: among all cases one is called changed by chance with a probability of alpha at most.
+A pair's figure is the logarithm of head / base. Each case has the median of its pairs' figures, a bootstrap interval
+for it, and Wilcoxon's signed-rank test of no change. With m cases the interval is at the level 1 - alpha / m
+(Bonferroni), and the p values are Holm's: among all cases one is called changed by chance with a probability of alpha
+at most.
 """
 
 from __future__ import annotations
@@ -42,13 +43,13 @@ class Estimate:
 
 
 def log_ratios(pairs: Sequence[tuple[float, float]]) -> np.ndarray:
-    """Of (base, head) times."""
+    """Returns the logarithm of head / base for each pair of (base, head) times."""
     times = np.asarray(pairs, dtype=float)
     return np.log(times[:, 1] / times[:, 0])
 
 
 def estimate(pairs: Sequence[tuple[float, float]], cases: int) -> Estimate:
-    """Of one among `cases` cases; `p` is not adjusted yet."""
+    """Estimates one of `cases` cases from its pairs; `p` is not adjusted yet."""
     logs = log_ratios(pairs)
     if np.ptp(logs) == 0:  # nothing to resample: all the same
         low = high = logs[0]
@@ -73,7 +74,7 @@ def holm(p_values: Sequence[float]) -> list[float]:
 
 
 def estimates(pairs: dict[str, list[tuple[float, float]]]) -> dict[str, Estimate]:
-    """Of all cases, with adjusted p values."""
+    """Estimates all cases, with adjusted p values."""
     found = {case: estimate(of_case, len(pairs)) for case, of_case in pairs.items()}
     adjusted = holm([one.p for one in found.values()])
     return {case: dataclasses.replace(one, p=p) for (case, one), p in zip(found.items(), adjusted)}

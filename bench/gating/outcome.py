@@ -17,7 +17,7 @@ class Broken(Exception):
 
 
 class Verdict(enum.Enum):
-    """Of a row or of a part. The value is the word in reports."""
+    """The judgment on a row or on a part. The value is the word in reports."""
 
     PASS = "ok"
     GAIN = "better"

@@ -111,7 +111,7 @@ class Comparison:
 
 
 def common_cases(programs: tuple[str, str], wanted: list[str]) -> tuple[list[str], list[str]]:
-    """Those of the wanted cases that both programs have, and a remark on each that only one has."""
+    """Returns the wanted cases that both programs have, and a remark on each that only one has."""
     base, head = (set(cases_of(program)) for program in programs)
     remarks = [f"`{case}` is not in the base: not compared" for case in wanted if case in head - base]
     remarks += [f"`{case}` is in the base alone: not compared" for case in wanted if case in base - head]

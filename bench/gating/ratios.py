@@ -97,7 +97,7 @@ class Binding:
         return self.best is not None and self.best >= self.at_least
 
     def row(self) -> Row:
-        """Of the report."""
+        """Returns its row of the report."""
         row = Row(self.name, Verdict.PASS, self.at_least, self.best)
         if self.best is None:
             row.verdict, row.remark = Verdict.NOTE, "the program has no such case here"

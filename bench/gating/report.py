@@ -46,7 +46,7 @@ def word(row: Row) -> str:
 
 
 def pair_table(rows: list[Row]) -> list[str]:
-    """Of pairs."""
+    """Makes the table of pairs."""
     return table(["case", "base, ns", "head, ns", "change", "interval", "p", "pairs", "verdict"],
                  [[f"`{row.name}`", figure(row.base), figure(row.head), percent(row.change),
                    f"{percent(row.extra['low'])} .. {percent(row.extra['high'])}", f"{row.extra['p']:.2g}",
@@ -54,7 +54,7 @@ def pair_table(rows: list[Row]) -> list[str]:
 
 
 def count_table(rows: list[Row]) -> list[str]:
-    """Of counts: what moved in sight, the rest folded away."""
+    """Makes the table of counts: what moved in sight, the rest folded away."""
     cells = {row.name: [f"`{row.name}`", figure(row.base), figure(row.head), change_of(row), word(row)] for row in rows}
     heads = ["count", "baseline", "head", "change", "verdict"]
     moved = [cells[row.name] for row in rows if row.verdict is not Verdict.PASS]
@@ -67,7 +67,7 @@ def count_table(rows: list[Row]) -> list[str]:
 
 
 def ratio_table(rows: list[Row]) -> list[str]:
-    """Of ratios."""
+    """Makes the table of ratios."""
     return table(["ratio", "bound", "best", "verdict"],
                  [[f"`{row.name}`", figure(row.base), figure(row.head), word(row)] for row in rows])
 

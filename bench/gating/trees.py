@@ -95,7 +95,7 @@ class Repository:
         return self.git("status", "--porcelain", "--untracked-files=no") != ""
 
     def label(self) -> str:
-        """Of the files as they are."""
+        """Names the files as they are: their commit, and a + if they differ from it."""
         return self.commit("HEAD")[:12] + ("+" if self.is_changed() else "")
 
     def head(self, targets: list[str]) -> Tree:

@@ -724,7 +724,7 @@ class GOFFER_OT_reset(Operator):
 
 
 def pose_between(rest, pose, t):
-    """The pose at t of the way from rest. Of a body that is bent at rest, poses are vectors: angle times direction."""
+    """The pose at t of the way from rest. If the body is bent at rest, poses are vectors: angle times direction."""
     angle, direction = pose
     if rest.angle == 0:
         return t * angle, direction

@@ -93,7 +93,7 @@ def written(obj):
 
 
 def vertices_of(path):
-    """Of an OBJ, or a binary PLY whose vertices begin with three floats, as fuze.ply."""
+    """Reads the vertices of an OBJ, or of a binary PLY whose vertices begin with three floats, such as fuze.ply."""
     if path.endswith(".obj"):
         with open(path, encoding="ascii") as file:
             return np.array([line.split()[1:4] for line in file if line.startswith("v ")], np.float32)

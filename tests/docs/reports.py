@@ -212,7 +212,7 @@ class Comparison:
                 self.faults.setdefault((section, field), fault)
 
     def all_faults(self, without):
-        """Those of all runs, but for the sections that had none for a reason."""
+        """Yields the faults of all runs, and of the sections that had none, unless for a reason."""
         for section in self.sections:
             if section not in self.written and section not in without:
                 yield f"{PAGE}: {section}: no run is of this section"
@@ -224,7 +224,7 @@ class Comparison:
 
 
 def subcommands(goffer):
-    """Those that have reports."""
+    """Returns the subcommands that have reports."""
     def help_of(*words):
         return subprocess.run([goffer, *words, "--help"], capture_output=True, text=True, check=True).stdout
     names = re.findall(r"^  (\w+) ", help_of().partition("Subcommands:")[2], re.M)

@@ -15,7 +15,7 @@ from common import FARM, SHARES, Skip, call, compare, environment, make_scene, n
 
 
 def processes():
-    """Of all processes: number, environment and words, as far as they may be read."""
+    """Yields the number, environment and words of all processes, as far as they may be read."""
     for entry in pathlib.Path("/proc").iterdir():
         if entry.name.isdigit():
             with contextlib.suppress(OSError):

@@ -80,7 +80,8 @@ class Run:
         return Result(group, mutant, outcome, reason)
 
     def all(self, wanted: dict[str, tuple[list[Mutant], int]]) -> Iterator[Result]:
-        """Of each group the first so many that count, or all that there are; as they come, with those that do not count."""
+        """Tries the mutants of each group until so many count, or all are tried. Yields results as they come, those that do
+        not count too."""
         left = {group: collections.deque(mutants) for group, (mutants, _) in wanted.items()}
         with concurrent.futures.ThreadPoolExecutor(self._jobs) as pool:
             def submit(group):

@@ -38,7 +38,7 @@ def from_document(found: dict) -> list[Result]:
 
 
 def tally(results: list[Result]) -> dict[str, list[int]]:
-    """Of each group and of all: mutants, caught, survived and explained, survived and not explained."""
+    """Counts for each group and for all: mutants, caught, survived and explained, survived and not explained."""
     rows: dict[str, list[int]] = {}
     for one in results:
         if one.counts:
