@@ -249,10 +249,7 @@ double rest_direction(const bend::Body& body) {
 bool is_chain(const bend::Body& body) {
     const std::span<const bend::RegionInput> regions = body.region_inputs();
     return std::ranges::any_of(regions, [&](const bend::RegionInput& region) {
-        const double here = region.rest_angle / region.length,
-                     first = regions[0].rest_angle / regions[0].length;
-        return std::fabs(here - first) > 1e-6 * std::max(here, first) ||
-               (here != 0 && region.rest_direction != regions[0].rest_direction);
+        return !bend::share_rest_arc(region, regions[0], body.radius());
     });
 }
 

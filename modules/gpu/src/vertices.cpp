@@ -64,7 +64,7 @@ void write_vertices(const bend::Body& body, std::span<std::byte> result) noexcep
             if (layout.joint == VertexLayout::none) continue;
             const bend::NeighborShare beyond = bend::neighbor_share(body, r, from.height[i]);
             to.write({static_cast<float>(beyond.neighbor) * beyond.share, beyond.slope, beyond.gain,
-                      beyond.scale});
+                      beyond.radius_ratio});
         }
     }
 }

@@ -72,9 +72,9 @@ void Chain::add_joint(std::size_t region, double blend) {
         throw std::invalid_argument("blends: the wave has no depth at the joint behind region " +
                                     std::to_string(region));
     const double gain = next_depth / depth;
-    const double scale = own.radius / next.radius;
-    ends_[region].above = {blend, gain, scale};
-    ends_[region + 1].below = {blend, 1 / gain, 1 / scale};
+    const double radius_ratio = own.radius / next.radius;
+    ends_[region].above = {blend, gain, radius_ratio};
+    ends_[region + 1].below = {blend, 1 / gain, 1 / radius_ratio};
 }
 
 Depth Chain::depth(std::size_t region, const Cylindrical& rest) const {
@@ -83,12 +83,12 @@ Depth Chain::depth(std::size_t region, const Cylindrical& rest) const {
     Depth depth = maps_[region].depth(rest.beta, scale);
     const auto blend_with = [&](std::size_t neighbor, const Side& side, double distance, double toward) {
         if (side.blend == 0 || distance >= side.blend) return;
-        const Depth other = maps_[neighbor].depth(rest.beta, scale * side.scale);
+        const Depth other = maps_[neighbor].depth(rest.beta, scale * side.radius_ratio);
         const double x = std::min(1 - distance / side.blend, 1.0);
         const double share = share_of_neighbor(distance, side.blend),
                      share_slope = 3 * x * (1 - x) / side.blend;
         depth.by_z = toward * share_slope * (side.gain * other.amplitude - depth.amplitude);
-        depth.by_scale += share * (side.gain * side.scale * other.by_scale - depth.by_scale);
+        depth.by_scale += share * (side.gain * side.radius_ratio * other.by_scale - depth.by_scale);
         depth.by_beta += share * (side.gain * other.by_beta - depth.by_beta);
         depth.amplitude += share * (side.gain * other.amplitude - depth.amplitude);
     };

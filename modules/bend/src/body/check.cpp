@@ -163,13 +163,11 @@ BodyFault check_counts(const BodyInput& input) noexcept {
 /// Whether wrinkles may pass between regions that are bent along different arcs at rest: columns near the
 /// joint must not be squeezed to nothing in either, whose squeezes are compared there.
 bool bears_other_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept {
-    constexpr double most = 0.98;
-    for (const RegionInput* region : {&a, &b}) {
-        const double squeeze =
-            2 * region->rest_angle * radius_of(*region, radius) * region->max_scale / region->length;
-        if (!(squeeze <= most)) return false;
-    }
-    return true;
+    const auto bears = [radius](const RegionInput& region) {
+        const double most = region.length / (2 * radius_of(region, radius) * region.max_scale);
+        return region.rest_angle <= most * Range::max_joint_rest;
+    };
+    return bears(a) && bears(b);
 }
 
 /// Checks what region `r` says of its joint with the next one.

@@ -51,8 +51,8 @@ Words words_of(BodyField field) noexcept {
         case BodyField::blend:
             return {
                 "regions", ".blend",
-                "0, or from 1e-5 of both lengths to the room in both, which wrinkle; if along two rest arcs, "
-                "gentle ones; both with onsets, or neither"};
+                "0, or from 1e-5 of both lengths to the room in both, which wrinkle; rest arcs that leave "
+                "2 % of inner lines, or onsets, in both or neither"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};

@@ -40,7 +40,7 @@ JointBlend blend_between(const RegionInput& own, const RegionInput& neighbor, do
     joint.at = static_cast<float>(1 - steps / 2);
     joint.per_height = static_cast<float>(toward * steps);
     joint.per_length = static_cast<float>(toward / blend);
-    joint.squeeze = static_cast<float>(scale);
+    joint.radius_ratio = static_cast<float>(scale);
     set_arcs(own, neighbor, radius, joint);
     // Squeezes that are relative have the radius about a vertex in them, others as a factor on T and its
     // root.

@@ -28,9 +28,6 @@ struct Joint {
     }
 };
 
-/// Whether two regions are bent along the same arc at rest, or neither is. `radius`: of the body.
-[[nodiscard]] bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept;
-
 /// The joints where a region begins and ends.
 struct Joints {
     Joint below, above;
@@ -48,7 +45,7 @@ struct Joints {
 /// is made for.
 [[nodiscard]] inline bool bears_scale(const JointBlend& joint, double scale, double max_scale) noexcept {
     constexpr double slack = 1.01;
-    return scale * static_cast<double>(joint.squeeze) <= slack * max_scale;
+    return scale * static_cast<double>(joint.radius_ratio) <= slack * max_scale;
 }
 
 /// Sets what `own` has of wrinkles to that of the region beyond a joint, with amplitudes and squeezes as

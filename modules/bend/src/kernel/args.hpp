@@ -55,10 +55,11 @@ enum class Write : unsigned char {
 struct JointBlend {
     float at, per_height;
     float per_length;  ///< dx/dz
-    /// What the neighbor's amplitudes are multiplied by here, term by term, and its squeezes where these are
-    /// relative: its wave over that of the region, and the radii of both, may differ.
+    /// What the neighbor's amplitudes are multiplied by here, term by term: its wave over that of the region,
+    /// and the radii of both, may differ. Its squeezes, where these are relative, are multiplied by the ratio
+    /// of the radii.
     float gain[amplitude_terms];
-    float squeeze;
+    float radius_ratio;  ///< the own radius over the neighbor's
     /// Where squeezes are relative and the neighbor is bent along another arc at rest, the scale of a column
     /// in the neighbor at rest, over that in the region, is 1 + (kappa + curl . u) s / S_0, with u = (cos
     /// beta, sin beta).

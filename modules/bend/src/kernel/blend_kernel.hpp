@@ -40,11 +40,11 @@ void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i)
 }
 
 /// Sets the relative wrinkle that the neighbor makes of columns, whose rest arc is another. `at` is over S_0
-/// of the region itself, and so is the amplitude: R takes one S_0 to the other.
+/// of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other.
 template <class L, bool directions, class K>
 void set_wrinkle_of_other_arc(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
-    // R is more than 0.01 at vertices near the joint. Lanes of other regions' vertices may have any number.
+    // It is more than 0.01 at vertices near the joint. Lanes of other regions' vertices may have any number.
     constexpr float least = 0.005f;
     const Vec one = L::splat(1.0f);
     const Vec more =
@@ -113,14 +113,15 @@ Wrinkled<L> blend_batch(const RestColumns& rest, const K& k, const K& other_k, c
         if (has_shape<squeeze>(rest))
             b.less_by_scale = L::madd(share.value, other.less_by_scale - b.less_by_scale, b.less_by_scale);
         Jacobian<L> jacobian = bend::jacobian<L, squeeze>(rest, k, b, i);
-        jacobian.d = L::madd(share.slope * difference, offset, jacobian.d);
-        const auto& [growth, a, across, d] = jacobian;
+        jacobian.along = L::madd(share.slope * difference, offset, jacobian.along);
+        const auto& [outward, across, along, around] = jacobian;
         const auto [n_rho, n_beta, n_z] = load_vector<L>(rest.normal, i).component;
-        result.normal = {
-            {growth * n_rho, L::nmadd(across, n_rho, a * n_beta), growth * L::nmadd(d, n_rho, a * n_z)}};
+        result.normal = {{around * n_rho, L::nmadd(across, n_rho, outward * n_beta),
+                          around * L::nmadd(along, n_rho, outward * n_z)}};
         if (!tangents) return result;
         const auto [t_rho, t_beta, t_z] = load_vector<L>(rest.tangent, i).component;
-        result.tangent = {{L::madd(a, t_rho, L::madd(across, t_beta, d * t_z)), growth * t_beta, t_z}};
+        result.tangent = {
+            {L::madd(outward, t_rho, L::madd(across, t_beta, along * t_z)), around * t_beta, t_z}};
     }
     return result;
 }

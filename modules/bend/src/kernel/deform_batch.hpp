@@ -257,16 +257,16 @@ Vector<L> normalized(const Vector<L>& v) {
 
 /// The Jacobian in the bent frame, without Bent::stretch:
 ///
-///     | a  b       d       |
-///     | 0  growth  0       |
-///     | 0  0       stretch |
+///     | outward  across  along   |
+///     | 0        around  0       |
+///     | 0        0       stretch |
 ///
-/// Not used without wrinkles, where a and growth are 1, b and d 0.
+/// Not used without wrinkles, where outward and around are 1, across and along 0.
 /// See modules/paper/README.md, "Normals and tangents".
 template <class L>
 struct Jacobian {
-    typename L::Vec growth;  // rho' / rho
-    typename L::Vec a, b, d;
+    typename L::Vec outward, across, along;
+    typename L::Vec around;  // rho' / rho
 };
 
 /// Takes Bent::stretch of a body with a shape to its value for vectors: the arc angle grows more slowly where
@@ -294,12 +294,12 @@ template <class L, Squeeze squeeze, class Rest, class K>
 Jacobian<L> jacobian(const Rest& rest, const K& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
     const Vec wrinkle = L::load(rest.wrinkle + i);
-    const Vec growth = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
+    const Vec around = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
     // Below half the radius the depth weight is proportional to rho, so the wrinkle stretches rho as much as
     // the circle.
-    return {growth,
-            L::where_less(L::load(rest.rho + i), half_radius<L, squeeze>(rest, k, i), growth, L::splat(1.0f)),
-            bent.slope * wrinkle, along<L, squeeze>(rest, bent, i)};
+    const Vec outward =
+        L::where_less(L::load(rest.rho + i), half_radius<L, squeeze>(rest, k, i), around, L::splat(1.0f));
+    return {outward, bent.slope * wrinkle, along<L, squeeze>(rest, bent, i), around};
 }
 
 template <class L, Squeeze squeeze, class Rest, class K>
@@ -311,9 +311,9 @@ Vector<L> bend_normals(const Rest& rest, const K& k, const Bent<L>& b, const Jac
     if constexpr (squeeze == Squeeze::none) {
         return place_direction<L>(k, k.normal_matrix, b, b.stretch * rho, b.stretch * beta, z);
     } else {
-        const Vec n = b.stretch * (j.growth * rho);  // in this order, as blend_batch has it
-        const Vec bt = b.stretch * L::nmadd(j.b, rho, j.a * beta);
-        const Vec t = j.growth * L::nmadd(j.d, rho, j.a * z);
+        const Vec n = b.stretch * (j.around * rho);  // in this order, as blend_batch has it
+        const Vec bt = b.stretch * L::nmadd(j.across, rho, j.outward * beta);
+        const Vec t = j.around * L::nmadd(j.along, rho, j.outward * z);
         return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
     }
 }
@@ -327,8 +327,8 @@ Vector<L> bend_tangents(const Rest& rest, const K& k, const Bent<L>& b, const Ja
     if constexpr (squeeze == Squeeze::none) {
         return place_direction<L>(k, k.matrix, b, rho, beta, b.stretch * z);
     } else {
-        const Vec n = L::madd(j.a, rho, L::madd(j.b, beta, j.d * z));
-        return place_direction<L>(k, k.matrix, b, n, j.growth * beta, b.stretch * z);
+        const Vec n = L::madd(j.outward, rho, L::madd(j.across, beta, j.along * z));
+        return place_direction<L>(k, k.matrix, b, n, j.around * beta, b.stretch * z);
     }
 }
 

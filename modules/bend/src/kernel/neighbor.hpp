@@ -23,10 +23,10 @@ void take_as_own(const K& neighbor, const JointBlend& joint, bool relative, K& o
     take(neighbor.cos_direction, 1, own.cos_direction);
     take(neighbor.sin_direction, 1, own.sin_direction);
     take(neighbor.onset, 1, own.onset);
-    take(neighbor.kappa_change, joint.squeeze, own.kappa_change);
+    take(neighbor.kappa_change, joint.radius_ratio, own.kappa_change);
     for (std::size_t n = 0; n < 2; ++n) {
-        take(neighbor.rest_curl[n], joint.squeeze, own.rest_curl[n]);
-        take(neighbor.curl_change[n], joint.squeeze, own.curl_change[n]);
+        take(neighbor.rest_curl[n], joint.radius_ratio, own.rest_curl[n]);
+        take(neighbor.curl_change[n], joint.radius_ratio, own.curl_change[n]);
     }
 }
 

@@ -55,7 +55,7 @@ NeighborShare neighbor_share(const Body& body, std::size_t region, float height)
         const JointBlend& blend = joint.blend;
         const float x = std::min(blend.per_height * height + blend.at, 1.0f);
         return {neighbor, x * x * (1.5f - x), 3 * blend.per_length * (x - x * x), blend.gain[0],
-                blend.squeeze};
+                blend.radius_ratio};
     };
     if (below.nears(height)) return share_of(below, -1);
     if (above.nears(height)) return share_of(above, 1);

@@ -42,9 +42,11 @@ struct WorkingRange {
     static constexpr double min_angle = 1e-12;    ///< least max_angle of a region and of its tables, radians
     static constexpr double max_angle = 1000;     ///< largest max_angle, |rest_direction| and |beta|, radians
     static constexpr double max_rest = 1 - 1e-5;  ///< largest rest_angle over length / (2 radius max_scale)
-    static constexpr double max_wrinkle = 1e18;   ///< largest |wrinkle| and |slope|, 1 / model units
-    static constexpr double max_scale = 1e3;      ///< largest scale of a vertex, and of 1 / scale
-    static constexpr double max_taper = 1e3;      ///< largest |scale_slope| times the length over the scale
+    /// The same where wrinkles pass between regions that are bent along different arcs at rest.
+    static constexpr double max_joint_rest = 0.98;
+    static constexpr double max_wrinkle = 1e18;    ///< largest |wrinkle| and |slope|, 1 / model units
+    static constexpr double max_scale = 1e3;       ///< largest scale of a vertex, and of 1 / scale
+    static constexpr double max_taper = 1e3;       ///< largest |scale_slope| times the length over the scale
     static constexpr double max_blend_gain = 1e3;  ///< largest blend_gain, and 1 / blend_gain
     static constexpr double max_depth = 1e15;      ///< deepest wrinkle that a table may ask for
     static constexpr double max_growth = 1e6;  ///< largest factor that a wrinkle may stretch the surface by

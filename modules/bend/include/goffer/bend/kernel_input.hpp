@@ -97,15 +97,15 @@ static_assert(sizeof(Coefficients) == coefficient_rows * 4 * sizeof(float));
 
 /// What the wrinkle of a vertex near a joint has of the region beyond: its amplitude A, and derivatives of
 /// it, are A + share (A' - A). A' is the amplitude that the coefficients of that region give for s times
-/// `scale`, times `gain`; a factor sqrt(s) in it is the vertex's own, without `scale`. Where squeezes are
-/// relative, S_0 in A' and in its q is that of the column in that region. See modules/paper/README.md, "Folds
-/// over joints".
+/// `radius_ratio`, times `gain`; a factor sqrt(s) in it is the vertex's own, without that ratio. Where
+/// squeezes are relative, S_0 in A' and in its q is that of the column in that region. See
+/// modules/paper/README.md, "Folds over joints".
 struct NeighborShare {
     int neighbor = 0;  ///< 1: the next region, -1: the one before; 0: the vertex is near no joint
     float share = 0;   ///< 0..1/2
     float slope = 0;   ///< of the share, by z
     float gain = 1;
-    float scale = 1;
+    float radius_ratio = 1;  ///< the radius of the vertex's region over the neighbor's
 };
 
 /// Returns the share that the neighbor has in the wrinkle of vertices of region `region` of `body`, which is

@@ -73,10 +73,10 @@ struct BindOptions {
     /// From base to tip, at most bend::max_regions. Empty: the body is one region, or has one for each arc of
     /// its cylinder; it must be empty for a cylinder with arcs.
     std::vector<RegionOptions> regions = {};
-    /// Folds of Profile::even run on over the joints of regions that both wrinkle, and pass into each other
-    /// within a quarter of a fold on both sides, where they would else fade out; not where the folds of one
-    /// are more than three times as long as those of the other. Has no effect with other profiles, and with
-    /// Amplitude::area. See modules/paper/README.md, "Folds over joints".
+    /// Folds of Profile::even run on over the joints of regions that wrinkle alike, and pass into each other
+    /// within a quarter of a fold on both sides, where they would else fade out. Has no effect with other
+    /// profiles, and with Amplitude::area. See modules/paper/README.md, "Folds over joints", for what alike
+    /// means.
     bool folds_over_joints = true;
     /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
     /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,

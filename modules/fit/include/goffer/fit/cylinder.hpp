@@ -74,11 +74,13 @@ public:
 /// `axis` is within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and
 /// rest_angle is exactly 0.
 ///
-/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that line may get a chain of 2
-/// to 12 arcs (more where one would turn by more than a half), and its body as many regions: if its sections
-/// lie all around the chain, and are circles about it within 0.2 of the radius and within 0.7 of what they
-/// are about the line; if the middle of the body is more than a radius from the line somewhere; and if a
-/// given `axis` is within about 45 degrees of its chord. A mesh without a long axis may get one, too.
+/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that line, or much slenderer
+/// than its sections about it, may get a chain of 2 to 12 arcs (more where one would turn by more than a
+/// half), and its body as many regions: if its sections lie all around the chain, and are circles about it
+/// within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the body is more
+/// than a radius from the line somewhere; if all of it lies between the chain's ends; and if a given `axis`
+/// is within about 45 degrees of its chord, which is signed as the long axis is otherwise. A mesh without a
+/// long axis may get one, too.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.

@@ -14,7 +14,7 @@ struct GofferVertex {
     vec3 normal;
     vec4 shape;    // drift; taper; rest scale; scale: 0, 0, 0, 1 for a body that has none
     vec4 tangent;  // w: the sign
-    vec4 joint;    // share of the neighbor in the wrinkle, negative: of the region before; its slope; gain; scale
+    vec4 joint;    // share of the neighbor in the wrinkle, negative: of the region before; its slope; gain; radius ratio
 };
 
 struct GofferBent {
@@ -54,16 +54,16 @@ vec3 goffer_rest_squeeze(int row) {
 }
 
 // The scale of the vertex's column at rest in the region whose rows begin at `row`, over that in its own one.
-float goffer_rest_ratio(GofferVertex vertex, int own_row, int row, float ratio) {
-    vec3 change = goffer_rest_squeeze(own_row) - ratio * goffer_rest_squeeze(row);
+float goffer_rest_ratio(GofferVertex vertex, int own_row, int row, float radius_ratio) {
+    vec3 change = goffer_rest_squeeze(own_row) - radius_ratio * goffer_rest_squeeze(row);
     float cosine = vertex.column.x * vertex.column.x - 1.0f;
     float sine = vertex.column.x * vertex.column.y;
     return 1.0f + vertex.shape.z * (change.x + change.y * cosine + change.z * sine);
 }
 
-// The wrinkle of the vertex in the region whose rows begin at `row`, if the vertex is `ratio` times as far from the
-// axis. `rest_ratio`: 1 in the vertex's own region.
-GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio, float rest_ratio) {
+// The wrinkle of the vertex in the region whose rows begin at `row`, if the vertex is `radius_ratio` times as far from
+// the axis. `rest_ratio`: 1 in the vertex's own region.
+GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float radius_ratio, float rest_ratio) {
     GofferWrinkle wrinkle;
     vec4 change = goffer_row(row + 16);
     if (change.z > 0.0f) {  // relative to the rest arc
@@ -71,13 +71,13 @@ GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio, float re
         float rest_scale = vertex.shape.z / rest_ratio;
         float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
         float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
-        float q = ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
+        float q = radius_ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
         float per_root = inversesqrt(q + change.z);
         float root = q * per_root;
         float x = root * root;
         wrinkle.amplitude = root * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
-        float rest_slope = ratio * (rest.z * rest_sine - rest.w * rest_cosine);
-        float turned = ratio * (change.y * rest_cosine - change.x * rest_sine);
+        float rest_slope = radius_ratio * (rest.z * rest_sine - rest.w * rest_cosine);
+        float turned = radius_ratio * (change.y * rest_cosine - change.x * rest_sine);
         float per_q = per_root * (1.0f - 0.5f * root * per_root) *
                       goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
         wrinkle.slope = wrinkle.amplitude * rest_slope + (q > 0.0f ? per_q * (turned - q * rest_slope) : 0.0f);
@@ -88,7 +88,7 @@ GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float ratio, float re
         vec4 pose = goffer_row(row);
         float h_prime = vertex.column.y * pose.x - vertex.column.x * pose.y;
         float h = vertex.column.x * pose.x + vertex.column.y * pose.y;
-        float x = h * h * vertex.shape.w * ratio;
+        float x = h * h * vertex.shape.w * radius_ratio;
         wrinkle.amplitude = abs(h) * goffer_series(goffer_row(row + 11), goffer_row(row + 12), x);
         // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
         float per_turn = goffer_series(goffer_row(row + 13), goffer_row(row + 14), x);
@@ -115,8 +115,9 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     float difference = 0.0f;  // to what the region beyond a joint makes of it
     if (vertex.joint.x != 0.0f) {
         int beyond = vertex.joint.x > 0.0f ? row + 17 : row - 17;
-        float ratio = vertex.joint.w;
-        GofferWrinkle other = goffer_wrinkle(vertex, beyond, ratio, goffer_rest_ratio(vertex, row, beyond, ratio));
+        float radius_ratio = vertex.joint.w;
+        GofferWrinkle other = goffer_wrinkle(vertex, beyond, radius_ratio,
+                                             goffer_rest_ratio(vertex, row, beyond, radius_ratio));
         float share = abs(vertex.joint.x);
         float gain = vertex.joint.z;
         difference = gain * other.amplitude - wrinkle.amplitude;
@@ -141,26 +142,27 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     }
     float stretch = pose.z - pose.w * rho_c;
 
-    vec3 n = goffer_row3(row + 4);
-    vec3 b = goffer_row3(row + 5);
-    vec3 along = goffer_row3(row + 6);
+    vec3 frame_n = goffer_row3(row + 4);
+    vec3 frame_b = goffer_row3(row + 5);
+    vec3 frame_t = goffer_row3(row + 6);
     GofferBent bent;
-    bent.position = goffer_row3(row + 7) + n * (arc_x * stretch + rho_c) + b * rho_s + along * (arc_z * stretch);
+    bent.position = goffer_row3(row + 7) + frame_n * (arc_x * stretch + rho_c) + frame_b * rho_s +
+                    frame_t * (arc_z * stretch);
 
-    // The Jacobian in the bent frame: a, b and d of its first row, growth and stretch of its diagonal.
+    // The Jacobian in the bent frame: outward, across and along in its first row, around and stretch on its diagonal.
     float kappa = 1.0f - pose.z;
     stretch = stretch * (1.0f + kappa - kappa * scale);
-    float growth = 1.0f + amplitude * vertex.wrinkle.y;
-    float j_a = vertex.column.z < size.z * scale ? growth : 1.0f;
-    float j_b = wrinkle.slope * vertex.wrinkle.y;
-    float j_d = amplitude * vertex.wrinkle.z - wrinkle.less_by_scale * vertex.shape.y +
+    float around = 1.0f + amplitude * vertex.wrinkle.y;
+    float outward = vertex.column.z < size.z * scale ? around : 1.0f;
+    float across = wrinkle.slope * vertex.wrinkle.y;
+    float along = amplitude * vertex.wrinkle.z - wrinkle.less_by_scale * vertex.shape.y +
                 vertex.joint.y * difference * vertex.wrinkle.x;
     float cosine = 1.0f - pose.w * arc_x;
     float sine = pose.w * arc_z;
 
     vec3 at_rest = vertex.normal;
-    vec3 local = vec3(growth * stretch * at_rest.x, stretch * (j_a * at_rest.y - j_b * at_rest.x),
-                      growth * (j_a * at_rest.z - j_d * at_rest.x));
+    vec3 local = vec3(around * stretch * at_rest.x, stretch * (outward * at_rest.y - across * at_rest.x),
+                      around * (outward * at_rest.z - along * at_rest.x));
     float p = c * local.x - s * local.y;
     vec3 turned = goffer_row3(row + 8) * (p * cosine + local.z * sine) +
                   goffer_row3(row + 9) * (s * local.x + c * local.y) +
@@ -168,9 +170,10 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     bent.normal = turned * inversesqrt(dot(turned, turned) + 1e-30f);
 
     at_rest = vec3(vertex.tangent.x, vertex.tangent.y, vertex.tangent.z);
-    local = vec3(j_a * at_rest.x + j_b * at_rest.y + j_d * at_rest.z, growth * at_rest.y, stretch * at_rest.z);
+    local = vec3(outward * at_rest.x + across * at_rest.y + along * at_rest.z, around * at_rest.y, stretch * at_rest.z);
     p = c * local.x - s * local.y;
-    turned = n * (p * cosine + local.z * sine) + b * (s * local.x + c * local.y) + along * (local.z * cosine - p * sine);
+    turned = frame_n * (p * cosine + local.z * sine) + frame_b * (s * local.x + c * local.y) +
+             frame_t * (local.z * cosine - p * sine);
     bent.tangent = vec4(turned * inversesqrt(dot(turned, turned) + 1e-30f), size.w * vertex.tangent.w);
     return bent;
 }

@@ -62,8 +62,8 @@ private:
     /// A joint as a region beside it sees it.
     struct Side {
         double blend = 0;
-        double gain = 1;   // on the neighbor's amplitude: its wave over the own one at the joint
-        double scale = 1;  // the own radius over the neighbor's
+        double gain = 1;          // on the neighbor's amplitude: its wave over the own one at the joint
+        double radius_ratio = 1;  // the own radius over the neighbor's
     };
     /// The two ends of a region.
     struct Ends {
