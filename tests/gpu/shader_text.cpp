@@ -103,8 +103,9 @@ TEST_CASE("the shader's text agrees with the double closed form, for bodies of e
     Worst worst;
     for (int trial = 0; trial < 24; ++trial) {
         CAPTURE(trial);
-        const BoundCase one = trial % 4 == 3 ? random_arcs(random, 2 + random() % 4, {.folds = 20})
-                                             : random_case(random, 1 + random() % 6, trial % 3 == 0);
+        const bool arcs = trial % 4 == 3;
+        const BoundCase one = arcs ? random_arcs(random, 2 + random() % 4, {.folds = 20})
+                                   : random_case(random, 1 + random() % 6, trial % 3 == 0);
         const std::size_t count = one.test_mesh.positions.size();
         const std::vector<bend::Pose> poses = random_poses(random, one.binding.body);
         const Expected expected(ChainReference(one.test_mesh, one.options, one.binding, poses), count);
@@ -112,8 +113,9 @@ TEST_CASE("the shader's text agrees with the double closed form, for bodies of e
         const Output shader = shaded(make_job(one.binding.body, poses, Isa::automatic, out));
         const Worst here(expected, shader, one.test_mesh.cylinder.length);
         CHECK(here.position <= 5e-6);
-        CHECK(here.normal <= 0.01);
-        CHECK(here.tangent <= 0.01);
+        const double most = arcs ? 0.05 : 0.01;  // the slope jumps where a wrinkle with an onset begins
+        CHECK(here.normal <= most);
+        CHECK(here.tangent <= most);
         CHECK(here.unit <= 1e-6);
         worst.add(here);
     }

@@ -87,31 +87,34 @@ void twins_agree(GlApi api, unsigned seed) {
         return;
     }
     Random random(seed);
-    double position = 0, normal = 0, tangent = 0;
+    double position = 0, direction_of_arcs = 0, direction_of_others = 0;
     for (int trial = 0; trial < 12; ++trial) {
         CAPTURE(trial);
+        const bool arcs = trial % 4 == 3;
         const BoundCase one =
-            trial % 4 == 3 ? random_arcs(random, 2 + random() % 4, {.folds = 20})
-                           : random_case(random, 1 + static_cast<std::size_t>(trial) % 5, trial % 3 == 0);
+            arcs ? random_arcs(random, 2 + random() % 4, {.folds = 20})
+                 : random_case(random, 1 + static_cast<std::size_t>(trial) % 5, trial % 3 == 0);
         const Crowd crowd(random, one);
         const std::vector<GlVertex> expected = crowd.deformed(), is = crowd.deformed_by(*shader);
         const double length = one.test_mesh.cylinder.length;
+        double direction = 0;
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const GlVertex &a = expected[i], &b = is[i];
             // Where an instance stands is in its transform, and in the rounding.
             const double size = length + glm::length(vector(a.position));
             take_worst(position, glm::distance(vector(a.position), vector(b.position)) / size);
-            take_worst(normal, angle_between(vector(a.normal), vector(b.normal)));
+            take_worst(direction, angle_between(vector(a.normal), vector(b.normal)));
             const glm::dvec3 along(a.tangent[0], a.tangent[1], a.tangent[2]);
-            take_worst(tangent, angle_between(along, {b.tangent[0], b.tangent[1], b.tangent[2]}));
+            take_worst(direction, angle_between(along, {b.tangent[0], b.tangent[1], b.tangent[2]}));
             REQUIRE(a.tangent[3] == b.tangent[3]);
         }
         REQUIRE(position <= 5e-6);
-        REQUIRE(normal <= 0.02);
-        REQUIRE(tangent <= 0.02);
+        // The slope of a wrinkle with an onset jumps where it begins.
+        REQUIRE(direction <= (arcs ? 0.05 : 0.02));
+        take_worst(arcs ? direction_of_arcs : direction_of_others, direction);
     }
-    MESSAGE(shader->device(), ": position ", position, " L, normal ", normal, " deg, tangent ", tangent,
-            " deg");
+    MESSAGE(shader->device(), ": position ", position, " L, normals and tangents ", direction_of_others,
+            " deg, of chains of arcs ", direction_of_arcs, " deg");
 }
 
 }  // namespace
