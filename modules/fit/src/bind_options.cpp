@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "rest.hpp"
 #include "text.hpp"
 
 #include <goffer/bend/region.hpp>

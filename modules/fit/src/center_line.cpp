@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -150,7 +151,7 @@ CenterPoints center_points(const Body& body) {
     const std::size_t tip = farthest(from_base);
     const std::vector<double> from_tip = graph.distances(tip);
     const double length = from_base[tip];
-    const double radius = area_of(body) / (6.3 * length);
+    const double radius = area_of(body) / (2 * std::numbers::pi * length);
     const double slices = std::floor(length / (center_step * radius));
     if (!(slices >= fewest_centers)) return {{}, radius};
     const auto bins = static_cast<std::size_t>(std::min(slices, most_centers));

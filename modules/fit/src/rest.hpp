@@ -57,6 +57,16 @@ void join_folds(std::vector<RestRegion>& regions, double radius, double onset);
            (cylinder.rest_angle != 0 && options.regions.size() > 1);
 }
 
+/// Returns the regions that `options` ask for: one over the whole length if there are none. Those without
+/// folds of their own get BindOptions::folds.
+[[nodiscard]] std::vector<RegionOptions> regions_of(const BindOptions& options);
+
+/// Returns `cylinder` with another length: a stretch of it, for sensible_folds().
+[[nodiscard]] inline Cylinder stretch_of(Cylinder cylinder, double length) {
+    cylinder.length = length;
+    return cylinder;
+}
+
 /// Returns the options with the regions of a base that is bent along a chain, which has one for each arc, and
 /// shares BindOptions::folds out over them by their lengths; of any other, the options themselves. Throws
 /// Error if there are regions beside those of a chain.

@@ -75,7 +75,7 @@ struct GltfReport {
 ///
 /// Throws mesh::Error if the ending or the options are not these, there are no vertices, entries do not fit,
 /// a frame is not finite, or `memory` is too little for one target and two frames; and what save_morphing()
-/// throws.
+/// throws. Thread-safe for different `frames` and `files`.
 [[nodiscard]] GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& options,
                                    const std::filesystem::path& file, io::AtomicFiles& files);
 

@@ -39,7 +39,7 @@ struct Mark {
 
 /// Draws. Needs the context that it was made in to be current, its destructor too. Texture unit 0 must be
 /// active, and how pixels are unpacked and polygons filled as OpenGL begins with. Leaves the state of OpenGL
-/// changed. Move-only.
+/// changed. Move-only; for the thread whose context that is.
 class Renderer {
 public:
     /// Throws Error where the context is older than OpenGL 3.3 and ES 3.0, or refuses a shader.

@@ -101,11 +101,8 @@ struct BindOptions {
 /// Thread-safe.
 void check(std::span<const RegionOptions> regions);
 
-/// Returns the regions that `options` ask for: one over the whole length if there are none. Those without
-/// folds of their own get BindOptions::folds. Thread-safe.
-[[nodiscard]] std::vector<RegionOptions> regions_of(const BindOptions& options);
-
-/// Returns BindOptions::fold_length where nobody says: 0.5 for Profile::even (less on a stout body), else 1.
+/// Returns the default of BindOptions::fold_length: 0.5 for Profile::even (less on a stout body), else 1.
+/// Thread-safe.
 [[nodiscard]] double default_fold_length(Profile profile);
 
 }  // namespace goffer::fit

@@ -111,12 +111,6 @@ public:
 /// that of the cylinder, within 1e-6, or rest_angle is not 0 beside them. Thread-safe.
 void check(const Cylinder& cylinder);
 
-/// Returns `cylinder` with another length: a stretch of it, for sensible_folds(). Thread-safe.
-[[nodiscard]] inline Cylinder stretch_of(Cylinder cylinder, double length) {
-    cylinder.length = length;
-    return cylinder;
-}
-
 /// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one and
 /// for a chain; model units. `cylinder` must pass check(). Thread-safe.
 [[nodiscard]] inline double rest_radius(const Cylinder& cylinder) {

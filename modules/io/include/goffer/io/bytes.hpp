@@ -11,7 +11,7 @@
 
 namespace goffer::io {
 
-/// Returns the number in the first bytes of `bytes`, which must have enough of them.
+/// Returns the number in the first bytes of `bytes`, which must have enough of them. Thread-safe.
 template <class T>
 [[nodiscard]] T from_bytes(std::string_view bytes, std::endian order = std::endian::little) {
     std::array<char, sizeof(T)> raw;
@@ -20,7 +20,7 @@ template <class T>
     return std::bit_cast<T>(raw);
 }
 
-/// Appends the bytes of each value.
+/// Appends the bytes of each value to `out`. Thread-safe.
 template <class... T>
 void append_bytes(std::string& out, std::endian order, T... values) {
     const auto append_one = [&](auto raw) {

@@ -17,17 +17,18 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// `text` fit for one line: control characters become '_'.
+/// Returns `text` fit for one line: control characters become '_'. Thread-safe.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// `text` fit for a terminal: bytes that are no UTF-8, control characters, and characters that end a line or
-/// turn its direction become \xNN, so that a file's name, or text out of a file, does nothing but be read.
+/// Returns `text` fit for a terminal: bytes that are no UTF-8, control characters, and characters that end a
+/// line or turn its direction become \xNN, so that a file's name, or text out of a file, does nothing but be
+/// read. Thread-safe.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// "<file>: <what>", where the file's name is escaped.
+/// Returns "<file>: <what>", with the file's name escaped. Thread-safe.
 [[nodiscard]] std::string about(const std::filesystem::path& file, std::string_view what);
 
-/// "2 GiB", "100 MiB", "3 bytes": in the largest unit that leaves a whole number.
+/// Returns "2 GiB", "100 MiB", "3 bytes": in the largest unit that leaves a whole number. Thread-safe.
 [[nodiscard]] std::string size_text(std::uint64_t bytes);
 
 }  // namespace goffer::io

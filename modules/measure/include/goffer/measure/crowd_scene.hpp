@@ -23,7 +23,7 @@ struct CrowdGroup {
 
 /// A crowd to be deformed frame after frame: bodies, the poses of their instances, the caller's memory, and
 /// the batches that put these together, one for each group. Instances are counted from group to group.
-/// Move-only.
+/// Move-only; for one thread at a time.
 class CrowdScene {
 public:
     /// `memory` has layout.memory_floats(vertex_count(groups)) floats, or more, and outlives the scene, as

@@ -33,14 +33,14 @@ struct StreamLayout {
     [[nodiscard]] std::size_t memory_floats(std::size_t vertices) const noexcept;
 };
 
-/// All of them.
+/// Returns all of them. Thread-safe.
 [[nodiscard]] std::span<const StreamLayout> stream_layouts() noexcept;
 
-/// The one of that name, which must be there.
+/// Returns the one of that name, which must be there. Thread-safe.
 [[nodiscard]] const StreamLayout& stream_layout(std::string_view name) noexcept;
 
 /// Sets the streams of `job` or `batch` to `count` vertices from vertex `first` of `memory` on, all of which
-/// is in `layout`: memory_floats() of it. Planes are as far apart as it allows.
+/// is in `layout`: memory_floats() of it. Planes are as far apart as it allows. Thread-safe.
 void set_streams(bend::DeformJob& job, const StreamLayout& layout, std::span<float> memory, std::size_t first,
                  std::size_t count) noexcept;
 void set_streams(bend::Batch& batch, const StreamLayout& layout, std::span<float> memory, std::size_t first,
