@@ -205,6 +205,10 @@ TEST_CASE("what would leave float's range is refused") {
     CHECK(wrinkled([](RestVertex& v) { v.wrinkle = 1e8; }).field == BodyField::wrinkle);
     CHECK(wrinkled([](RestVertex& v) { v.slope = -1e8; }).field == BodyField::slope);
     CHECK(wrinkled([](RestVertex& v) { v.wrinkle = 1e6; }).field == BodyField::rho);
+    CHECK(wrinkled([](RestVertex& v) { v.wrinkle = 2e4; }).none());
+    CHECK(wrinkled([](RestVertex& v) { v.wrinkle = 1e4, v.scale_slope = -1e3; }).none());
+    CHECK(wrinkled([](RestVertex& v) { v.wrinkle = 2e4, v.scale_slope = -1e3; }) ==
+          BodyFault{BodyField::scale_slope, Reason::out_of_range, 1});
 }
 
 TEST_CASE("a body's fault says the field, the place and the reason") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body/check.hpp"
 #include "body_files.hpp"
 
 #include <doctest/doctest.h>
@@ -141,6 +142,37 @@ TEST_CASE("body file: a forged one is refused for what is in it") {
             });
             CHECK(fault.section == FileSection::directory);
         }
+    }
+}
+
+TEST_CASE("body file: wrinkles that get too steep where a body tapers are refused") {
+    for (const bool compares : {false, true}) {
+        CAPTURE(compares);
+        bend::RegionInput region{.length = 1, .max_angle = 2, .vertex_count = 4, .max_scale = 2};
+        region.onset = compares ? 0.1 : 0;
+        region.table = {2, {bend::WrinkleRow{1}, bend::WrinkleRow{1}}};
+        const double depth = bend::deepest_wrinkle({&region, 1}, 0, 0.1);
+        std::vector<bend::RestVertex> vertices;
+        for (const double scale : {0.5, 1.0, 1.5, 2.0})
+            vertices.push_back(
+                {.rho = 0.1, .wrinkle = 9e3 / depth, .scale = scale, .scale_slope = 1e3 * scale});
+        vertices[3].scale_slope *= -0.99;
+        const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
+        bend::BodyInput input;
+        input.radius = 0.1;
+        input.regions = {&region, 1};
+        input.vertices = vertices;
+        input.normals = normals;
+        const bend::Body body = bend::Body::make(input).value();
+        const auto fault_with = [&](float coefficient) {
+            return fault_after(body, [&](std::span<std::byte> bytes) {
+                for (const std::size_t row : {0, 1})
+                    put(bytes, begin_of(bytes, FileSection::wrinkle_rows) + row * sizeof(bend::WrinkleRow),
+                        coefficient);
+            });
+        };
+        CHECK(fault_with(1.1f).none());
+        CHECK(fault_with(1.2f).body.field == bend::BodyField::scale_slope);
     }
 }
 

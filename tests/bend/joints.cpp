@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body/check.hpp"
 #include "body_files.hpp"
 #include "support/bound_case.hpp"
 #include "support/chain_checks.hpp"
@@ -402,6 +403,50 @@ TEST_CASE("near a joint, vertices that are not near it stay numbers, however thi
     input.regions = without;
     CHECK(bend::Body::check(input) ==
           bend::BodyFault{bend::BodyField::blend_gain, bend::Reason::not_finite, 0});
+}
+
+TEST_CASE("wrinkles that pass into each other too steeply are refused, in sockets and files too") {
+    for (const bool compares : {false, true}) {
+        CAPTURE(compares);
+        bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = 4};
+        region.onset = compares ? 0.1 : 0;
+        region.table = {4, {bend::WrinkleRow{1}, bend::WrinkleRow{1}}};
+        std::vector<bend::RegionInput> regions{region, region};
+        regions[0].blend = 1e-3;
+        const double depth = bend::deepest_wrinkle(regions, 0, 0.1);
+        std::vector<bend::RestVertex> vertices;
+        for (const double z : {0.0, 0.5, 0.9, 0.9995, 0.0, 0.1, 0.5, 1.0})
+            vertices.push_back({.z = z, .rho = 0.1, .wrinkle = 9e3 / depth});  // 0.9e6 within the blend
+        const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
+        bend::BodyInput input;
+        input.radius = 0.1;
+        input.regions = regions;
+        input.vertices = vertices;
+        input.normals = normals;
+        const bend::Body body = bend::Body::make(input).value();
+        vertices[2].wrinkle *= 2;  // not near the joint
+        CHECK(bend::Body::check(input).none());
+        vertices[3].wrinkle *= -2;
+        CHECK(bend::Body::check(input) ==
+              bend::BodyFault{bend::BodyField::wrinkle, bend::Reason::out_of_range, 3});
+        for (const double z : {0.9, 0.9995}) {
+            const bend::NamedSocket socket{"", {0, {0, z, 0.1, 1.8e4 / depth, 0}}};
+            const bend::LevelInput level{&body};
+            bend::BodyFileInput file;
+            file.levels = {&level, 1};
+            file.sockets = {&socket, 1};
+            CHECK(bend::save(file).empty() == (z > 0.99));
+        }
+        const auto fault_with = [&](float coefficient) {
+            return fault_after(body, [&](std::span<std::byte> bytes) {
+                for (const std::size_t row : {0, 1, 2, 3})
+                    put(bytes, begin_of(bytes, FileSection::wrinkle_rows) + row * sizeof(bend::WrinkleRow),
+                        coefficient);
+            });
+        };
+        CHECK(fault_with(1.1f).none());
+        CHECK(fault_with(1.2f).body.field == bend::BodyField::wrinkle);
+    }
 }
 
 TEST_CASE("a socket that is too thick for the region beyond a joint is refused with its file") {

@@ -197,9 +197,9 @@ BodyFault check_joint(const BodyInput& input, std::size_t r) noexcept {
     return below && above ? BodyFault{} : BodyFault{BodyField::blend_gain, Reason::out_of_range, r};
 }
 
-/// Checks that vertices near one joint of region `r` do not lie among those near the other, and are not too
-/// thick for the region beyond. `first`: of the region's vertices.
-BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first) noexcept {
+/// Checks that vertices near one joint of region `r` do not lie among those near the other, and what
+/// check_near_joints() does. `first`: of the region's vertices; `depth`: of its wrinkles.
+BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first, double depth) noexcept {
     const RegionInput& region = input.regions[r];
     const Joints joints = joints_of(input.regions, r, input.radius);
     if (!joints.below.blends() && !joints.above.blends()) return {};
@@ -209,7 +209,7 @@ BodyFault check_order(const BodyInput& input, std::size_t r, std::size_t first) 
         beyond = beyond || joints.above.nears(height_of(vertex, region.length));
         if (beyond && joints.below.nears(height_of(vertex, region.length)))
             return {BodyField::vertices, Reason::out_of_range, i};
-        const BodyFault fault = check_near_joints(vertex, i, region.length, joints, input.regions);
+        const BodyFault fault = check_near_joints(vertex, i, region.length, depth, joints, input.regions);
         if (!fault.none()) return fault;
     }
     return {};
@@ -221,7 +221,7 @@ BodyFault check_vertices(const BodyInput& input) noexcept {
         const auto r = static_cast<std::size_t>(&region - input.regions.data());
         const double radius = radius_of(region, input.radius);
         const double depth = deepest_wrinkle(input.regions, r, input.radius);
-        if (const BodyFault fault = check_order(input, r, i); !fault.none()) return fault;
+        if (const BodyFault fault = check_order(input, r, i, depth); !fault.none()) return fault;
         for (const std::size_t last = i + region.vertex_count; i < last; ++i) {
             const BodyFault fault = check_vertex(input.vertices[i], i, region, radius, depth);
             if (!fault.none()) return fault;
@@ -301,27 +301,31 @@ BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput
     const double growth = depth * std::fabs(v.wrinkle);
     const double reach = region.max_angle * v.rho * (1 + growth) / region.length;
     const double max_drift = region.length * radius * region.max_scale;
-    const Limited numbers[] = {{BodyField::beta, v.beta, -Range::max_angle, Range::max_angle},
-                               {BodyField::z, v.z, -slack, region.length + slack},
-                               {BodyField::rho, v.rho, 0, Range::max_length},
-                               {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
-                               {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
-                               {BodyField::wrinkle, growth, 0, Range::max_growth},
-                               {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
-                               {BodyField::rho, reach, 0, Range::max_radius_ratio},
-                               {BodyField::scale, v.scale, 1 / Range::max_scale, region.max_scale},
-                               {BodyField::scale_slope, v.scale_slope * region.length / v.scale,
-                                -Range::max_taper, Range::max_taper},
-                               {BodyField::drift, v.drift, -max_drift, max_drift}};
+    const Limited numbers[] = {
+        {BodyField::beta, v.beta, -Range::max_angle, Range::max_angle},
+        {BodyField::z, v.z, -slack, region.length + slack},
+        {BodyField::rho, v.rho, 0, Range::max_length},
+        {BodyField::wrinkle, v.wrinkle, -max_wrinkle, max_wrinkle},
+        {BodyField::slope, v.slope, -max_wrinkle, max_wrinkle},
+        {BodyField::wrinkle, growth, 0, Range::max_growth},
+        {BodyField::slope, depth * std::fabs(v.slope), 0, Range::max_growth},
+        {BodyField::rho, reach, 0, Range::max_radius_ratio},
+        {BodyField::scale, v.scale, 1 / Range::max_scale, region.max_scale},
+        {BodyField::scale_slope, v.scale_slope * region.length / v.scale, -Range::max_taper,
+         Range::max_taper},
+        {BodyField::scale_slope, growth * v.rho * std::fabs(v.scale_slope) / v.scale, 0, Range::max_growth},
+        {BodyField::drift, v.drift, -max_drift, max_drift}};
     return first_fault(numbers, index);
 }
 
-BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length, const Joints& joints,
-                            std::span<const RegionInput> regions) noexcept {
+BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length, double depth,
+                            const Joints& joints, std::span<const RegionInput> regions) noexcept {
     for (const Joint* joint : {&joints.below, &joints.above}) {
-        if (joint->nears(height_of(v, length)) &&
-            !bears_scale(joint->blend, v.scale, regions[joint->neighbor].max_scale))
+        if (!joint->nears(height_of(v, length))) continue;
+        if (!bears_scale(joint->blend, v.scale, regions[joint->neighbor].max_scale))
             return {BodyField::scale, Reason::out_of_range, index};
+        if (!bears_offset(joint->blend, v.wrinkle * v.rho, depth))
+            return {BodyField::wrinkle, Reason::out_of_range, index};
     }
     return {};
 }

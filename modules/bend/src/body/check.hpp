@@ -25,9 +25,10 @@ namespace goffer::bend {
 [[nodiscard]] BodyFault check_vertex(const RestVertex& v, std::size_t index, const RegionInput& region,
                                      double radius, double depth) noexcept;
 
-/// Checks that vertex `index` is not too thick for the region beyond a joint of its own region that it is
-/// near. `joints`: of that region, of which `regions` are the neighbors.
-[[nodiscard]] BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length,
+/// Checks that vertex `index`, if it is near a joint of its region, is not too thick for the region beyond,
+/// and that its wrinkle does not pass into that of the other too steeply. `depth`: the deepest_wrinkle() of
+/// its region, `joints`: of that region, of which `regions` are the neighbors.
+[[nodiscard]] BodyFault check_near_joints(const RestVertex& v, std::size_t index, double length, double depth,
                                           const Joints& joints,
                                           std::span<const RegionInput> regions) noexcept;
 

@@ -78,7 +78,8 @@ Words words_of(BodyField field) noexcept {
             return {"vertices", ".scale",
                     "0.001 to its region's max_scale, and near a joint to that of the region beyond"};
         case BodyField::scale_slope:
-            return {"vertices", ".scale_slope", "within 1000 scale / length"};
+            return {"vertices", ".scale_slope",
+                    "within 1000 scale / length, and such that the deepest wrinkle is no steeper than 1e6"};
         case BodyField::drift:
             return {"vertices", ".drift", "within its region's length times radius and max_scale"};
         case BodyField::normals:

@@ -3,8 +3,10 @@
 
 #include "kernel/args.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/region.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -46,6 +48,12 @@ struct Joints {
 [[nodiscard]] inline bool bears_scale(const JointBlend& joint, double scale, double max_scale) noexcept {
     constexpr double slack = 1.01;
     return scale * static_cast<double>(joint.radius_ratio) <= slack * max_scale;
+}
+
+/// Whether wrinkles may pass into each other so fast about a vertex near a joint: those of amplitude `depth`
+/// move it by `offset` times that.
+[[nodiscard]] inline bool bears_offset(const JointBlend& joint, double offset, double depth) noexcept {
+    return std::fabs(depth * offset * static_cast<double>(joint.per_length)) <= WorkingRange::max_growth;
 }
 
 /// Sets what `own` has of wrinkles to that of the region beyond a joint, with amplitudes and squeezes as

@@ -165,19 +165,21 @@ private:
             return BodyFault{field, Reason::out_of_range, index};
         };
         if (!(low.scale > 0)) return out_of_range(BodyField::scale);
+        const bool compares = compares_with_rest(region_);
         double factor = std::sqrt(low.scale), least_rest_scale = 1;
         if (rest != nullptr) {
             least_rest_scale = low.scale / static_cast<double>(rest[rest_scale].high());
-            if (compares_with_rest(region_)) factor = least_rest_scale;
+            if (compares) factor = least_rest_scale;
         }
         const double offset = plain[radial_offset].largest(), most_taper = Range::max_taper / region_.length;
-        const double taper = offset / least_rest_scale * most_taper;
+        const double taper = std::min(offset / least_rest_scale * most_taper,
+                                      Range::max_growth / depth_ * (compares ? 1 : factor));
         if (offset > plain[wrinkle].largest() * high.rho * (1 + 4 * rounding) + tiny)
             return out_of_range(BodyField::wrinkle);
         if (shape != nullptr && shape[ShapeColumn::taper].largest() > taper * (1 + 4 * rounding) + tiny)
             return out_of_range(BodyField::scale_slope);
         high.wrinkle = plain[wrinkle].largest() * inward / factor;
-        const double slope_of_factor = shape != nullptr && compares_with_rest(region_) ? taper : 0;
+        const double slope_of_factor = shape != nullptr && compares ? taper : 0;
         high.slope = std::max(plain[slope].largest() * inward - slope_of_factor, 0.0) / factor;
         const BodyFault fault = check_vertex(low, index, region_, radius_, depth_);
         return fault.none() ? check_vertex(high, index, region_, radius_, depth_) : fault;
@@ -217,6 +219,21 @@ private:
     double depth_;
 };
 
+/// Whether wrinkles pass into each other over a joint of `region` as check_near_joints() asks for. `depth`:
+/// of the region's.
+bool bears_offsets(const RestColumns& columns, const RegionInput& region, const Joint& joint,
+                   double depth) noexcept {
+    double most = 0;
+    for (std::size_t i = joint.first; i < joint.last; ++i) {
+        if (!joint.nears(columns.height[i])) continue;
+        const double scale = columns.scale != nullptr ? static_cast<double>(columns.scale[i]) : 1;
+        const double factor = compares_with_rest(region) ? scale / static_cast<double>(columns.rest_scale[i])
+                                                         : std::sqrt(scale);
+        most = std::max(most, std::fabs(static_cast<double>(columns.radial_offset[i])) / factor);
+    }
+    return bears_offset(joint.blend, most * (1 - 4 * rounding), depth);
+}
+
 }  // namespace
 
 bool all_below(std::size_t count, std::span<const std::uint32_t> indices) noexcept {
@@ -241,6 +258,10 @@ BodyFault check_columns(BodyData& data) noexcept {
         const double depth = deepest_wrinkle(data.inputs, r, data.radius);
         const BodyFault fault = Stretch(data, r, depth).check(first, last);
         if (!fault.none()) return fault;
+        for (const Joint& joint : {joints.below, joints.above}) {
+            if (!bears_offsets(data.columns, data.inputs[r], joint, depth))
+                return {BodyField::wrinkle, Reason::out_of_range, joint.first};
+        }
     }
     return {};
 }

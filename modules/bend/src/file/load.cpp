@@ -195,7 +195,7 @@ private:
         if (fault.none()) fault = check_unit(BodyField::tangents, socket.tangent, index);
         if (!fault.none()) return fault;
         const Joints joints = joints_of(regions_, socket.region, rig_.radius);
-        return check_near_joints(socket.vertex, index, region.length, joints, regions_);
+        return check_near_joints(socket.vertex, index, region.length, depth, joints, regions_);
     }
 
     [[nodiscard]] BodyFileFault load_level(std::size_t index) {
