@@ -157,7 +157,7 @@ private:
         high.rho = static_cast<double>(plain[rho].high()) * inward;
         if (shape != nullptr) {
             low.scale = std::min(static_cast<double>(shape[scale].low()) * outward, region_.max_scale);
-            high.scale = static_cast<double>(shape[scale].high()) * inward;
+            high.scale = std::max(static_cast<double>(shape[scale].high()) * inward, low.scale);
             low.drift = static_cast<double>(shape[drift].low()) * inward * region_.length;
             high.drift = static_cast<double>(shape[drift].high()) * inward * region_.length;
         }
