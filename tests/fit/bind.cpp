@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refusals.hpp"
 #include "support/bodies.hpp"
+#include "synthetic.hpp"
 
 #include <goffer/fit/bind.hpp>
 
@@ -259,6 +260,22 @@ TEST_CASE("broken normals and tangents are replaced, missing normals are made, s
     }
     test_mesh.normals.clear();
     CHECK_NOTHROW((void)fit::bind(test_mesh.geometry(), test_mesh.cylinder));
+}
+
+TEST_CASE("tangents that replace broken ones are orthogonal to the normals, whichever way these point") {
+    Random random(24);
+    const Solid solid = tube();
+    std::vector<glm::vec3> normals;
+    for (std::size_t i = 0; i < solid.positions.size(); ++i) normals.emplace_back(random_rotation(random)[0]);
+    for (int axis = 0; axis < 3; ++axis) normals[static_cast<std::size_t>(axis)] = glm::mat3(1)[axis];
+    const std::vector<glm::vec4> broken(normals.size());
+    const fit::Binding binding = fit::bind({solid.positions, solid.triangles, normals, broken}, upright());
+    Output out(normals.size());
+    bend::run(make_job(binding.body, {}, Isa::automatic, out));
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        REQUIRE(glm::length(out.tangent(i)) == doctest::Approx(1));
+        REQUIRE(std::fabs(glm::dot(out.normal(i), out.tangent(i))) < 1e-6);
+    }
 }
 
 }  // namespace goffer::test

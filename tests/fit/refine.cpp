@@ -226,6 +226,23 @@ TEST_CASE("refine: a body's stretches are its regions, with the folds asked for 
     CHECK(folds_of({.folds = 7}) == Folds{{20, 3.5}});
 }
 
+TEST_CASE("refine: where a body has radii, its stretches have folds as long as it is thick there") {
+    fit::Cylinder cone;
+    cone.length = 20;
+    cone.radius = 1;
+    cone.radii = {1.5, 1, 0.5};
+    double z = 0, unit = 0;  // length of a fold, in radii; the number of folds in a region is rounded
+    for (const auto& [length, folds] :
+         fit::stretches_of(cone, {.regions = {{0.25, std::nullopt}, {0.75, std::nullopt}}})) {
+        const double thickness = 1.5 - (z + length / 2) / cone.length, own = length / (2 * folds * thickness);
+        if (z == 0 || std::abs(z - 5) < 1e-9) unit = own;
+        REQUIRE(own == doctest::Approx(unit).epsilon(1e-9));
+        REQUIRE(own == doctest::Approx(0.5).epsilon(0.03));
+        z += length;
+    }
+    CHECK(z == doctest::Approx(20));
+}
+
 TEST_CASE("refine: triangles without an area, and with three at an edge, do not tear") {
     std::mt19937 random(38);
     Solid solid = test::cylinder({.columns = 12, .rows = 2, .length = 10}, random);

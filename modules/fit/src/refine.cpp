@@ -5,7 +5,6 @@
 #include "text.hpp"
 
 #include <goffer/fit/refine.hpp>
-#include <goffer/paper/shape.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -236,21 +235,22 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
               double start, double length, std::optional<int> asked) {
     const bool round = cylinder.radii.empty() || has_one_radius(cylinder, options);
     const WrinkleRange range = options.wrinkle_range;
-    const int pieces = round && range.whole() ? 1 : 64;
-    const paper::Spline radii(cylinder.length,
-                              round ? std::vector<double>(2, cylinder.radius) : cylinder.radii);
-    const double step = length / pieces;
+    const std::size_t pieces = round && range.whole() ? 1 : 64;
+    const double step = length / static_cast<double>(pieces);
+    const std::vector<double> radii = round ? std::vector<double>(pieces, cylinder.radius)
+                                            : radii_at(cylinder, start + step / 2, length - step, pieces);
     std::vector<double> folds;
     double sum = 0;
-    for (int i = 0; i < pieces; ++i) {
-        folds.push_back(step / fold_length_at(cylinder, options, radii(start + (i + 0.5) * step)));
+    for (const double radius : radii) {
+        folds.push_back(step / fold_length_at(cylinder, options, radius));
         sum += folds.back();
     }
     // A body has a whole number of them.
     const double whole =
         asked ? *asked : std::min(std::max(std::round(sum), 1.0), 2.0 * BindOptions::max_folds);
-    for (int i = 0; i < pieces; ++i) {
-        const double low = (start + i * step) / cylinder.length, high = low + step / cylinder.length;
+    for (std::size_t i = 0; i < pieces; ++i) {
+        const double low = (start + static_cast<double>(i) * step) / cylinder.length;
+        const double high = low + step / cylinder.length;
         const bool smooth = high < range.first || low > range.last;
         stretches.push_back({step, smooth ? 0 : folds[i] * whole / sum / 2});
     }

@@ -83,9 +83,8 @@ std::vector<std::uint32_t> region_order(std::span<const RestRegion> regions,
 }
 
 bend::RestVector any_orthogonal(const bend::RestVector& n) {
-    const glm::dvec3 normal(n.rho, n.beta, n.z);
-    const glm::dvec3 other = std::fabs(n.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 tangent = glm::normalize(glm::cross(other, normal));
+    const glm::dvec3 tangent =
+        glm::normalize(std::fabs(n.z) < 0.9 ? glm::dvec3(-n.beta, n.rho, 0) : glm::dvec3(0, -n.z, n.beta));
     return {tangent.x, tangent.y, tangent.z};
 }
 

@@ -9,6 +9,8 @@
 #include <goffer/fit/suitability.hpp>
 
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -93,8 +95,9 @@ double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straig
     std::vector<std::uint32_t> triangles;
     const Body body = sampled_surface(body_of(geometry), samples, triangles);
     struct Section {
-        double count = 0, xx = 0, xy = 0, yy = 0;
+        double count = 0;
         glm::dvec2 sum{0};
+        glm::dmat2 squares{0};
     };
     std::array<Section, slices> sections;
     for (std::size_t i = 0; i < body.points.size(); i += 3) {
@@ -105,18 +108,15 @@ double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straig
         const glm::dvec2 p = across(at) / cylinder.radius;
         section.count += 1;
         section.sum += p;
-        section.xx += p.x * p.x;
-        section.xy += p.x * p.y;
-        section.yy += p.y * p.y;
+        section.squares += glm::outerProduct(p, p);
     }
-    double xx = 0, xy = 0, yy = 0;
+    glm::dmat2 spread(0);
     for (const Section& section : sections) {
         if (section.count == 0) continue;
-        xx += section.xx - section.sum.x * section.sum.x / section.count;
-        xy += section.xy - section.sum.x * section.sum.y / section.count;
-        yy += section.yy - section.sum.y * section.sum.y / section.count;
+        spread += section.squares - glm::outerProduct(section.sum, section.sum) / section.count;
     }
-    const double middle = (xx + yy) / 2, off = std::hypot((xx - yy) / 2, xy);
+    const double middle = (spread[0][0] + spread[1][1]) / 2;
+    const double off = std::hypot((spread[0][0] - spread[1][1]) / 2, spread[0][1]);
     return std::sqrt((middle + off) / std::max(middle - off, 1e-6 * middle));
 }
 
