@@ -301,16 +301,19 @@ TEST_CASE("arcs: folds are counted along the arc") {
     }
 }
 
-TEST_CASE("arcs: rows that refining adds lie evenly along the arc") {
+TEST_CASE("arcs: rows that refining adds lie evenly along the arc, however large it is") {
     std::mt19937 random(70);
     const Recipe recipe{.columns = 24, .rows = 7, .length = 15};
     for (const double angle : {0.5, 1.5, 2.6}) {
-        const Solid solid = bent_cylinder(recipe, {angle, 1}, random);
-        const Cylinder base = fit_to(solid);
-        REQUIRE(base.rest_angle > 0);
-        const fit::Refinement refinement = fit::refine(solid.geometry(), base, 6);
-        const Solid fine{fit::refined_positions(solid.positions, refinement), refinement.triangles};
-        CHECK(fit::folds_capacity(fine.geometry(), base) == 6);
+        const Solid unit = bent_cylinder(recipe, {angle, 1}, random);
+        for (const double scale : {1e-9, 1.0, 1e9}) {
+            const Solid solid = test::placed(unit, {.scale = scale});
+            const Cylinder base = fit_to(solid);
+            REQUIRE(base.rest_angle > 0);
+            const fit::Refinement refinement = fit::refine(solid.geometry(), base, 6);
+            const Solid fine{fit::refined_positions(solid.positions, refinement), refinement.triangles};
+            CHECK(fit::folds_capacity(fine.geometry(), base) == 6);
+        }
     }
 }
 

@@ -54,6 +54,12 @@ test::Solid tube_and_rod(double rod_radius, double distance) {
     return tube_and_rods({rod_radius, distance});
 }
 
+test::Solid turned_about_axis(test::Solid solid, double turn) {
+    const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+    for (glm::vec3& p : solid.positions) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+    return solid;
+}
+
 fit::Cylinder base_of_tube() {
     fit::Cylinder base = test::upright();
     base.length = tube_length;
@@ -196,9 +202,7 @@ TEST_CASE("parts: what is turned about the axis has the same weights, turned") {
     fit::Parts parts(solid.geometry(), base_of_tube());
     parts.weigh(deep, deep);
     for (const double turn : {0.4, std::numbers::pi / 2, 2.8}) {
-        test::Solid turned = solid;
-        const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
-        for (glm::vec3& p : turned.positions) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        const test::Solid turned = turned_about_axis(solid, turn);
         fit::Parts other(turned.geometry(), base_of_tube());
         other.weigh(deep, deep);
         double worst = 0;
@@ -210,6 +214,25 @@ TEST_CASE("parts: what is turned about the axis has the same weights, turned") {
         MESSAGE("weights differ by ", worst, " at most");
         CHECK(worst < 0.02);  // points of outlines stand for cells that do not turn
     }
+}
+
+TEST_CASE("parts: one bears as much wherever it lies about the axis") {
+    std::mt19937 random(8);
+    test::Solid solid = test::cylinder({.columns = ring_columns, .rows = 8, .length = tube_length}, random);
+    for (glm::vec3& p : solid.positions) p = {0.5f * p.x + 0.35f, 0.5f * p.y, p.z};
+    const auto deep = [](double) { return 0.4; };
+    double least = 1, most = 0;
+    for (double turn = 0; turn < 2 * std::numbers::pi; turn += 0.2) {
+        const test::Solid turned = turned_about_axis(solid, turn);
+        fit::Parts parts(turned.geometry(), base_of_tube());
+        parts.weigh(deep, deep);
+        const double weight = parts.at({turn, 5, 0.85}).value;
+        least = std::min(least, weight);
+        most = std::max(most, weight);
+    }
+    MESSAGE("weights from ", least, " to ", most);
+    CHECK(most < 1);
+    CHECK(most < 1.005 * least);
 }
 
 TEST_CASE("parts: levels of one rig agree") {
