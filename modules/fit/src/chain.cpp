@@ -91,6 +91,25 @@ ArcChain with_straight_arcs(const ArcChain& chain, const Measure& measure) {
     return {start.point, start.frame, arcs};
 }
 
+/// The chain without arcs at its ends of which less than `least` lies within the heights from `low` to
+/// `high`: those beside them go on.
+ArcChain trimmed(const ArcChain& chain, double low, double high, double least) {
+    std::vector<ChainArc> arcs = chain.arcs();
+    double end = 0;
+    for (const ChainArc& arc : arcs) end += arc.length;
+    while (arcs.size() > 1 && end - arcs.back().length > high - least) {
+        end -= arcs.back().length;
+        arcs.pop_back();
+    }
+    double start = 0;
+    while (arcs.size() > 1 && start + arcs.front().length < low + least) {
+        start += arcs.front().length;
+        arcs.erase(arcs.begin());
+    }
+    const Line base = chain.line_at(start);
+    return {base.point, base.frame, arcs};
+}
+
 /// The chain as a cylinder in model space, from the lowest to the highest vertex. Nothing if an arc has no
 /// inner side.
 std::optional<Cylinder> cylinder_of(const Body& body, const ArcChain& chain) {
@@ -204,6 +223,9 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     }
     if (!chain) return std::nullopt;
     chain = with_straight_arcs(*chain, measure);
+    const auto [low, high] = extent(body, view_about(body, *chain));
+    chain = trimmed(*chain, low, high, measure.shortest() / 2);
+    if (chain->arcs().size() < 2) return std::nullopt;
     const View view = view_about(cloud, *chain);
     const double now = roughness(cloud, view);
     if (!(now < smooth * measure.radius && now < better * rough)) return std::nullopt;
