@@ -137,6 +137,38 @@ std::string raised_by(const bend::DeformJob& job, const bend::Sockets& sockets) 
     return names;
 }
 
+/// A thick region and one a tenth as thick, bent along different arcs at rest, with shapes, and with wrinkles
+/// that run over their joint. Every other vertex of the thick one is not near the joint, and most of those
+/// are so thick that along the thin one's arc nothing would be left of their columns, or all but nothing.
+bend::Body beside_a_thin_region(Random& random, double rest_angle) {
+    constexpr std::size_t count = 48;
+    constexpr double max_scale = LooseVertices::max_scale, radii[] = {0.5, 0.05}, blend = 0.2;
+    const double rest_angles[] = {rest_angle, 4}, max_angles[] = {0.7, 7};
+    std::vector<bend::RegionInput> regions;
+    for (const std::size_t r : {0u, 1u}) {
+        regions.push_back({.length = 1, .max_angle = max_angles[r], .rest_angle = rest_angles[r]});
+        regions[r].onset = 0.01;
+        regions[r].table = fit::make_wrinkle_table(paper::Profile::even, paper::Amplitude::paper, 6, 1,
+                                                   radii[r], max_angles[r], 32, max_scale);
+        regions[r].vertex_count = count;
+        regions[r].radius = radii[r];
+        regions[r].max_scale = max_scale;
+    }
+    regions[0].rest_direction = 2;
+    regions[0].blend = blend;
+    LooseVertices loose(random, 2 * count, radii[1]);
+    loose.add_shape(random);
+    for (std::size_t i = 0; i < count; ++i) {
+        bend::RestVertex& v = loose.vertices[i];
+        v.z = i % 2 == 0 ? 1 - uniform(random, 0, blend) : uniform(random, 0, 1 - blend);
+        if (i % 6 == 1) v.beta = 0;
+        const double per_scale = rest_angles[1] * radii[0] * (1 + std::cos(v.beta));
+        if (i % 2 == 0) v.scale *= 0.1;
+        if (i % 6 == 1 || i % 6 == 3) v.scale = std::clamp(1 / per_scale, 1e-3, max_scale);
+    }
+    return loose.body(regions);
+}
+
 /// Bodies of every kind: straight, bent at rest, of several regions, with a shape.
 std::vector<bend::Body> bodies_of_every_kind() {
     Random random(3);
@@ -145,6 +177,7 @@ std::vector<bend::Body> bodies_of_every_kind() {
     for (int i = 0; i < 8; ++i) made.push_back(loose_chain(random, counts));
     const std::vector<std::size_t> some_empty{30, 0, 40};
     made.push_back(loose_chain(random, some_empty));
+    for (const double rest_angle : {0.0, 0.3}) made.push_back(beside_a_thin_region(random, rest_angle));
     return made;
 }
 
@@ -167,7 +200,8 @@ void each_case(const Visit& visit) {
     for (const bend::Body& body : bodies_of_every_kind()) {
         std::vector<bend::Socket> socket(3);
         for (std::size_t i = 0; i < socket.size(); ++i)
-            socket[i] = {.region = i, .vertex = {0.3 * static_cast<double>(i), 0.5, 0.1, 0, 0}};
+            socket[i] = {.region = i % body.region_count(),
+                         .vertex = {0.3 * static_cast<double>(i), 0.5, 0.1, 0, 0}};
         const bend::Sockets sockets = *bend::Sockets::make(body, socket);
         for (const std::vector<bend::Pose>& poses : poses_of(body)) {
             for (const float weight : {0.0f, 0.5f, 1.0f}) {
