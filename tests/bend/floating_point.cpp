@@ -139,7 +139,8 @@ std::string raised_by(const bend::DeformJob& job, const bend::Sockets& sockets) 
 
 /// A thick region and one a tenth as thick, bent along different arcs at rest, with shapes, and with wrinkles
 /// that run over their joint. Every other vertex of the thick one is not near the joint, and most of those
-/// are so thick that along the thin one's arc nothing would be left of their columns, or all but nothing.
+/// are so thick that along the thin one's arc nothing would be left of their columns, or all but nothing. So
+/// it is with the first ones of the thin region, whose heights are those of vertices near a region's end.
 bend::Body beside_a_thin_region(Random& random, double rest_angle) {
     constexpr std::size_t count = 48;
     constexpr double max_scale = LooseVertices::max_scale, radii[] = {0.5, 0.05}, blend = 0.2;
@@ -158,13 +159,22 @@ bend::Body beside_a_thin_region(Random& random, double rest_angle) {
     regions[0].blend = blend;
     LooseVertices loose(random, 2 * count, radii[1]);
     loose.add_shape(random);
+    const auto scale_at = [&](double beta,
+                              double left) {  // of what is left of a thick column, by the thin arc
+        const double squeeze = rest_angles[1] * radii[0] * (1 + std::cos(beta));
+        return std::clamp((1 - left) / squeeze, 1e-3, max_scale);
+    };
     for (std::size_t i = 0; i < count; ++i) {
         bend::RestVertex& v = loose.vertices[i];
         v.z = i % 2 == 0 ? 1 - uniform(random, 0, blend) : uniform(random, 0, 1 - blend);
         if (i % 6 == 1) v.beta = 0;
-        const double per_scale = rest_angles[1] * radii[0] * (1 + std::cos(v.beta));
         if (i % 2 == 0) v.scale *= 0.1;
-        if (i % 6 == 1 || i % 6 == 3) v.scale = std::clamp(1 / per_scale, 1e-3, max_scale);
+        if (i % 6 == 1 || i % 6 == 3) v.scale = scale_at(v.beta, 0);
+    }
+    for (std::size_t i = count; i < count + 16; ++i) {
+        bend::RestVertex& v = loose.vertices[i];
+        v.z = 1 - uniform(random, 0, blend);
+        v.scale = 1 / (1 / scale_at(v.beta, 0.02) + rest_angles[1] * radii[1] * (1 + std::cos(v.beta)));
     }
     return loose.body(regions);
 }

@@ -108,11 +108,12 @@ using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, f
 
 /// Wrinkles `count` vertices of one region from vertex `first` on, at most BlendColumns::places, of which
 /// some are near the joint that `joint` tells of. `neighbor` has what set_as_own() sets of the region beyond
-/// it. Writes normals only if it is a kernel of directions, tangents only if these are wanted too. `count` is
-/// max_unit or more, and no other rest vertices are read.
+/// it. Only the first `wanted` of them need be of that region: others take nothing of the neighbor. Writes
+/// normals only if it is a kernel of directions, tangents only if these are wanted too. `count` is max_unit
+/// or more, and no other rest vertices are read.
 using BlendKernel = void (*)(const RestColumns& rest, const Coefficients& own, const Coefficients& neighbor,
-                             const JointBlend& joint, std::size_t first, std::size_t count, bool tangents,
-                             BlendColumns& out);
+                             const JointBlend& joint, std::size_t first, std::size_t count,
+                             std::size_t wanted, bool tangents, BlendColumns& out);
 
 /// Writes 16 * lines records, each of one float from every plane. `non_temporal`: past the cache, to be
 /// fenced by the caller; `to` must then begin a cache line.

@@ -29,6 +29,14 @@ Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
     return {x * x * (L::splat(1.5f) - x), L::splat(3.0f * joint.per_length) * L::nmadd(x, x, x)};
 }
 
+/// Returns the first `count` lanes, and 0 in the others.
+template <class L>
+typename L::Vec first_lanes(typename L::Vec value, std::size_t count) {
+    alignas(64) float lanes[L::width] = {};
+    L::store_first(lanes, value, count);
+    return L::load(lanes);
+}
+
 /// Sets what the columns of `b` have of their wrinkle.
 template <class L, Squeeze squeeze, bool directions, class K>
 void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i) {
@@ -40,17 +48,16 @@ void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i)
 }
 
 /// Sets the relative wrinkle that the neighbor makes of columns, whose rest arc is another. `at` is over S_0
-/// of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other.
+/// of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other. Columns that have no
+/// share of it are 0, and have the ratio 1.
 template <class L, bool directions, class K>
 void set_wrinkle_of_other_arc(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
-    // It is more than 0.01 at vertices near the joint. Lanes of other regions' vertices may have any number.
-    constexpr float least = 0.005f;
     const Vec one = L::splat(1.0f);
     const Vec more =
         L::madd(L::splat(joint.rest_curl[1]), at.sine,
                 L::madd(L::splat(joint.rest_curl[0]), at.cosine, L::splat(joint.rest_kappa) * at.scale));
-    const Vec ratio = L::max(one + more, L::splat(least)), inverse = L::reciprocal(ratio);
+    const Vec ratio = one + more, inverse = L::reciprocal(ratio);  // more than 0.01: see Body::check
     at = {at.cosine * inverse, at.sine * inverse, at.scale * inverse};
     set_relative_wrinkle<L, directions>(at, k, b);
     if constexpr (directions) {
@@ -94,14 +101,16 @@ Vector<L> load_vector(const float* const (&planes)[3], std::size_t i) {
     return {{L::load(planes[0] + i), L::load(planes[1] + i), L::load(planes[2] + i)}};
 }
 
-/// Wrinkles the batch that begins at vertex `i`.
+/// Wrinkles the batch that begins at vertex `i`. Those behind the first `wanted` take nothing of the
+/// neighbor: they may be another region's.
 template <class L, Squeeze squeeze, bool directions, class K>
 Wrinkled<L> blend_batch(const RestColumns& rest, const K& k, const K& other_k, const JointBlend& joint,
-                        bool tangents, std::size_t i) {
+                        bool tangents, std::size_t i, std::size_t wanted = L::width) {
     using Vec = typename L::Vec;
     Wrinkled<L> result;
     Bent<L> b, other;
-    const Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
+    Share<L> share = share_of_neighbor<L>(joint, L::load(rest.height + i));
+    if (wanted < L::width) share = {first_lanes<L>(share.value, wanted), first_lanes<L>(share.slope, wanted)};
     set_wrinkle<L, squeeze, directions>(rest, k, b, i);
     set_neighbor_wrinkle<L, squeeze, directions>(rest, other_k, joint, share.value, other, i);
     const Vec difference = other.amplitude - b.amplitude;
@@ -134,13 +143,14 @@ void store_vector(const Vector<L>& vector, float (&planes)[3][BlendColumns::plac
 template <class L, Squeeze squeeze, bool directions>
 GOFFER_FLATTENED void blend_wrinkles(const RestColumns& columns, const Coefficients& own,
                                      const Coefficients& neighbor, const JointBlend& joint, std::size_t first,
-                                     std::size_t count, bool tangents, BlendColumns& out) {
+                                     std::size_t count, std::size_t wanted, bool tangents,
+                                     BlendColumns& out) {
     const RestColumns rest = columns;
     const Coefficients k = own, other_k = neighbor;
     for (std::size_t at = 0; at < count; at += L::width) {
         const std::size_t j = at + L::width <= count ? at : count - L::width;
-        const Wrinkled<L> batch =
-            blend_batch<L, squeeze, directions>(rest, k, other_k, joint, tangents, first + j);
+        const Wrinkled<L> batch = blend_batch<L, squeeze, directions>(rest, k, other_k, joint, tangents,
+                                                                      first + j, wanted < j ? 0 : wanted - j);
         L::store(out.rho + j, batch.rho);
         if constexpr (directions) {
             store_vector<L>(batch.normal, out.normal, j);

@@ -45,7 +45,7 @@ KernelInput Blending::blend(const BodyData& body, const KernelSet& kernels, std:
     Coefficients neighbor;
     set_as_own(posed.k[joint.neighbor], joint.blend, squeeze == Squeeze::relative, neighbor);
     kernels.blend_kernel(squeeze, streams)(body.columns, posed.k[r], neighbor, joint.blend, first, computed,
-                                           tangents, blended_);
+                                           count, tangents, blended_);
     set_columns(body.columns, streams, first);
     return {&columns_, &posed.k[r], squeeze == Squeeze::plain ? Squeeze::none : squeeze, 0};
 }
