@@ -173,29 +173,11 @@ TEST_CASE("chains: a slender S is no arc of a wide ring") {
     CHECK(std::abs(fitted.radius - 1) < 0.05);
 }
 
-/// The surface of a base.
-Solid surface_of(const Cylinder& cylinder) {
-    constexpr std::uint32_t rows = 160, sides = 16;
-    std::vector<fit::BasePoint> points;
-    for (std::uint32_t i = 0; i < (rows + 1) * sides; ++i)
-        points.push_back(
-            {2 * std::numbers::pi * (i % sides) / sides, cylinder.length * (i / sides) / rows, 1});
-    Solid solid;
-    for (const glm::dvec3& place : fit::places_on_base(cylinder, points)) solid.positions.emplace_back(place);
-    for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t c = 0; c < sides; ++c) {
-            const std::uint32_t a = sides * row + c, b = sides * row + (c + 1) % sides;
-            solid.triangles.insert(solid.triangles.end(), {a, b, a + sides, b, b + sides, a + sides});
-        }
-    }
-    return solid;
-}
-
 TEST_CASE("chains: folds run on between arcs, unless one is bent as far as it can be") {
     const auto joined = [](const Cylinder& cylinder, std::optional<double> onset = {}) {
         fit::BindOptions options;
         options.onset = onset;
-        return fit::bind(surface_of(cylinder).geometry(), cylinder, options).regions[0].blend != 0;
+        return fit::bind(test::surface_of(cylinder).geometry(), cylinder, options).regions[0].blend != 0;
     };
     Cylinder cylinder;
     cylinder.length = 18;

@@ -94,6 +94,24 @@ inline fit::Cylinder upright() {
     return cylinder;
 }
 
+/// The surface of a base of radius 1 at rest, open: a ring of `sides` vertices at each of rows + 1 heights,
+/// from the zero of beta on, and the triangles between two rings behind those between the two before.
+inline Solid surface_of(const fit::Cylinder& cylinder, std::uint32_t rows = 160, std::uint32_t sides = 16) {
+    std::vector<fit::BasePoint> points;
+    for (std::uint32_t i = 0; i < (rows + 1) * sides; ++i)
+        points.push_back(
+            {2 * std::numbers::pi * (i % sides) / sides, cylinder.length * (i / sides) / rows, 1});
+    Solid solid;
+    for (const glm::dvec3& place : fit::places_on_base(cylinder, points)) solid.positions.emplace_back(place);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+        for (std::uint32_t c = 0; c < sides; ++c) {
+            const std::uint32_t a = sides * row + c, b = sides * row + (c + 1) % sides;
+            solid.triangles.insert(solid.triangles.end(), {a, b, a + sides, b, b + sides, a + sides});
+        }
+    }
+    return solid;
+}
+
 /// Turned, then scaled, then moved.
 struct Placing {
     glm::dmat3 turn{1};
