@@ -32,9 +32,10 @@ Share<L> share_of_neighbor(const JointBlend& joint, typename L::Vec height) {
 /// Returns the first `count` lanes, and 0 in the others.
 template <class L>
 typename L::Vec first_lanes(typename L::Vec value, std::size_t count) {
-    alignas(64) float lanes[L::width] = {};
-    L::store_first(lanes, value, count);
-    return L::load(lanes);
+    static constexpr float numbers[max_unit] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10,
+                                                11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                                                22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
+    return L::where_less(L::load(numbers), L::splat(static_cast<float>(count)), value, L::splat(0.0f));
 }
 
 /// Sets what the columns of `b` have of their wrinkle.
@@ -47,11 +48,11 @@ void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i)
     }
 }
 
-/// Sets the relative wrinkle that the neighbor makes of columns, whose rest arc is another. `at` is over S_0
-/// of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other. Columns that have no
-/// share of it are 0, and have the ratio 1.
+/// Sets the relative wrinkle that the neighbor makes of columns, whose rest arc may be another. `at` is over
+/// S_0 of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other. Columns that have
+/// no share of it are 0, and have the ratio 1.
 template <class L, bool directions, class K>
-void set_wrinkle_of_other_arc(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
+void set_relative_wrinkle_beyond(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
     const Vec one = L::splat(1.0f);
     const Vec more =
@@ -79,11 +80,7 @@ void set_neighbor_wrinkle(const RestColumns& rest, const K& k, const JointBlend&
     if constexpr (squeeze == Squeeze::relative) {
         const auto [cosine, sine, scale] = load_rest_scale<L>(rest, i);
         const RestScale<L> at = {if_near(cosine), if_near(sine), if_near(scale)};
-        if (joint.other_arc) {
-            set_wrinkle_of_other_arc<L, directions>(at, k, joint, b);
-        } else {
-            set_relative_wrinkle<L, directions>(at, k, b);
-        }
+        set_relative_wrinkle_beyond<L, directions>(at, k, joint, b);
     } else {
         set_plain_column<L, squeeze, directions>(rest, k, if_near(load_scale<L, squeeze>(rest, i)), b, i);
     }
