@@ -158,11 +158,7 @@ TEST_CASE("body file: wrinkles that get too steep where a body tapers are refuse
                 {.rho = 0.1, .wrinkle = 9e3 / depth, .scale = scale, .scale_slope = 1e3 * scale});
         vertices[3].scale_slope *= -0.99;
         const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
-        bend::BodyInput input;
-        input.radius = 0.1;
-        input.regions = {&region, 1};
-        input.vertices = vertices;
-        input.normals = normals;
+        bend::BodyInput input = input_of({&region, 1}, vertices, normals);
         const bend::Body body = bend::Body::make(input).value();
         const auto fault_with = [&](float coefficient) {
             return fault_after(body, [&](std::span<std::byte> bytes) {

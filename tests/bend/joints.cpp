@@ -290,11 +290,7 @@ TEST_CASE("what is wrong with a joint is named") {
     LooseVertices loose(random, 60, 0.11);
     for (std::size_t i = 0; i < 60; ++i) loose.vertices[i].z = 0.05 * static_cast<double>(i % 20) + 0.001;
     regions[0].blend = 0.2;
-    bend::BodyInput input;
-    input.radius = 0.1;
-    input.regions = regions;
-    input.vertices = loose.vertices;
-    input.normals = loose.normals;
+    bend::BodyInput input = input_of(regions, loose.vertices, loose.normals);
     REQUIRE(bend::Body::check(input).none());
     using bend::BodyFault, bend::BodyField, bend::Reason;
     const auto fault_with = [&](const auto& change) {
@@ -381,11 +377,7 @@ TEST_CASE("near a joint, vertices that are not near it stay numbers, however thi
     for (int i = 0; i < 40; ++i)
         vertices.push_back({.beta = 0.3 * i, .z = 200.0 * i / 39, .rho = 1, .wrinkle = 0.1});
     const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
-    bend::BodyInput input;
-    input.radius = 1;
-    input.regions = regions;
-    input.vertices = vertices;
-    input.normals = normals;
+    bend::BodyInput input = input_of(regions, vertices, normals, 1);
     INFO(std::string(bend::describe(bend::Body::check(input)).c_str()));
     REQUIRE(bend::Body::check(input).none());
     const bend::Body body = bend::Body::make(input).value();
@@ -418,11 +410,7 @@ TEST_CASE("wrinkles that pass into each other too steeply are refused, in socket
         for (const double z : {0.0, 0.5, 0.9, 0.9995, 0.0, 0.1, 0.5, 1.0})
             vertices.push_back({.z = z, .rho = 0.1, .wrinkle = 9e3 / depth});  // 0.9e6 within the blend
         const std::vector<bend::RestVector> normals(vertices.size(), {.rho = 1});
-        bend::BodyInput input;
-        input.radius = 0.1;
-        input.regions = regions;
-        input.vertices = vertices;
-        input.normals = normals;
+        bend::BodyInput input = input_of(regions, vertices, normals);
         const bend::Body body = bend::Body::make(input).value();
         vertices[2].wrinkle *= 2;  // not near the joint
         CHECK(bend::Body::check(input).none());

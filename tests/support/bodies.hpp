@@ -222,16 +222,23 @@ inline bend::Body loose_chain(Random& random, std::span<const std::size_t> count
     return loose.body(regions);
 }
 
+/// What a body of these is made from. All but the radius must outlive it.
+inline bend::BodyInput input_of(std::span<const bend::RegionInput> regions,
+                                std::span<const bend::RestVertex> vertices,
+                                std::span<const bend::RestVector> normals, double radius = 0.1) {
+    bend::BodyInput input;
+    input.radius = radius;
+    input.regions = regions;
+    input.vertices = vertices;
+    input.normals = normals;
+    return input;
+}
+
 /// A body of these vertices, without wrinkles. Length 1, radius 0.1.
 inline bend::Body bare_body(std::span<const bend::RestVertex> vertices,
                             std::span<const bend::RestVector> normals) {
     const bend::RegionInput region{.length = 1, .max_angle = 4, .vertex_count = vertices.size()};
-    bend::BodyInput input;
-    input.radius = 0.1;
-    input.regions = {&region, 1};
-    input.vertices = vertices;
-    input.normals = normals;
-    return std::move(bend::Body::make(input).value());
+    return std::move(bend::Body::make(input_of({&region, 1}, vertices, normals)).value());
 }
 
 /// A rotation, scaled, sheared and mirrored or not; `distance` from the origin at most.

@@ -31,7 +31,7 @@ public:
     /// The slices lie between the heights `low` and `high`.
     SliceSolver(std::span<const std::uint32_t> triangles, std::span<const double> heights, double low,
                 double high, std::size_t knots)
-        : triangles_(triangles), knots_(knots) {
+        : triangles_(triangles), used_(std::ranges::minmax(triangles)), knots_(knots) {
         const auto slice = [&](double z) { return slice_at((z - low) / (high - low)); };
         for (const double z : heights) places_.push_back(slice(z));
         for (std::size_t t = 0; t < triangles.size(); t += 3) {
@@ -42,9 +42,8 @@ public:
 
     /// Adds the areas of the slices with the wrinkle times `factors`.
     void add_areas(const Surface& surface, std::span<const double> factors, SliceAreas& areas) const {
-        const auto [first, last] = std::ranges::minmax(triangles_);
         std::vector<glm::vec3> at(surface.bare.size());
-        for (std::size_t i = first; i <= last; ++i) {
+        for (std::size_t i = used_.min; i <= used_.max; ++i) {
             const Slice& place = places_[i];
             const double factor =
                 factors[place.first] + place.next * (factors[place.first + 1] - factors[place.first]);
@@ -68,6 +67,7 @@ private:
     }
 
     std::span<const std::uint32_t> triangles_;
+    std::ranges::minmax_result<std::uint32_t> used_;  // vertices
     std::size_t knots_;
     std::vector<Slice> places_, slices_;  // of vertices; of triangles
 };
@@ -119,10 +119,11 @@ std::vector<double> solve_weights(const bend::Body& body, const Geometry& geomet
     const std::vector<double> none(knots, 0);
     std::vector<double> factors(knots, 1);
     SliceAreas wanted(knots), bare(knots);
-    const Surface at_rest = Poser(body, triangles).rest();
+    Poser poser(body, triangles);
+    const Surface at_rest = poser.rest();
     const std::vector<bend::Pose> poses = slice_poses(body, region);
     for (const bend::Pose& pose : poses) {
-        Poser(body, triangles).bend(region, pose, surfaces.emplace_back());
+        poser.bend(region, pose, surfaces.emplace_back());
         solver.add_areas(at_rest, none, wanted);
         solver.add_areas(surfaces.back(), none, bare);
         share.step(0, 2).tell(surfaces.size(), poses.size());

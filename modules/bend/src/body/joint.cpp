@@ -25,7 +25,6 @@ void set_arcs(const RegionInput& own, const RegionInput& neighbor, double radius
     if (share_rest_arc(own, neighbor, radius)) return;
     const double own_radius = radius_of(own, radius);  // s is over that of the region itself
     const glm::dvec3 change = rest_squeeze(own, own_radius) - rest_squeeze(neighbor, own_radius);
-    joint.other_arc = true;
     joint.rest_kappa = static_cast<float>(change[0]);
     for (int i = 0; i < 2; ++i) joint.rest_curl[i] = static_cast<float>(change[i + 1]);
 }

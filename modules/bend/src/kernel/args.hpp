@@ -60,10 +60,8 @@ struct JointBlend {
     /// of the radii.
     float gain[amplitude_terms];
     float radius_ratio;  ///< the own radius over the neighbor's
-    /// Where squeezes are relative and the neighbor is bent along another arc at rest, the scale of a column
-    /// in the neighbor at rest, over that in the region, is 1 + (kappa + curl . u) s / S_0, with u = (cos
-    /// beta, sin beta).
-    bool other_arc;
+    /// Where squeezes are relative, the scale of a column in the neighbor at rest, over that in the region,
+    /// is 1 + (kappa + curl . u) s / S_0, with u = (cos beta, sin beta). All are 0 where both lie on one arc.
     float rest_kappa, rest_curl[2];
 };
 

@@ -9,10 +9,11 @@ namespace {
 
 /// The most by which the scale of a column near a joint is larger in the neighbor at rest than in the region.
 float max_rest_ratio(const JointBlend& joint, const Coefficients& k, float max_scale) noexcept {
-    if (!joint.other_arc) return 1;
     const auto size = [](const float(&curl)[2]) { return std::sqrt(curl[0] * curl[0] + curl[1] * curl[1]); };
+    const float more = joint.rest_kappa + size(joint.rest_curl);
+    if (!(more > 0)) return 1;
     const float scale = 1 - 2 * max_scale * size(k.rest_curl);  // kappa_0 is as large as rest_curl
-    return 1 + max_scale * std::max(joint.rest_kappa + size(joint.rest_curl), 0.0f) / scale;
+    return 1 + max_scale * more / scale;
 }
 
 }  // namespace
