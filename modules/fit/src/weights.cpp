@@ -31,7 +31,10 @@ public:
     /// The slices lie between the heights `low` and `high`.
     SliceSolver(std::span<const std::uint32_t> triangles, std::span<const double> heights, double low,
                 double high, std::size_t knots)
-        : triangles_(triangles), used_(std::ranges::minmax(triangles)), knots_(knots) {
+        : triangles_(triangles), knots_(knots) {
+        const auto [first, last] = std::ranges::minmax(triangles);
+        first_used_ = first;
+        last_used_ = last;
         const auto slice = [&](double z) { return slice_at((z - low) / (high - low)); };
         for (const double z : heights) places_.push_back(slice(z));
         for (std::size_t t = 0; t < triangles.size(); t += 3) {
@@ -43,7 +46,7 @@ public:
     /// Adds the areas of the slices with the wrinkle times `factors`.
     void add_areas(const Surface& surface, std::span<const double> factors, SliceAreas& areas) const {
         std::vector<glm::vec3> at(surface.bare.size());
-        for (std::size_t i = used_.min; i <= used_.max; ++i) {
+        for (std::size_t i = first_used_; i <= last_used_; ++i) {
             const Slice& place = places_[i];
             const double factor =
                 factors[place.first] + place.next * (factors[place.first + 1] - factors[place.first]);
@@ -67,7 +70,7 @@ private:
     }
 
     std::span<const std::uint32_t> triangles_;
-    std::ranges::minmax_result<std::uint32_t> used_;  // vertices
+    std::uint32_t first_used_, last_used_;  // vertices
     std::size_t knots_;
     std::vector<Slice> places_, slices_;  // of vertices; of triangles
 };
