@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "depth.hpp"
+#include "draft.hpp"
 #include "factors.hpp"
-#include "girths.hpp"
 #include "mask.hpp"
 #include "parts.hpp"
 #include "profile.hpp"
@@ -12,7 +12,6 @@
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/fit/bind.hpp>
-#include <goffer/paper/wave.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -98,23 +97,6 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
     return found;
 }
 
-/// How thick a body is near the joints of a region, in the regions beyond them, over the radius of that
-/// region: the wrinkles of the region reach there.
-double scale_beyond(std::span<const RestRegion> regions, std::size_t r) {
-    double scale = 0;
-    const auto look = [&](const RestRegion& beyond, double z) {
-        if (regions[r].shape && beyond.shape)
-            scale =
-                std::max(scale, beyond.shape->scale(z) * beyond.shape->radius() / regions[r].shape->radius());
-    };
-    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        if (r > 0 && regions[r - 1].blend != 0)
-            look(regions[r - 1], regions[r - 1].length - part * regions[r - 1].blend);
-        if (regions[r].blend != 0) look(regions[r + 1], part * regions[r].blend);
-    }
-    return scale;
-}
-
 /// The base that `options` ask for.
 Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options) {
     if (!has_one_radius(cylinder, options))
@@ -122,88 +104,6 @@ Cylinder base_of(const Geometry& geometry, const Cylinder& cylinder, const BindO
     Cylinder base = with_one_radius(cylinder);
     check(base);
     return base;
-}
-
-/// Calls visit(vertex) for each vertex of a region that begins with vertex `first`, but for those that no
-/// triangle uses: they cannot fold through each other.
-template <class Visit>
-void each_used(const RestMesh& mesh, std::size_t first, std::size_t count, const Visit& visit) {
-    for (std::size_t i = first; i < first + count; ++i)
-        if (mesh.used[i]) visit(mesh.vertices[i]);
-}
-
-double largest_rho(const RestMesh& mesh, std::size_t first, std::size_t count) {
-    double largest = 0;
-    each_used(mesh, first, count,
-              [&](const bend::RestVertex& vertex) { largest = std::max(largest, vertex.rho); });
-    return largest;
-}
-
-/// The slices of a region with a shape. `scale_beyond`: see the function; where it is 0 it limits nothing.
-Girths girths_of(const RestRegion& rest, paper::Profile profile, const RestMesh& mesh, std::size_t first,
-                 std::size_t count, double scale_beyond) {
-    constexpr std::size_t slices = 64;
-    Girths girths{rest.length, rest.shape->radius(), std::vector<Girth>(slices)};
-    for (std::size_t i = 0; i < slices; ++i) {
-        Girth& girth = girths.slices[i];
-        for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            const double z = rest.length * (static_cast<double>(i) + part) / slices;
-            girth.scale = std::max(girth.scale, rest.shape->scale(z));
-            girth.depth = std::max(girth.depth, rest.shape->depth(z) * profile.crest());
-        }
-        girth.rho = girth.scale * girths.radius;
-    }
-    each_used(mesh, first, count, [&](const bend::RestVertex& vertex) {
-        const double slice = std::clamp(vertex.z / rest.length * slices, 0.0, slices - 1.0);
-        Girth& girth = girths.slices[static_cast<std::size_t>(slice)];
-        girth.rho = std::max(girth.rho, vertex.rho);
-    });
-    girths.slices.push_back({scale_beyond, scale_beyond * girths.radius, 0});
-    return girths;
-}
-
-/// A region to be bound, and what its largest angle depends on.
-struct Plan {
-    const Cylinder& cylinder;
-    const BindOptions& options;
-    const RestRegion& rest;
-    double largest_rho;
-    Girths girths;  // of a region with a shape
-    double scale_beyond;
-    double blend_gain;
-
-    /// The largest angle with wrinkles `factor` times as deep. It is never less than the rest arc's: there is
-    /// no wrinkle at rest. In bodies that are thousands of radii long it is the largest that a body can have.
-    [[nodiscard]] double max_angle(double factor) const {
-        const double largest =
-            rest.shape ? largest_angle(girths, options.profile, options.amplitude, rest.folds, factor)
-                       : largest_angle(options.profile, options.amplitude, rest.folds, rest.length,
-                                       cylinder.radius, largest_rho, factor);
-        return std::min(std::max(rest.rest.angle, largest), bend::WorkingRange::max_angle);
-    }
-};
-
-bend::RegionInput region_input(const Plan& plan, double onset, std::size_t vertex_count) {
-    const RestRegion& rest = plan.rest;
-    const Cylinder& cylinder = plan.cylinder;
-    const BindOptions& options = plan.options;
-    const double radius = rest.shape ? rest.shape->radius() : cylinder.radius;
-    bend::RegionInput region;
-    region.length = rest.length;
-    region.vertex_count = vertex_count;
-    region.onset = rest.folds.count == 0 ? 0 : onset;
-    region.rest_angle = rest.rest.angle;
-    region.rest_direction = rest.rest.direction;
-    region.max_angle = plan.max_angle(1);
-    region.radius = radius;
-    // Between the heights that a shape was looked at it may be thicker by a trace.
-    region.max_scale =
-        rest.shape ? std::max(1.0, 1.001 * std::max(rest.shape->max_scale(), plan.scale_beyond)) : 1;
-    region.blend = rest.blend;
-    region.blend_gain = plan.blend_gain;
-    region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length, radius,
-                                      region.max_angle, options.table_rows, region.max_scale);
-    return region;
 }
 
 double largest_factor(const bend::FactorTable& factors) {
@@ -227,31 +127,6 @@ bend::Body make(const Cylinder& cylinder, std::span<const bend::RegionInput> reg
     if (!body) throw Error(std::string("cannot bind: ") + bend::describe(bend::Body::check(input)).c_str());
     return std::move(*body);
 }
-
-/// All that a body is made from.
-struct Draft {
-    RestMesh mesh;
-    std::vector<Plan> plans;  // of the regions
-    std::vector<bend::RegionInput> regions;
-
-    /// `places` must stay where they are.
-    Draft(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
-          std::span<const RestRegion> places, const Parts* parts)
-        : mesh(rest_mesh(geometry, cylinder, options.profile, places, parts)) {
-        std::size_t first = 0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const std::size_t count = mesh.counts[i];
-            const double beyond = scale_beyond(places, i);
-            plans.push_back({cylinder, options, places[i], largest_rho(mesh, first, count),
-                             places[i].shape
-                                 ? girths_of(places[i], options.profile, mesh, first, count, beyond)
-                                 : Girths{},
-                             beyond, i + 1 < places.size() ? gain_at_joint(places[i], places[i + 1]) : 1});
-            regions.push_back(region_input(plans[i], onset, count));
-            first += count;
-        }
-    }
-};
 
 constexpr double right_angle = std::numbers::pi / 2;
 
@@ -319,8 +194,8 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
         for (std::size_t i = body.regions()[r].first; i < body.regions()[r].last; ++i)
             heights.push_back(places[r].start + mesh.vertices[i].z);
     }
-    constexpr int least_folds =
-        4;  // of a region whose wave runs on: fewer have no room to change their depth
+    // Of a region whose wave runs on: fewer have no room to change their depth.
+    constexpr int least_folds = 4;
     std::vector<std::vector<double>> factors(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const paper::FoldRange& folds = places[i].folds;
