@@ -58,7 +58,8 @@ class BindOptions(c.Structure):
     _fields_ = [("profile", c.c_int), ("amplitude", c.c_int), ("roundness", c.c_double), ("folds", c.c_int),
                 ("fold_length", c.c_double), ("one_radius", c.c_int), ("straight", c.c_int), ("onset", c.c_double),
                 ("wrinkle_first", c.c_double), ("wrinkle_last", c.c_double), ("axis", c.POINTER(c.c_double)),
-                ("shares", c.POINTER(c.c_double)), ("region_count", c.c_size_t), ("folds_apart", c.c_int)]
+                ("shares", c.POINTER(c.c_double)), ("region_count", c.c_size_t), ("folds_apart", c.c_int),
+                ("arcs", c.c_int)]
 
 
 class Pose(c.Structure):

@@ -231,6 +231,44 @@ TEST_CASE("C: a mask is the mesh's own") {
     CHECK(std::string(error.text).starts_with("wrinkle mask of vertex 5"));
 }
 
+TEST_CASE("C: a chain of arcs is that of C++") {
+    Random random(79);
+    const TestMesh mesh = random_mesh(random, 30, 2, 24, 65);
+    const fit::Geometry geometry = mesh.geometry();
+    const goffer_mesh from = mesh_of(mesh);
+    goffer_bind_options options = goffer_bind_defaults();
+    for (const int arcs : {-1, 0, 1, 2, 4}) {
+        CAPTURE(arcs);
+        options.arcs = arcs;
+        const std::size_t regions = arcs < 2 ? 1 : static_cast<std::size_t>(arcs);
+        goffer_error error;
+        goffer_body* body = goffer_body_bind(&from, &options, &error);
+        INFO(error.text);
+        REQUIRE(body != nullptr);
+        CHECK(goffer_body_region_count(body) == regions);
+        const fit::Cylinder cylinder = fit::fit_cylinder(geometry, std::nullopt, fit::RestPose::chain,
+                                                         arcs < 2 ? 0 : static_cast<std::size_t>(arcs));
+        const fit::Binding binding = fit::bind(geometry, cylinder);
+        for (std::size_t r = 0; r < regions; ++r)
+            CHECK(goffer_body_max_angle(body, r) == binding.body.max_angle(r));
+        goffer_body_free(body);
+    }
+    options.straight = 1;
+    goffer_error error;
+    CHECK(goffer_body_bind(&from, &options, &error) == nullptr);
+    CHECK(std::string(error.text).starts_with("arcs: "));
+    options.straight = 0;
+    options.region_count = 1;
+    const double whole = 1;
+    options.shares = &whole;
+    CHECK(goffer_body_bind(&from, &options, &error) == nullptr);
+    CHECK(std::string(error.text).starts_with("arcs: "));
+    options.region_count = 0;
+    options.arcs = 13;
+    CHECK(goffer_body_bind(&from, &options, &error) == nullptr);
+    CHECK(std::string(error.text).starts_with("arcs: 13"));
+}
+
 TEST_CASE("C: what is wrong is said, and null does no harm") {
     Random random(74);
     const Twice twice(random, 1);

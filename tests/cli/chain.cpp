@@ -150,6 +150,53 @@ TEST_CASE("chain: --fit takes it from a report, and a body file keeps it") {
     CHECK(glm::length(apart) < 0.01f);
 }
 
+TEST_CASE("chain: --arcs says how many there are, and with it what is said for each") {
+    const Folder folder;
+    pipe(folder);
+    CHECK(report(folder, {"inspect", "s.obj", "--arcs", "5"})["fit"]["arcs"].size() == 5);
+    std::string angles, directions;
+    const json found = report(folder, {"inspect", "s.obj", "--arcs", "3"});
+    for (const json& arc : found["fit"]["arcs"]) {
+        const std::string comma = angles.empty() ? "" : ",";
+        angles += comma + std::to_string(arc["angle"].get<double>() + 5);
+        directions += comma + std::to_string(arc["direction"].get<double>());
+    }
+    const json bent = report(folder, {"bend", "s.obj", "-o", "out.ply", "--arcs", "3", "--angles", angles,
+                                      "--directions", directions, "--folds", "3,0,5"});
+    REQUIRE(bent["poses"].size() == 3);
+    CHECK(bent["fit"]["arcs"].size() == 3);
+    for (const json& pose : bent["poses"])
+        CHECK(pose["angle"].get<double>() == doctest::Approx(pose["rest_angle"].get<double>() + 5));
+    CHECK(bent["regions"][0]["folds"] == 3);
+    CHECK(bent["regions"][1]["folds"] == 0);
+    CHECK(bent["regions"][2]["folds"] == 5);
+    const json crowd =
+        report(folder, {"crowd", "s.obj", "--instances", "9", "--arcs", "3", "--angles", "1,2,3"});
+    CHECK(crowd["models"][0]["regions"].size() == 3);
+    well(folder, {"bake", "s.obj", "-o", "s.goffer", "--arcs", "3"});
+    CHECK(report(folder, {"inspect", "s.goffer"})["regions"].size() == 3);
+    std::ofstream(folder / "keys.json")
+        << R"({"keys": [{"time": 0, "angles": [0, 0, 0]}, {"time": 1, "angles": [9, 9, 9]}]})";
+    well(folder,
+         {"animate", "s.obj", "--keys", "keys.json", "--arcs", "3", "-o", "out.glb", "--frames", "3"});
+
+    const std::vector<std::string> bend{"bend", "s.obj", "-o", "out.ply"};
+    const auto bad = [&](const std::vector<std::string>& words, const std::vector<std::string>& said) {
+        std::vector<std::string> all = bend;
+        all.insert(all.end(), words.begin(), words.end());
+        refused(folder, 2, all, said);
+    };
+    bad({"--angles", "1,2"}, {"--angles", "--arcs"});
+    bad({"--arcs", "3", "--angles", "1,2"}, {"--angles: 2 for 3 regions"});
+    bad({"--arcs", "3", "--regions", "0.5,0.5"}, {"--regions", "--arcs"});
+    bad({"--arcs", "3", "--rest", "straight"}, {"--arcs", "--rest straight"});
+    bad({"--arcs", "1"}, {"--arcs"});
+    well(folder, {"inspect", "s.obj", "--json", "fit.json"});
+    bad({"--arcs", "3", "--fit", "fit.json"}, {"--arcs", "fit.json", "2"});
+    well(folder, {"bend", "s.obj", "-o", "out.ply", "--fit", "fit.json", "--arcs", "2", "--by", "10",
+                  "--folds", "5,6"});
+}
+
 TEST_CASE("chain: a crowd is bent along one arc") {
     const Folder folder;
     pipe(folder);

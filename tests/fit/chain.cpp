@@ -210,6 +210,63 @@ TEST_CASE("chains: folds run on between arcs, unless one is bent as far as it ca
     CHECK_FALSE(joined(cylinder));
 }
 
+TEST_CASE("chains: there are as many arcs as are asked for") {
+    std::mt19937 random(11);
+    const auto with = [](const Solid& solid, std::size_t count, std::optional<glm::dvec3> axis = {}) {
+        return fit::fit_cylinder(solid.geometry(), axis, fit::RestPose::chain, count);
+    };
+    for (const Arcs& arcs : {elbow, cane, s, twisted}) {
+        const Solid solid = bent_along(arcs, {.rows = 96}, random);
+        const Cylinder found = chain_of(solid);
+        for (std::size_t count = found.arcs.size(); count <= 12; ++count) {
+            CAPTURE(count);
+            const Cylinder fitted = with(solid, count);
+            CHECK(fitted.arcs.size() == count);
+            CHECK(fitted.residual < 0.08);
+            CHECK(center_miss(fitted, arcs, {}) < 0.08);
+            CHECK(std::abs(fitted.length / length_of(arcs) - 1) < 0.01);
+            CHECK_NOTHROW(fit::check(fitted));
+            CHECK(fitted.origin == found.origin);  // it is the same chain
+        }
+    }
+    const Solid spiral = bent_along({{9, 1, 0}, {9, 2, 1}, {9, 1, 3}, {9, 2, 5}}, {.rows = 128}, random);
+    REQUIRE(chain_of(spiral).arcs.size() >= 4);
+    CHECK(with(spiral, 3).arcs.size() == 3);  // not as closely
+    const Solid straight = test::cylinder({.rows = 64, .length = 16}, random);
+    const Cylinder cut = with(straight, 5);
+    CHECK(cut.arcs.size() == 5);
+    CHECK(bent_by(cut.arcs) < 0.05);
+    CHECK(std::abs(cut.length / 16 - 1) < 0.01);
+
+    // Those of a body that few do not follow, or that has no room for so many.
+    const auto said_of = [&](auto&& fit) { return test::error_of([&] { (void)fit(); }); };
+    const Solid stout = test::cylinder({.length = 4}, random), bent = bent_along(cane, {.rows = 96}, random);
+    CHECK(says(said_of([&] { return with(stout, 9); }), "does not follow a chain of 9"));
+    CHECK(says(said_of([&] { return with(bent, 3, {{1, -1, 0}}); }), "3 along that axis"));
+    CHECK(says(said_of([&] { return with(straight, 1); }), "arcs: 1 is outside 2..12"));
+    CHECK(says(said_of([&] { return with(straight, 13); }), "arcs: 13 is outside"));
+    CHECK(
+        says(said_of([&] { return fit::fit_cylinder(straight.geometry(), {}, fit::RestPose::automatic, 3); }),
+             "RestPose::chain"));
+}
+
+TEST_CASE("chains: folds may be said for each arc") {
+    std::mt19937 random(12);
+    const Solid solid = bent_along(elbow, {.rows = 160}, random);
+    const Cylinder fitted = fit::fit_cylinder(solid.geometry(), {}, fit::RestPose::chain, 3);
+    fit::BindOptions options;
+    options.regions = {{0.9, 4}, {0.9, {}}, {0.9, 6}};
+    options.folds = 10;
+    const fit::Binding binding = fit::bind(solid.geometry(), fitted, options);
+    REQUIRE(binding.regions.size() == 3);
+    CHECK(binding.folds(0) == 4);
+    CHECK(binding.folds(1) ==
+          std::lround(10 * (fitted.arcs[0].length + fitted.arcs[1].length) / fitted.length) -
+              std::lround(10 * fitted.arcs[0].length / fitted.length));
+    CHECK(binding.folds(2) == 6);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(binding.regions[i].length == fitted.arcs[i].length);
+}
+
 TEST_CASE("chains: a ring gets none, nor does a wavy relief") {
     std::mt19937 random(10);
     const paper::ClosedForm ring({.length = 60, .radius = 1}, {6.2, 0});

@@ -118,12 +118,15 @@ typedef struct goffer_bind_options {
     const double* shares;               /* null, or what each region is of the length; adds up to 1 */
     size_t region_count;                /* of shares */
     int folds_apart;                    /* not 0: folds end where regions meet, instead of running on */
+    /* Of a chain that the body is bent along at rest, 2 to 12, each of which is a region; negative: as many
+     * as follow it, where one does not; 0 or 1: no chain. */
+    int arcs;
 } goffer_bind_options;
 
 GOFFER_API goffer_bind_options goffer_bind_defaults(void);
 
-/* Fits the base cylinder and binds the mesh to it; `options` may be null. Offline: it
- * allocates, and takes longer than a frame. [fit::bind] */
+/* Fits the base cylinder and binds the mesh to it; `options` may be null. Offline: it allocates, and takes
+ * longer than a frame. [fit::bind] */
 GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options* options,
                                          goffer_error* error);
 /* Not for the bodies of a file. */
@@ -189,8 +192,8 @@ typedef struct goffer_file_draw {
     const uint32_t* triangles; /* 3 vertices of the body each, counterclockwise from outside */
     size_t triangle_count;
     const float* uvs; /* 2 floats per vertex, v up */
-    const uint32_t*
-        source; /* which vertex of the model each vertex is; nothing looks whether it has that many */
+    /* Which vertex of the model each vertex is; nothing looks whether it has that many. */
+    const uint32_t* source;
     size_t part_count;
     goffer_bounds rest_bounds; /* of all vertices at rest, as the file has it: nothing looks whether it is */
 } goffer_file_draw;
@@ -323,7 +326,7 @@ typedef struct goffer_crowd goffer_crowd;
 GOFFER_API goffer_crowd* goffer_crowd_create(size_t batch_count, goffer_error* error);
 GOFFER_API void goffer_crowd_free(goffer_crowd* crowd);
 /* Sets batch `index`. What the batch points to is read when the crowd runs, so that it is to be set again
- * only where an address or a count changes. Allocates nothing. */
+ * only where an address or a count changes. Allocates nothing unless it returns an error. */
 GOFFER_API int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batch,
                                 goffer_error* error);
 /* The number of the frame, by which update_intervals count. */

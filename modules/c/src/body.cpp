@@ -35,6 +35,11 @@ fit::Amplitude amplitude_of(const goffer_bind_options& options) {
     return amplitudes[options.amplitude];
 }
 
+/// Whether the body may be bent along a chain of arcs at rest.
+bool may_be_chain(const goffer_bind_options& given) {
+    return given.arcs < 0 || given.arcs > 1;
+}
+
 fit::BindOptions options_of(const goffer_bind_options& given) {
     fit::BindOptions options;
     options.profile = profile_of(given);
@@ -45,6 +50,9 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     options.folds_over_joints = given.folds_apart == 0;
     if (!(given.onset < 0)) options.onset = given.onset;
     options.wrinkle_range = {given.wrinkle_first, given.wrinkle_last};
+    if (may_be_chain(given) && (given.straight != 0 || given.region_count > 0))
+        throw std::invalid_argument(
+            "arcs: are regions that are bent at rest; give no shares, and not straight");
     if (given.region_count > 0 && given.shares == nullptr)
         throw std::invalid_argument("shares: null; give one for each region");
     for (std::size_t i = 0; i < given.region_count; ++i)
@@ -58,8 +66,11 @@ fit::Binding bind(const goffer_mesh& mesh, const goffer_bind_options& given,
     fit::check(geometry);
     std::optional<glm::dvec3> axis;
     if (given.axis != nullptr) axis = glm::dvec3(given.axis[0], given.axis[1], given.axis[2]);
-    const auto rest = given.straight != 0 ? fit::RestPose::straight : fit::RestPose::automatic;
-    return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest), options);
+    const auto rest = may_be_chain(given)   ? fit::RestPose::chain
+                      : given.straight != 0 ? fit::RestPose::straight
+                                            : fit::RestPose::automatic;
+    const std::size_t arcs = given.arcs > 1 ? static_cast<std::size_t>(given.arcs) : 0;
+    return fit::bind(geometry, fit::fit_cylinder(geometry, axis, rest, arcs), options);
 }
 
 static_assert(GOFFER_SHORTAGE_LENGTH == static_cast<int>(fit::FoldShortage::length));

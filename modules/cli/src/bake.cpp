@@ -61,7 +61,8 @@ struct BakeRequest {
     BindRequest bind;
     std::vector<SocketWords> sockets;
 
-    explicit BakeRequest(const BakeOptions& options) : bind(options.bind, PoseRequest(options.pose).regions) {
+    explicit BakeRequest(const BakeOptions& options)
+        : bind(options.bind, PoseRequest(options.pose, options.bind.fit.arcs).regions) {
         bind.with_uvs = true;
         for (const std::string& text : options.sockets) {
             const SocketWords socket = parse_socket(text);
@@ -125,7 +126,7 @@ void warn_of_level(Report& report, const BoundModel& model, const BoundModel& le
 
 /// Parts as stretches of triangles. `place` of a material: which of the file's it is.
 std::vector<bend::DrawPart> parts_of(const mesh::Mesh& mesh, const std::vector<std::int32_t>& place) {
-    const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
+    const std::vector<mesh::TriangleRange> triangles = mesh::triangles_of_parts(mesh);
     std::vector<bend::DrawPart> parts;
     parts.reserve(triangles.size());
     for (std::size_t p = 0; p < triangles.size(); ++p) {

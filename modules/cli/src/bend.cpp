@@ -58,7 +58,7 @@ struct Request {
     PictureStyle style;
 
     Request(const BendOptions& options, std::vector<fit::RegionOptions> baked)
-        : pose(options.pose, std::move(baked)),
+        : pose(options.pose, options.bind.fit.arcs, std::move(baked)),
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {

@@ -19,11 +19,10 @@ namespace {
 
 struct InspectOptions {
     std::filesystem::path model;
-    std::string axis = "auto";
-    std::string rest = "auto";
+    FitWords fit;
     mesh::LoadOptions load;
     std::filesystem::path json;
-    bool said_fit = false;  ///< --axis or --rest
+    bool said_fit = false;  ///< --axis, --rest or --arcs
 };
 
 /// The center line at rest, if it is bent, beside the straight line that it replaces.
@@ -157,8 +156,7 @@ void report_bends(Report& report, const fit::Binding& binding) {
 void run_inspect(const InspectOptions& options) {
     if (is_body_file(options.model)) return inspect_body_file(options);
     BindWords words;
-    words.axis = options.axis;
-    words.rest = options.rest;
+    words.fit = options.fit;
     words.load = options.load;
     const BindRequest request(words);
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});
@@ -168,7 +166,7 @@ void run_inspect(const InspectOptions& options) {
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     report_suitability(report, model);
-    if (options.rest != "straight") report_rest(report, request, model);
+    if (options.fit.rest != "straight") report_rest(report, request, model);
     report_bends(report, model.binding);
     io::AtomicFiles outputs;
     report.finish(outputs);
@@ -182,11 +180,12 @@ void add_inspect(CLI::App& app, Action& action) {
         app.add_subcommand("inspect", "Fit the base cylinder to a model and say what was found");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
         ->required();
-    add_fit_words(*command, options->axis, options->rest);
+    add_fit_words(*command, options->fit);
     add_load_words(*command, options->load);
     add_json_word(*command, options->json);
     command->callback([options, command, &action] {
-        options->said_fit = command->count("--axis") + command->count("--rest") > 0;
+        options->said_fit =
+            command->count("--axis") + command->count("--rest") + command->count("--arcs") > 0;
         action = [options] { run_inspect(*options); };
     });
 }

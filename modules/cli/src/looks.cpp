@@ -58,7 +58,7 @@ std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexA
 
 std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const Textures& textures, bool colored,
                                const glm::vec4& plain) {
-    const std::vector<TriangleRange> triangles = triangles_of_parts(mesh);
+    const std::vector<mesh::TriangleRange> triangles = mesh::triangles_of_parts(mesh);
     std::vector<PartLook> looks;
     for (std::size_t p = 0; p < triangles.size(); ++p) {
         if (triangles[p].count == 0) continue;

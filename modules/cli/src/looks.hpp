@@ -43,7 +43,7 @@ struct Sight {
 
 /// A part of a mesh, and how it looks.
 struct PartLook {
-    TriangleRange triangles;
+    mesh::TriangleRange triangles;
     glm::vec4 color;              ///< linear RGBA; a texture, or the vertices' colors, are multiplied by it
     std::size_t material = none;  ///< whose texture of `textures` it shows, or none
 

@@ -28,6 +28,14 @@ BindWords spelled_out(BindWords words) {
     return words;
 }
 
+fit::RestPose rest_pose_of(const FitWords& words, bool regions) {
+    if (words.arcs > 0 && words.rest != "auto")
+        throw UsageError("--arcs: --rest " + words.rest + " is no chain of arcs; leave out one of them");
+    if (words.rest == "straight") return fit::RestPose::straight;
+    const bool chain = words.rest == "auto" && (words.arcs > 0 || !regions);
+    return chain ? fit::RestPose::chain : fit::RestPose::automatic;
+}
+
 fit::WrinkleRange parse_wrinkle_range(const std::string& text) {
     const std::vector<double> shares = read_numbers("--wrinkle-range", text);
     if (shares.size() != 2 || !(shares[0] >= 0 && shares[0] < shares[1] && shares[1] <= 1))
@@ -104,34 +112,8 @@ void take_arrays(BoundModel& model, const BindRequest& request) {
         model.wrinkle_mask.push_back(std::clamp(mesh.colors[vertex][*request.mask_channel], 0.0f, 1.0f));
 }
 
-}  // namespace
-
-void add_level_word(CLI::App& command, std::size_t& level) {
-    command
-        .add_option("--level", level, "Take this level of detail of a body file; 0 is the finest (default)")
-        ->check(CLI::Range(std::size_t{0}, bend::max_levels - 1));
-}
-
-void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
-    command.add_flag("--allow-outside", options.allow_outside,
-                     "Read what a model names outside its folder too (buffers, images, material files), and "
-                     "copy it into the output; for models that you trust");
-    add_memory_word(command, options.limits);
-}
-
-void add_fit_words(CLI::App& command, std::string& axis, std::string& rest) {
-    command.add_option("--axis", axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
-        ->capture_default_str();
-    command
-        .add_option(
-            "--rest", rest,
-            "Fit the center line: auto (an arc where that fits better, or, unless --regions are said, "
-            "a chain of arcs, each of which is a region), arc (one, or straight), straight")
-        ->check(CLI::IsMember({"auto", "arc", "straight"}))
-        ->capture_default_str();
-}
-
-void add_bind_words(CLI::App& command, BindWords& words) {
+/// Adds those of add_bind_words() that say what folds are like where the body may wrinkle.
+void add_fold_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
                        "Make this many folds over the length of a region (with --profile damped or smooth: "
                        "over half of it), or a list of one number for each (default: what suits the body and "
@@ -159,6 +141,43 @@ void add_bind_words(CLI::App& command, BindWords& words) {
                     "Round the crests of --profile even, 0 to 0.5; 0 is a plain cosine")
         ->check(number_within(0, 0.5, "a roundness"))
         ->capture_default_str();
+}
+
+}  // namespace
+
+void add_level_word(CLI::App& command, std::size_t& level) {
+    command
+        .add_option("--level", level, "Take this level of detail of a body file; 0 is the finest (default)")
+        ->check(CLI::Range(std::size_t{0}, bend::max_levels - 1));
+}
+
+void add_load_words(CLI::App& command, mesh::LoadOptions& options) {
+    command.add_flag("--allow-outside", options.allow_outside,
+                     "Read what a model names outside its folder too (buffers, images, material files), and "
+                     "copy it into the output; for models that you trust");
+    add_memory_word(command, options.limits);
+}
+
+void add_fit_words(CLI::App& command, FitWords& words) {
+    command
+        .add_option("--axis", words.axis, "Take this axis, from base to tip: auto, x, y, z, -x, .. or X,Y,Z")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--rest", words.rest,
+            "Fit the center line: auto (an arc where that fits better, or, unless --regions are said, "
+            "a chain of arcs, each of which is a region), arc (one, or straight), straight")
+        ->check(CLI::IsMember({"auto", "arc", "straight"}))
+        ->capture_default_str();
+    command
+        .add_option("--arcs", words.arcs,
+                    "Make the center line at rest a chain of this many arcs, each of which is a region "
+                    "(default: as many as follow the body, where one does not)")
+        ->check(CLI::Range(std::size_t{2}, fit::max_arcs));
+}
+
+void add_bind_words(CLI::App& command, BindWords& words) {
+    add_fold_words(command, words);
     command
         .add_option("--shape", words.shape,
                     "Take the body for: auto (as thick as it is, here and there), cylinder (of one radius)")
@@ -187,10 +206,10 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         .add_option("--onset", words.onset,
                     "Begin wrinkles gently, below this squeeze, 0..1 (default: 0; 0.001 if bent at rest)")
         ->check(number_within(0, 1, "a squeeze"));
-    add_fit_words(command, words.axis, words.rest);
+    add_fit_words(command, words.fit);
     for (const char* option :
          {"--folds", "--fold-length", "--amplitude", "--profile", "--roundness", "--shape", "--joints",
-          "--paper", "--wrinkle-range", "--wrinkle-mask", "--onset", "--axis", "--rest"})
+          "--paper", "--wrinkle-range", "--wrinkle-mask", "--onset", "--axis", "--rest", "--arcs"})
         words.choices.push_back(command.get_option(option));
     add_load_words(command, words.load);
 }
@@ -210,10 +229,8 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
 
 BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions)
     : words(spelled_out(said)),
-      axis(parse_axis(words.axis)),
-      rest(words.rest == "straight"                  ? fit::RestPose::straight
-           : words.rest == "auto" && regions.empty() ? fit::RestPose::chain
-                                                     : fit::RestPose::automatic) {
+      axis(parse_axis(words.fit.axis)),
+      rest(rest_pose_of(words.fit, !regions.empty())) {
     options.folds = read_folds(words.folds, regions);
     options.regions = std::move(regions);
     options.onset = words.onset;
@@ -250,20 +267,6 @@ mesh::Mesh mesh_of(const paper::BaseMesh& base) {
     return mesh;
 }
 
-std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh) {
-    std::vector<TriangleRange> ranges;
-    ranges.reserve(mesh.parts.size());
-    std::uint32_t next = 0;
-    for (const mesh::Part& part : mesh.parts) {
-        TriangleRange range{next, 0};
-        for (std::uint32_t face = 0; face < part.face_count; ++face)
-            range.count += mesh.faces[part.first_face + face] - 2;
-        next += range.count;
-        ranges.push_back(range);
-    }
-    return ranges;
-}
-
 BoundModel read_model(const std::filesystem::path& file, const BindRequest& request) {
     BoundModel model;
     model.file = file;
@@ -291,13 +294,17 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
         const fit::Geometry geometry = geometry_of(model.rest);
         fit::check(geometry);
         const fit::Cylinder found =
-            given ? read_fit(fit) : fit::fit_cylinder(geometry, request.axis, request.rest);
+            given ? read_fit(fit)
+                  : fit::fit_cylinder(geometry, request.axis, request.rest, request.words.fit.arcs);
         const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
-    if (!cylinder.arcs.empty() && !request.options.regions.empty())
-        throw UsageError("--fit: the cylinder in " + fit.string() + " is a chain of " +
-                         counted(cylinder.arcs.size(), "arc") +
+    const std::size_t arcs = cylinder.arcs.size(), said = request.words.fit.arcs;
+    if (given && said > 0 && said != arcs)
+        throw UsageError("--arcs: the cylinder in " + fit.string() + " has " +
+                         (arcs == 0 ? "none" : std::to_string(arcs)) + "; say the same, or leave out --fit");
+    if (said == 0 && arcs > 0 && !request.options.regions.empty())
+        throw UsageError("--fit: the cylinder in " + fit.string() + " is a chain of " + counted(arcs, "arc") +
                          ", which are its regions; leave it out, or --regions and --path, which have others");
     if (request.refine != "off" && request.options.amplitude != fit::Amplitude::none) {
         const bool automatic = request.refine == "auto";

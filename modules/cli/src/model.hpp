@@ -22,6 +22,13 @@
 
 namespace goffer::cli {
 
+/// Words on how models are fitted.
+struct FitWords {
+    std::string axis = "auto";
+    std::string rest = "auto";
+    std::size_t arcs = 0;  ///< of the chain that the body is bent along at rest; 0: nobody says
+};
+
 /// Words on how models are read, fitted and bound.
 struct BindWords {
     mesh::LoadOptions load = {};
@@ -35,8 +42,7 @@ struct BindWords {
     bool paper = false;  ///< as the paper has it
     std::optional<std::string> wrinkle_range = {};
     std::optional<std::string> wrinkle_mask = {};  ///< a channel of the vertex colors
-    std::string axis = "auto";
-    std::string rest = "auto";
+    FitWords fit = {};
     std::optional<double> onset = {};
     std::string refine = "off";  ///< split edges until the mesh carries the folds: auto, on, off
     std::size_t level = 0;       ///< of a body file
@@ -50,11 +56,11 @@ void add_level_word(CLI::App& command, std::size_t& level);
 /// Adds --allow-outside and --max-memory: what is read of a model. `options` must outlive `command`.
 void add_load_words(CLI::App& command, mesh::LoadOptions& options);
 
-/// Adds --axis and --rest: how a model is fitted. Both must outlive `command`.
-void add_fit_words(CLI::App& command, std::string& axis, std::string& rest);
+/// Adds --axis, --rest and --arcs: how a model is fitted. `words` must outlive `command`.
+void add_fit_words(CLI::App& command, FitWords& words);
 
 /// Adds --folds, --fold-length, --amplitude, --profile, --roundness, --shape, --joints, --paper,
-/// --wrinkle-range, --wrinkle-mask, --onset, --axis, --rest and those of add_load_words(). `words` must
+/// --wrinkle-range, --wrinkle-mask, --onset, and those of add_fit_words() and add_load_words(). `words` must
 /// outlive `command`.
 void add_bind_words(CLI::App& command, BindWords& words);
 
@@ -71,13 +77,15 @@ struct BindRequest {
     std::optional<int> mask_channel;  ///< of the vertex colors, 0..3: Geometry::wrinkle_mask
     bool with_uvs = false;            ///< a vertex of the body for each texture coordinate of a vertex
 
-    /// `regions`: as PoseRequest's; none for a body of one region.
+    /// `regions`: as PoseRequest's; none for a body of one region, or of as many as it has arcs at rest.
     explicit BindRequest(const BindWords& said, std::vector<fit::RegionOptions> regions = {});
 
-    /// For commands that pose one region where none are said: a body is not bent along a chain of arcs.
+    /// For commands that pose one region where none are said: a body is not bent along a chain of arcs unless
+    /// it is said of how many.
     [[nodiscard]] BindRequest with_one_arc() const {
         BindRequest request = *this;
-        if (request.rest == fit::RestPose::chain) request.rest = fit::RestPose::automatic;
+        if (request.rest == fit::RestPose::chain && words.fit.arcs == 0)
+            request.rest = fit::RestPose::automatic;
         return request;
     }
 };
@@ -125,15 +133,6 @@ struct BoundModel {
 
 /// The base model as a mesh of one part.
 [[nodiscard]] mesh::Mesh mesh_of(const paper::BaseMesh& base);
-
-/// Triangles [first, first + count) of all, as mesh::triangles() cuts the faces.
-struct TriangleRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-};
-
-/// Which triangles each part of `mesh` has.
-[[nodiscard]] std::vector<TriangleRange> triangles_of_parts(const mesh::Mesh& mesh);
 
 /// Values in the body's order, put into the model's.
 template <class T>

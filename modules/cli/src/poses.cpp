@@ -25,7 +25,7 @@ std::vector<fit::RegionOptions> read_regions(const std::string& text) {
     try {
         fit::check(regions);
     } catch (const fit::Error& error) {
-        throw UsageError("--" + std::string(error.what()));
+        throw UsageError("--regions " + text + ": " + error.what());
     }
     return regions;
 }
@@ -196,16 +196,23 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
         ->excludes(toward);
 }
 
-PoseRequest::PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions> baked)
-    : regions(words.regions ? read_regions(*words.regions) : std::move(baked)),
+std::vector<fit::RegionOptions> equal_regions(std::size_t count) {
+    return std::vector<fit::RegionOptions>(count, {1.0 / static_cast<double>(count), std::nullopt});
+}
+
+PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<fit::RegionOptions> baked)
+    : regions(words.regions ? read_regions(*words.regions)
+              : arcs > 0    ? equal_regions(arcs)
+                            : std::move(baked)),
       from_rest(words.by.has_value()) {
+    if (arcs > 0 && words.regions)
+        throw UsageError("--regions: those of --arcs are its arcs; leave out one of them");
     for (const auto& [said, option] : {std::pair(words.angles.has_value(), "--angles"),
                                        std::pair(words.directions.has_value(), "--directions")}) {
         if (said && !words.regions && regions.empty())
             throw UsageError(std::string(option) +
-                             ": is for a body of several regions; add --regions, or bake a model that is "
-                             "bent along a chain of "
-                             "arcs first, and bend the body file");
+                             ": is for a body of several regions; add --regions, or --arcs for a model "
+                             "that is bent at rest along a chain of them");
     }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);

@@ -34,6 +34,9 @@ void add_angle_words(CLI::App& command, PoseWords& words, const std::string& ang
 /// Adds these, --by, --direction and --directions.
 void add_pose_words(CLI::App& command, PoseWords& words);
 
+/// `count` regions of one length.
+[[nodiscard]] std::vector<fit::RegionOptions> equal_regions(std::size_t count);
+
 /// Such words, understood. Throws UsageError.
 struct PoseRequest {
     std::vector<fit::RegionOptions> regions;  ///< none: the body is one region
@@ -42,8 +45,10 @@ struct PoseRequest {
     std::optional<double> shared;             ///< the angle that all regions share, if it is one
     std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
 
-    /// `baked`: the regions of a body that has them already, if it has several.
-    explicit PoseRequest(const PoseWords& words, std::vector<fit::RegionOptions> baked = {});
+    /// `arcs`: of --arcs, 0 where nobody says. `baked`: the regions of a body that has them already, if it
+    /// has several.
+    explicit PoseRequest(const PoseWords& words, std::size_t arcs = 0,
+                         std::vector<fit::RegionOptions> baked = {});
 };
 
 /// A region's rest arc, in degrees; both are 0 of a straight one.

@@ -27,8 +27,7 @@ struct RefineOptions {
     std::filesystem::path model;
     std::filesystem::path output;
     std::optional<int> folds;
-    std::string axis = "auto";
-    std::string rest = "auto";
+    FitWords words;
     mesh::LoadOptions load;
     std::filesystem::path fit;
     std::filesystem::path json;
@@ -36,8 +35,7 @@ struct RefineOptions {
 
 void run_refine(const RefineOptions& options) {
     BindWords words;
-    words.axis = options.axis;
-    words.rest = options.rest;
+    words.fit = options.words;
     words.load = options.load;
     words.refine = "on";
     BindRequest request(words);
@@ -142,7 +140,7 @@ void add_refine(CLI::App& app, Action& action) {
             "Make room for this many folds over the length, as --profile even counts them; the paper's, "
             "over half of it, need twice as many (default: what suits the body)")
         ->check(CLI::Range(1, fit::BindOptions::max_folds));
-    add_fit_words(*command, options->axis, options->rest);
+    add_fit_words(*command, options->words);
     add_load_words(*command, options->load);
     command->add_option("--fit", options->fit,
                         "Take the base cylinder from a report of 'goffer inspect --json'");

@@ -370,22 +370,29 @@ ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, 
 
 }  // namespace
 
-std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, double radius, double shortest,
-                                 double tolerance, std::size_t max_arcs) {
+std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, const ChainLimits& limits,
+                                 std::size_t count) {
     const Bends bends = bends_of(points);
+    const std::vector<std::size_t> cuts = cut_evenly(points, bends, count, limits.shortest);
+    if (cuts.empty()) return std::nullopt;
+    std::vector<ChainArc> arcs;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double length = points[cuts[i + 1]].along - points[cuts[i]].along;
+        arcs.push_back({length, (bends.turned[cuts[i + 1]] - bends.turned[cuts[i]]) / length});
+    }
+    return settled_on({points[0].place, bends.frame, arcs}, points, limits.radius, limits.shortest);
+}
+
+std::optional<ArcChain> fit_fewest_arcs(std::span<const CenterPoint> points, const ChainLimits& limits) {
     double weight = 0;
     for (const CenterPoint& point : points) weight += point.weight;
     std::optional<ArcChain> best;
-    for (std::size_t count = 2; count <= max_arcs; ++count) {
-        const std::vector<std::size_t> cuts = cut_evenly(points, bends, count, shortest);
-        if (cuts.empty()) break;
-        std::vector<ChainArc> arcs;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double length = points[cuts[i + 1]].along - points[cuts[i]].along;
-            arcs.push_back({length, (bends.turned[cuts[i + 1]] - bends.turned[cuts[i]]) / length});
-        }
-        best = settled_on({points[0].place, bends.frame, arcs}, points, radius, shortest);
-        if (std::sqrt(residuals(*best, points, radius).squaredNorm() / weight) < tolerance) break;
+    for (std::size_t count = 2; count <= limits.max_arcs; ++count) {
+        std::optional<ArcChain> chain = fit_arcs(points, limits, count);
+        if (!chain) break;
+        best = std::move(chain);
+        const double off = residuals(*best, points, limits.radius).squaredNorm();
+        if (std::sqrt(off / weight) < limits.tolerance) break;
     }
     return best;
 }

@@ -13,17 +13,11 @@
 namespace goffer::fit {
 namespace {
 
-constexpr std::size_t max_arcs = 12;
-
-/// Lengths that a chain is fitted by, in units of the body's size.
-struct Measure {
-    double radius;
-
-    /// Arcs are no shorter than this: a joint takes a stretch of the body.
-    [[nodiscard]] double shortest() const { return 1.5 * radius; }
-    /// Points may be this far from the chain, rms.
-    [[nodiscard]] double tolerance() const { return 0.08 * radius; }
-};
+/// Lengths that a chain is fitted by, for a body of such a radius, in units of the body's size. A joint takes
+/// a stretch of the body.
+ChainLimits limits_of(double radius) {
+    return {.radius = radius, .shortest = 1.5 * radius, .tolerance = 0.08 * radius, .max_arcs = max_arcs};
+}
 
 View view_about(const Body& body, const ArcChain& chain) {
     return View(body, [&chain](const Vector3d& place) { return chain.straightened(place); });
@@ -31,7 +25,7 @@ View view_about(const Body& body, const ArcChain& chain) {
 
 /// The centers of the circles (Kasa 1976) of the sections about a chain. Sections that have none near the
 /// chain are left out, as are both ends, where a chain tells too little of the directions of sections.
-std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain, const Measure& measure) {
+std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain, const ChainLimits& limits) {
     struct Sums {
         Matrix3d normal = Matrix3d::Zero();
         Vector3d right = Vector3d::Zero();
@@ -40,7 +34,7 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
     const View view = view_about(body, chain);
     const auto [low, high] = extent(body, view);
     const double count =
-        std::clamp((high - low) / (center_step * measure.radius), fewest_centers, most_centers);
+        std::clamp((high - low) / (center_step * limits.radius), fewest_centers, most_centers);
     const Slices slices(body, view, static_cast<std::size_t>(count));
     std::vector<Sums> sums(slices.count());
     double all = 0;
@@ -58,7 +52,7 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
         const Sums& own = sums[i];
         if (!(own.weight > 0.1 * all / static_cast<double>(sums.size()))) continue;
         const Vector3d by = least_squares(own.normal, own.right);
-        if (!(by.tail<2>().norm() < measure.radius)) continue;
+        if (!(by.tail<2>().norm() < limits.radius)) continue;
         append(points, chain.bent({by[1], by[2], own.z / own.weight}), own.weight / all);
     }
     return points;
@@ -79,12 +73,12 @@ void orient(std::vector<CenterPoint>& points, const std::optional<Vector3d>& axi
 }
 
 /// The chain, with arcs straight that are so as far as anyone can see.
-ArcChain with_straight_arcs(const ArcChain& chain, const Measure& measure) {
+ArcChain with_straight_arcs(const ArcChain& chain, const ChainLimits& limits) {
     constexpr double least_angle = 0.003, least_sag = 0.005;
     std::vector<ChainArc> arcs = chain.arcs();
     for (ChainArc& arc : arcs) {
         const double angle = arc.length * arc.curvature.norm();
-        if (angle < least_angle && angle * arc.length / 8 < least_sag * measure.radius)
+        if (angle < least_angle && angle * arc.length / 8 < least_sag * limits.radius)
             arc.curvature.setZero();
     }
     const Line start = chain.line_at(0);
@@ -192,46 +186,104 @@ bool holds(const Cylinder& cylinder, const Body& body) {
     });
 }
 
+constexpr std::size_t fewest_points = 6;
+
+/// The chain through the middle of the body, of `arcs` or, where that is 0, of as few as follow it.
+std::optional<ArcChain> chain_through(const Body& cloud, std::vector<CenterPoint> points,
+                                      const ChainLimits& limits, std::size_t arcs) {
+    constexpr int rounds = 3;
+    for (int round = 0;; ++round) {
+        const std::optional<ArcChain> chain =
+            arcs == 0 ? fit_fewest_arcs(points, limits) : fit_arcs(points, limits, arcs);
+        if (!chain || round == rounds) return chain;
+        points = section_centers(cloud, *chain, limits);
+        if (points.size() < fewest_points) return std::nullopt;
+    }
+}
+
+/// The chain as far as the body reaches, with arcs straight that are nearly so.
+ArcChain finished(const Body& body, const ArcChain& found, const ChainLimits& limits) {
+    const ArcChain chain = with_straight_arcs(found, limits);
+    const auto [low, high] = extent(body, view_about(body, chain));
+    return trimmed(chain, low, high, limits.shortest / 2);
+}
+
+/// Points along the middle of the body from base to tip; none where it is too stout for a chain, or does not
+/// lie along the axis.
+CenterPoints points_along(const Body& body, const std::optional<Vector3d>& axis) {
+    constexpr double within = 0.7;  // cosine of 45 degrees
+    CenterPoints found = center_points(body);
+    if (found.points.size() < fewest_points) return {{}, found.radius};
+    if (axis && std::abs(chord_of(found.points).dot(*axis)) < within) return {{}, found.radius};
+    orient(found.points, axis);
+    return found;
+}
+
+/// The base with `count` arcs, the longest of which are halved for it.
+Cylinder cut_to(Cylinder cylinder, std::size_t count) {
+    while (cylinder.arcs.size() < count) {
+        const auto longest = std::ranges::max_element(cylinder.arcs, {}, &RestArc::length);
+        longest->length /= 2;
+        longest->angle /= 2;
+        cylinder.arcs.insert(longest, *longest);
+    }
+    return cylinder;
+}
+
+constexpr std::size_t samples = 4000;
+constexpr double most_one_sided = 0.25;
+
 }  // namespace
 
 std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std::optional<Vector3d>& axis) {
-    constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7, most_one_sided = 0.25;
+    constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7;
     constexpr double least_aside = 1;  // radii: what bends less is a relief
     constexpr double few_times = 4;    // what a line's radius may be of the slimmest that is possible
-    constexpr double within = 0.7;     // cosine of 45 degrees
     std::vector<std::uint32_t> triangles;
-    constexpr std::size_t samples = 4000;
     const Body cloud = sampled_surface(body, samples, triangles);
     const View along_line(cloud, line);
     const double rough = roughness(cloud, along_line);
     const std::optional<Section> before = section_around(cloud, along_line);
     const bool tube = before && !(rough > rough_enough * before->radius);
     if (tube && before->radius < few_times * slimmest(body)) return std::nullopt;
-    CenterPoints found = center_points(body);
-    if (found.points.size() < 6 || !(aside(found.points, line) > least_aside * found.radius))
+    const CenterPoints found = points_along(body, axis);
+    if (found.points.empty() || !(aside(found.points, line) > least_aside * found.radius))
         return std::nullopt;
-    const Measure measure{found.radius};
-    if (axis && std::abs(chord_of(found.points).dot(*axis)) < within) return std::nullopt;
-    orient(found.points, axis);
-    std::optional<ArcChain> chain;
-    for (int round = 0;; ++round) {
-        chain = fit_arcs(found.points, measure.radius, measure.shortest(), measure.tolerance(), max_arcs);
-        constexpr int rounds = 3;
-        if (!chain || round == rounds) break;
-        found.points = section_centers(cloud, *chain, measure);
-        if (found.points.size() < 6) return std::nullopt;
-    }
-    if (!chain) return std::nullopt;
-    chain = with_straight_arcs(*chain, measure);
-    const auto [low, high] = extent(body, view_about(body, *chain));
-    chain = trimmed(*chain, low, high, measure.shortest() / 2);
-    if (chain->arcs().size() < 2) return std::nullopt;
-    const View view = view_about(cloud, *chain);
+    const ChainLimits limits = limits_of(found.radius);
+    const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, 0);
+    if (!through) return std::nullopt;
+    const ArcChain chain = finished(body, *through, limits);
+    if (chain.arcs().size() < 2) return std::nullopt;
+    const View view = view_about(cloud, chain);
     const double now = roughness(cloud, view);
-    if (!(now < smooth * measure.radius && now < better * rough)) return std::nullopt;
+    if (!(now < smooth * limits.radius && now < better * rough)) return std::nullopt;
     if (!(one_sidedness(cloud, view) < most_one_sided)) return std::nullopt;
-    const std::optional<Cylinder> cylinder = cylinder_of(body, *chain);
+    const std::optional<Cylinder> cylinder = cylinder_of(body, chain);
     return cylinder && holds(*cylinder, body) ? cylinder : std::nullopt;
+}
+
+std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
+                                     const std::optional<Vector3d>& axis) {
+    std::vector<std::uint32_t> triangles;
+    const Body cloud = sampled_surface(body, samples, triangles);
+    const CenterPoints found = points_along(body, axis);
+    if (found.points.empty()) return std::nullopt;
+    const ChainLimits limits = limits_of(found.radius);
+    const auto follow = [&](std::size_t count) -> std::optional<Cylinder> {
+        const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, count);
+        if (!through) return std::nullopt;
+        const ArcChain chain = finished(body, *through, limits);
+        if (!(one_sidedness(cloud, view_about(cloud, chain)) < most_one_sided)) return std::nullopt;
+        const std::optional<Cylinder> cylinder = cylinder_of(body, chain);
+        return cylinder && holds(*cylinder, body) ? cylinder : std::nullopt;
+    };
+    // Further arcs than those that follow the body would follow its noise. Fewer may be fewer still, since
+    // arcs beyond an end are left out; or more, since one of more than a half turn becomes two.
+    std::optional<Cylinder> best = follow(0);
+    for (std::size_t count = arcs; count > 0 && !(best && best->arcs.size() <= arcs); --count)
+        best = follow(count);
+    if (!best || best->arcs.size() > arcs) return std::nullopt;
+    return cut_to(*best, arcs);
 }
 
 }  // namespace goffer::fit

@@ -206,15 +206,35 @@ void check_arcs(const Cylinder& cylinder) {
     }
 }
 
+void check_count(std::size_t arcs, RestPose rest) {
+    if (arcs == 0) return;
+    if (rest != RestPose::chain) throw Error("arcs: are for RestPose::chain; give none, or that");
+    if (arcs < 2 || arcs > max_arcs)
+        throw Error("arcs: " + std::to_string(arcs) + " is outside 2.." + std::to_string(max_arcs));
+}
+
+Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {
+    const std::optional<Cylinder> chain = fit_chain_of(body, arcs, axis);
+    if (!chain)
+        throw Error("arcs: the body does not follow a chain of " + std::to_string(arcs) +
+                    (axis ? " along that axis" : "") + "; give another number, or none");
+    check_size(*chain, body);
+    return *chain;
+}
+
 }  // namespace
 
-Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, RestPose rest) {
+Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, RestPose rest,
+                      std::size_t arcs) {
     check(geometry);
+    check_count(arcs, rest);
     const Body body = body_of(geometry);
+    const std::optional<Vector3d> given = axis ? std::optional(given_axis(*axis)) : std::nullopt;
+    if (arcs > 0) return chain_of(body, arcs, given);
     const Principal principal = principal_axis(body);
     const auto chain_instead = [&](const Line& line) -> std::optional<Cylinder> {
         if (rest != RestPose::chain) return std::nullopt;
-        return fit_chain(body, line, axis ? std::optional(given_axis(*axis)) : std::nullopt);
+        return fit_chain(body, line, given);
     };
     if (!axis && principal.distinct < long_enough) {  // it may be long all the same, if it is bent
         if (const auto chain = chain_instead(line_through(principal.centroid, principal.axis))) {
@@ -222,7 +242,7 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
             return *chain;
         }
     }
-    const Vector3d direction = axis ? given_axis(*axis) : long_axis(principal);
+    const Vector3d direction = given ? *given : long_axis(principal);
     const Line line = settled_near(body, line_through(principal.centroid, direction), false);
     const bool kept = axis && rest == RestPose::straight;
     const Line best = kept ? line : straighten(body, line);

@@ -18,14 +18,14 @@ constexpr std::size_t slices = 64;  // in which rows are looked at
 constexpr double rounding = 1e-3;   // a mesh of just enough rows has enough
 
 /// How far a triangle reaches along the axis, and its area.
-struct Reach {
+struct Extent {
     double low, height;
     double area;
 };
 
-std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
+std::vector<Extent> extents(const Geometry& geometry, const Cylinder& cylinder) {
     const std::vector<double> z = heights(geometry.positions, cylinder);
-    std::vector<Reach> all;
+    std::vector<Extent> all;
     all.reserve(geometry.triangles.size() / 3);
     for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
         const std::span<const std::uint32_t> corners = geometry.triangles.subspan(t, 3);
@@ -35,13 +35,13 @@ std::vector<Reach> reaches(const Geometry& geometry, const Cylinder& cylinder) {
     return all;
 }
 
-/// The reach that only the coarsest `share` of the area exceeds.
-double reach_beyond(std::vector<Reach> all, double share) {
-    std::ranges::sort(all, std::greater{}, &Reach::height);
+/// The extent that only the coarsest `share` of the area exceeds.
+double extent_beyond(std::vector<Extent> all, double share) {
+    std::ranges::sort(all, std::greater{}, &Extent::height);
     double area = 0;
-    for (const Reach& r : all) area += r.area;
+    for (const Extent& r : all) area += r.area;
     double coarser = 0;
-    for (const Reach& r : all) {
+    for (const Extent& r : all) {
         coarser += r.area;
         if (coarser >= share * area) return r.height;
     }
@@ -69,17 +69,17 @@ std::vector<glm::dvec3> places_on_base(const Cylinder& cylinder, std::span<const
 
 Rows::Rows(const Geometry& geometry, const Cylinder& cylinder)
     : length_(cylinder.length), reach_(0), slices_(slices, 0) {
-    const std::vector<Reach> all = reaches(geometry, cylinder);
-    std::vector<std::vector<Reach>> by_slice(slices);
-    for (const Reach& reach : all) {
+    const std::vector<Extent> all = extents(geometry, cylinder);
+    std::vector<std::vector<Extent>> by_slice(slices);
+    for (const Extent& extent : all) {
         const auto slice = [&](double z) {
             return static_cast<std::size_t>(std::clamp(z / length_ * slices, 0.0, slices - 1.0));
         };
-        const std::size_t first = slice(reach.low), last = slice(reach.low + reach.height);
-        for (std::size_t i = first; i <= last; ++i) by_slice[i].push_back(reach);
+        const std::size_t first = slice(extent.low), last = slice(extent.low + extent.height);
+        for (std::size_t i = first; i <= last; ++i) by_slice[i].push_back(extent);
     }
-    for (std::size_t i = 0; i < slices; ++i) slices_[i] = reach_beyond(std::move(by_slice[i]), 0.05);
-    reach_ = reach_beyond(all, 0.02);
+    for (std::size_t i = 0; i < slices; ++i) slices_[i] = extent_beyond(std::move(by_slice[i]), 0.05);
+    reach_ = extent_beyond(all, 0.02);
 }
 
 double Rows::reach_at(double z) const {

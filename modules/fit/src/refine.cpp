@@ -264,7 +264,7 @@ Refinement with_rows(const Geometry& geometry, std::span<const double> heights, 
 }
 
 /// The same options for the first (0) or the second (1) half of the work.
-RefineOptions stage(const RefineOptions& options, int half) {
+RefineOptions half_of(const RefineOptions& options, int half) {
     RefineOptions own = options;
     if (options.progress)
         own.progress = [&options, half](double share) { options.progress((half + share) / 2); };
@@ -328,8 +328,8 @@ Refinement refine(const Geometry& geometry, const Cylinder& cylinder, std::span<
     const RowScale scale = scale_of(stretches);
     const Straightening arc(cylinder);
     Refinement rows = with_rows(geometry, heights(geometry.positions, cylinder), scale,
-                                cylinder.bent() ? &arc : nullptr, stage(options, 0));
-    return with_columns(geometry, cylinder, scale, std::move(rows), stage(options, 1));
+                                cylinder.bent() ? &arc : nullptr, half_of(options, 0));
+    return with_columns(geometry, cylinder, scale, std::move(rows), half_of(options, 1));
 }
 
 Refinement refine(const Geometry& geometry, const Cylinder& cylinder, int folds,

@@ -140,16 +140,19 @@ paper::Pose rest_of(const Cylinder& cylinder, double start, double length) {
 BindOptions with_regions_of(const Cylinder& cylinder, const BindOptions& given) {
     BindOptions options = given;
     if (cylinder.arcs.empty()) return options;
-    if (!given.regions.empty())
-        throw Error("regions: the cylinder is a chain of " + std::to_string(cylinder.arcs.size()) +
-                    " arcs, which are the regions; give none, or a cylinder without arcs");
+    if (!given.regions.empty() && given.regions.size() != cylinder.arcs.size())
+        throw Error("regions: there are " + std::to_string(given.regions.size()) +
+                    ", and the cylinder is a chain of " + std::to_string(cylinder.arcs.size()) +
+                    " arcs, which are the regions; give none, or one for each");
+    options.regions.resize(cylinder.arcs.size());
+    const auto folds_before = [&](double z) { return std::lround(*given.folds * z / cylinder.length); };
     double start = 0;
-    for (const RestArc& arc : cylinder.arcs) {
-        options.regions.push_back({arc.length / cylinder.length, {}});
-        const auto folds_before = [&](double z) { return std::lround(*given.folds * z / cylinder.length); };
-        if (given.folds)
-            options.regions.back().folds = folds_before(start + arc.length) - folds_before(start);
-        start += arc.length;
+    for (std::size_t i = 0; i < cylinder.arcs.size(); ++i) {
+        const double end = start + cylinder.arcs[i].length;
+        RegionOptions& region = options.regions[i];
+        region.share = cylinder.arcs[i].length / cylinder.length;
+        if (given.folds && !region.folds) region.folds = folds_before(end) - folds_before(start);
+        start = end;
     }
     return options;
 }

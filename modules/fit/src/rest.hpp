@@ -69,7 +69,7 @@ void join_folds(std::vector<RestRegion>& regions, double radius, double onset);
 
 /// Returns the options with the regions of a base that is bent along a chain, which has one for each arc, and
 /// shares BindOptions::folds out over them by their lengths; of any other, the options themselves. Throws
-/// Error if there are regions beside those of a chain.
+/// Error if there are regions, but not one for each arc.
 [[nodiscard]] BindOptions with_regions_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Returns the radii of the stretch of a base from z = `start` on, as knots of a shape; none where it has one

@@ -14,10 +14,14 @@
 namespace goffer::fit {
 namespace {
 
-constexpr int squeeze_points = 24;  // squeezes at which eq 7 is solved, for Q(q)
-constexpr double max_even_squeeze =
-    0.9;  // of even folds and of bodies with a shape: beyond it, a row's polynomial is off by more than 2e-6
-constexpr int factor_points = 16;  // angles at which m is solved; it is smooth in their root and close to one
+/// Squeezes at which eq 7 is solved, for Q(q).
+constexpr int squeeze_points = 24;
+/// Of even folds and of bodies with a shape: beyond it, a row's polynomial is off by more than 2e-6.
+constexpr double max_even_squeeze = 0.9;
+/// Angles at which m is solved; it is smooth in their root and close to one.
+constexpr int factor_points = 16;
+/// Share of the largest angle that is allowed, so that a pose at the limit still has room for rounding.
+constexpr double inside = 0.999;
 
 using paper::FoldRange;
 
@@ -109,13 +113,12 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, FoldRan
         for (int step = 0; step < 60; ++step) {
             const double alpha = (low + high) / 2;
             const double squeeze = 2 * alpha * radius / length;
-            const double lift =
+            const double outward =
                 wave ? own * profile.crest() * wave->column(squeeze).amplitude * half_wave : 0;
-            (length / alpha - radius > outermost + lift ? low : high) = alpha;
+            (length / alpha - radius > outermost + outward ? low : high) = alpha;
         }
         return low;
     };
-    constexpr double inside = 0.999;  // so that a pose at the limit still has room for rounding
     const double angle = inside * search(factor);
     if (amplitude != paper::Amplitude::area || !wrinkles(amplitude, folds)) return angle;
     // m grows with the angle, so that its value at a larger angle is safe at a smaller one.
@@ -128,7 +131,6 @@ double largest_angle(paper::Profile profile, paper::Amplitude amplitude, FoldRan
 
 double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplitude amplitude,
                      FoldRange folds, double factor) {
-    constexpr double inside = 0.999;
     double thickest = 0;
     for (const Girth& girth : girths.slices) thickest = std::max(thickest, girth.scale);
     const bool wrinkled = wrinkles(amplitude, folds);
@@ -138,8 +140,8 @@ double largest_angle(const Girths& girths, paper::Profile profile, paper::Amplit
     double low = 0, high = max_even_squeeze * girths.length / (2 * girths.radius * thickest);
     const auto fits = [&](double alpha, const Girth& girth) {
         const double q = std::min(2 * alpha * girths.radius * girth.scale * per_length, max_even_squeeze);
-        const double lift = wrinkled ? factor * girth.depth * half_wave * std::sqrt(q) * q_part(q) : 0;
-        return girths.length / alpha - girths.radius > girth.rho + lift;
+        const double outward = wrinkled ? factor * girth.depth * half_wave * std::sqrt(q) * q_part(q) : 0;
+        return girths.length / alpha - girths.radius > girth.rho + outward;
     };
     for (int step = 0; step < 60; ++step) {
         const double alpha = (low + high) / 2;

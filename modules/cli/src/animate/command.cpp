@@ -5,11 +5,11 @@
 #include "threads.hpp"
 
 #include <goffer/io/read_file.hpp>
+#include <goffer/measure/timer.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 namespace goffer::cli {
@@ -98,10 +98,9 @@ void run_animate(const AnimateOptions& options) {
                         usable_threads(options.threads),
                         outputs,
                         report};
-    const auto start = std::chrono::steady_clock::now();
-    in_file(options.model, [&] { request.writer->write(animation); });
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    report_written(report, options, request, bytes_of(request, outputs), taken.count());
+    const double taken = measure::nanoseconds_of(
+        measure::wall_clock, [&] { in_file(options.model, [&] { request.writer->write(animation); }); });
+    report_written(report, options, request, bytes_of(request, outputs), 1e-6 * taken);
     report.finish(outputs);
 }
 

@@ -53,11 +53,6 @@ std::size_t regions_of_document(const json& document) {
     return entries(first, "angles");
 }
 
-std::vector<fit::RegionOptions> equal_regions(std::size_t count) {
-    if (count < 2 || count > bend::max_regions) return {};
-    return std::vector<fit::RegionOptions>(count, {1.0 / static_cast<double>(count), std::nullopt});
-}
-
 std::string where_of(const AnimateOptions& options) {
     if (options.swing) return "--swing";
     return io::escaped((options.keys.empty() ? options.path.file : options.keys).string());
@@ -138,9 +133,13 @@ AnimateRequest::AnimateRequest(const AnimateOptions& options, const ModelFile& f
     read_outputs(options);
     read_document(options);
     const bool known = options.pose.regions.has_value() || file.baked.has_value();
-    regions =
-        PoseRequest(options.pose, known ? baked_regions(file) : equal_regions(regions_of_document(document)))
-            .regions;
+    const std::size_t count = regions_of_document(document);
+    const bool several = count > 1 && count <= bend::max_regions;
+    regions = PoseRequest(options.pose, options.bind.fit.arcs,
+                          known     ? baked_regions(file)
+                          : several ? equal_regions(count)
+                                    : std::vector<fit::RegionOptions>())
+                  .regions;
     read_motion_of(options);
 }
 

@@ -10,7 +10,6 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace goffer::cli {
@@ -61,10 +60,9 @@ Survey survey(const MovingModel& frames, const SurveyView* pictures) {
     for (std::size_t frame = 0; frame < frames.count(); ++frame) {
         const Moment moment = frames.moment(frame);
         look_at_poses(found, moment, model.binding.body);
-        const auto start = std::chrono::steady_clock::now();
-        const mesh::VertexArrays bent = frames.records(moment);
-        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        times.push_back(taken.count());
+        mesh::VertexArrays bent;
+        times.push_back(1e-6 *
+                        measure::nanoseconds_of(measure::wall_clock, [&] { bent = frames.records(moment); }));
         const double change = fit::surface_area(bent.positions, bent.triangles) / found.area_before - 1;
         if (std::fabs(change) > std::fabs(found.worst_area_change)) {
             found.worst_area_change = change;

@@ -37,7 +37,7 @@ public:
             throw InputError(where + ": " + error.what());
         }
         words_.load = load;
-        BindRequest request = BindRequest(words_, PoseRequest(pose_).regions).with_one_arc();
+        BindRequest request = BindRequest(words_, PoseRequest(pose_, words_.fit.arcs).regions).with_one_arc();
         request.with_uvs = true;
         return request;
     }

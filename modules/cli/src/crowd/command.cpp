@@ -60,7 +60,7 @@ struct CrowdRequest {
     view::Settings picture;
 
     CrowdRequest(const CrowdOptions& options, std::vector<fit::RegionOptions> baked)
-        : pose(options.pose, std::move(baked)),
+        : pose(options.pose, options.bind.fit.arcs, std::move(baked)),
           targets(targets_from_straight(pose)),
           bind(BindRequest(options.bind, pose.regions).with_one_arc()),
           plan{.instances = options.instances,

@@ -39,8 +39,7 @@ void check_path_words(const PathOptions& words, const CLI::App& command) {
 }
 
 std::vector<fit::RegionOptions> regions_for_path() {
-    constexpr std::size_t regions = 8;
-    return std::vector<fit::RegionOptions>(regions, {1.0 / regions, std::nullopt});
+    return equal_regions(8);
 }
 
 double read_path_scale(const std::string& text) {

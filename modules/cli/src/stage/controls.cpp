@@ -142,6 +142,10 @@ Wish wish_of(const Controls& controls, Wish wish) {
     wish.keep_rest = false;
     wish.new_pose = !same;
     if (shares && !shares->empty()) wish.pose.regions = std::move(shares);
+    if (!same && words.fit.arcs > 0) {  // the arcs give way
+        words.fit.arcs = 0;
+        words.fit.rest = "arc";
+    }
     if (regions.size() > 1) {
         wish.pose.angles = list(regions, angle_of);
         wish.pose.directions = list(regions, direction_of);
@@ -159,7 +163,7 @@ Wish wish_to_open(std::vector<std::filesystem::path> files, const Controls& cont
     other.keep_rest = true;
     other.new_pose = true;
     other.bind.level = 0;
-    other.bind.axis = other.bind.rest = "auto";
+    other.bind.fit = {};
     other.bind.wrinkle_range.reset();
     other.bind.wrinkle_mask.reset();
     if (other.bind.folds && other.bind.folds->find(',') != std::string::npos) other.bind.folds.reset();
@@ -209,7 +213,11 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
     };
     if (crowd) add("crowd", std::to_string(controls.instances));
     const bool several = controls.regions.size() > 1;
-    if (several && !model.baked) add("regions", now.pose.regions.value_or(""));
+    if (now.bind.fit.arcs > 0) {
+        add("arcs", std::to_string(now.bind.fit.arcs));
+    } else if (several && !model.baked) {
+        add("regions", now.pose.regions.value_or(""));
+    }
     add(several ? "angles" : "angle", list(controls.regions, angle_of));
     add(several ? "directions" : "direction", list(controls.regions, direction_of));
     if (now.bind.level > 0) add("level", std::to_string(now.bind.level));
@@ -224,8 +232,8 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         if (words.onset) add("onset", number(*words.onset));
         if (words.wrinkle_range) add("wrinkle-range", *words.wrinkle_range);
         if (words.wrinkle_mask) add("wrinkle-mask", *words.wrinkle_mask);
-        add_unless("axis", words.axis, usual.axis);
-        add_unless("rest", words.rest, usual.rest);
+        add_unless("axis", words.fit.axis, usual.fit.axis);
+        add_unless("rest", words.fit.rest, usual.fit.rest);
         add_unless("refine", words.refine, "auto");
         if (words.load.allow_outside) text += " --allow-outside";
     }

@@ -54,13 +54,16 @@ std::vector<std::string> warnings_of(const BoundModel& model, const Textures& te
 Loaded load(const Wish& wish) {
     std::vector<ModelFile> files;
     for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
-    const PoseRequest pose(wish.pose, baked_regions(files));
-    const BindRequest request(wish.bind, pose.regions);
+    const PoseRequest pose(wish.pose, wish.bind.fit.arcs, baked_regions(files));
+    const BindRequest said(wish.bind, pose.regions);
+    const BindRequest request = files.size() > 1 ? said.with_one_arc() : said;
     Loaded loaded{
         .wish = wish, .models = {}, .textures = {}, .words = request.words, .targets = {}, .warnings = {}};
     if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));
     for (ModelFile& file : files) loaded.models.push_back(bind_model(std::move(file), request));
     const bend::Body& body = loaded.models[0].binding.body;
+    // What is said from now on is for the arcs that were found.
+    loaded.wish.bind.fit.arcs = loaded.models[0].baked ? 0 : loaded.models[0].cylinder.arcs.size();
     loaded.targets = targets_on(body, pose);
     const bool bent =
         std::ranges::any_of(body.rest_poses(), [](const bend::Pose& rest) { return rest.angle != 0; });

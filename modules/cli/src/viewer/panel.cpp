@@ -106,8 +106,8 @@ void show_pose(Controls& controls, const Stage& stage, Done& done) {
     const BoundModel& model = stage.model();
     const bend::Body& body = model.binding.body;
     if (!model.baked) {
-        ImGui::SliderInt("regions", &controls.region_count, 1, most_regions, "%d",
-                         ImGuiSliderFlags_AlwaysClamp);
+        const int most = std::max(most_regions, static_cast<int>(body.region_count()));
+        ImGui::SliderInt("regions", &controls.region_count, 1, most, "%d", ImGuiSliderFlags_AlwaysClamp);
         if (ImGui::IsItemDeactivatedAfterEdit()) {
             controls.folds_list.clear();
             done.bind = true;

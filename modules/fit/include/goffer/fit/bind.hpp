@@ -18,10 +18,11 @@ namespace goffer::fit {
 
 /// What bind found out about a region.
 struct RegionBinding {
-    double length = 0;       ///< of the region's outer line, model units
-    int folds = 0;           ///< k in use; 0: no wrinkle
-    int folds_capacity = 0;  ///< most folds that the mesh has vertices for: after bind, where it wrinkles;
-                             ///< after bind_level, in the whole region
+    double length = 0;  ///< of the region's outer line, model units
+    int folds = 0;      ///< k in use; 0: no wrinkle
+    /// Most folds that the mesh has vertices for. After bind() with Profile::even and a wrinkle_range: those
+    /// within the range, and as many as there are beyond it, where the surface is smooth.
+    int folds_capacity = 0;
     /// How its radius and its folds change along it; null: not at all.
     std::shared_ptr<const paper::Shape> shape = {};
     /// Its folds as a part of the wave that they belong to, which may run on over joints.

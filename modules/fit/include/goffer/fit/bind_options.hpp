@@ -38,8 +38,10 @@ struct WrinkleRange {
 
 /// What can be chosen for one region: a stretch of the body that bends along an arc of its own.
 struct RegionOptions {
-    double share = 1;  ///< of the body's length, > 0; all regions' shares add up to 1, within 1e-6
-    std::optional<int> folds = {};  ///< as BindOptions::folds, for this region
+    /// Of the body's length, > 0; all regions' shares add up to 1, within 1e-6. Has no effect where a
+    /// cylinder has arcs, whose lengths are the regions'.
+    double share = 1;
+    std::optional<int> folds = {};  ///< as BindOptions::folds, for this region alone
 };
 
 /// What can be chosen at bind. The defaults suit a mesh that nobody has looked at.
@@ -71,7 +73,7 @@ struct BindOptions {
     WrinkleRange wrinkle_range = {};
     int table_rows = default_table_rows;  ///< rows of each region's wrinkle table, 2..WrinkleTable::max_rows
     /// From base to tip, at most bend::max_regions. Empty: the body is one region, or has one for each arc of
-    /// its cylinder; it must be empty for a cylinder with arcs.
+    /// its cylinder. For a cylinder with arcs: none, or one for each.
     std::vector<RegionOptions> regions = {};
     /// Folds of Profile::even run on over the joints of regions that wrinkle alike, and pass into each other
     /// within a quarter of a fold on both sides, where they would else fade out. Has no effect with other
@@ -96,9 +98,8 @@ struct BindOptions {
     static constexpr double gentle_onset = 1e-3;
 };
 
-/// Throws Error, with a text that begins with "regions: ", if a body cannot be cut into `regions`: they are
-/// more than bend::max_regions, a share is not a finite number above 0, or the shares do not add up to 1.
-/// Thread-safe.
+/// Throws Error if a body cannot be cut into `regions`: they are more than bend::max_regions, a share is not
+/// a finite number above 0, or the shares do not add up to 1. Thread-safe.
 void check(std::span<const RegionOptions> regions);
 
 /// Returns the default of BindOptions::fold_length: 0.5 for Profile::even (less on a stout body), else 1.

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -53,6 +54,9 @@ enum class RestPose {
     chain       ///< as automatic, or a chain of arcs where that fits clearly better
 };
 
+/// The most arcs that a chain is fitted of. One that turns by more than half a turn counts as two.
+inline constexpr std::size_t max_arcs = 12;
+
 /// An Error of fit_cylinder() that another axis mends, or one at all where none is given.
 class AxisError : public Error {
 public:
@@ -74,23 +78,27 @@ public:
 /// `axis` is within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and
 /// rest_angle is exactly 0.
 ///
-/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that line, or much slenderer
-/// than its sections about it, may get a chain of 2 to 12 arcs (more where one would turn by more than a
-/// half), and its body as many regions: if its sections lie all around the chain, and are circles about it
-/// within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the body is more
-/// than a radius from the line somewhere; if all of it lies between the chain's ends; and if a given `axis`
-/// is within about 45 degrees of its chord, which is signed as the long axis is otherwise. A mesh without a
-/// long axis may get one, too.
+/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
+/// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
+/// than half a turn), and its body as many regions: if its sections lie all around the chain, and are circles
+/// about it within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the
+/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; and if a
+/// given `axis` is within about 45 degrees of its chord, which is signed as the long axis is otherwise. A
+/// mesh without a long axis may get one, too. How many arcs follow a body best may change with a small change
+/// of its mesh.
+///
+/// `arcs`, 2..max_arcs, says how many with RestPose::chain: the result is then a chain of so many, whatever
+/// else would be better. Where fewer follow the body, the longest ones are halved. 0: as above.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
-/// Throws Error as check(geometry) does, and if an axis is zero or not finite, or no triangle has an area.
-/// Throws AxisError if no axis is given and the mesh has no long one, nor a chain if it may have one; if it
-/// has no surface around the axis or no extent along it; or if the body is too thin for float at its
-/// coordinates. Thread-safe.
+/// Throws Error as check(geometry) does, and if an axis is zero or not finite, no triangle has an area, or
+/// the body does not follow a chain of `arcs`. Throws AxisError if no axis is given and the mesh has no long
+/// one, nor a chain if it may have one; if it has no surface around the axis or no extent along it; or if the
+/// body is too thin for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
-                                    RestPose rest = RestPose::automatic);
+                                    RestPose rest = RestPose::automatic, std::size_t arcs = 0);
 
 /// Returns `cylinder` with the radii that the mesh has along it, and with their mean as its radius: the
 /// area-weighted mean distance from the axis, smoothed over half a radius, at least a fifth of the mean. The
@@ -105,10 +113,11 @@ public:
 /// Throws Error naming the field if `cylinder` cannot be used as a base: a number is not finite, length,
 /// radius or one of the radii is not within 1e-40..1e40, the origin is farther than 1e40 on an axis,
 /// rest_angle is negative or not below both 2 pi and length / (2 radius), axis and zero are not of unit
-/// length or not orthogonal, within 1e-3, or the radii are fewer than two or do not have the radius as their
-/// mean, within 1e-3. Likewise if an angle of the arcs is not so with the largest radius along it, one is
-/// shorter than 1e-5 of the length, there are more than bend::max_regions, their lengths do not add up to
-/// that of the cylinder, within 1e-6, or rest_angle is not 0 beside them. Thread-safe.
+/// length or not orthogonal, within 1e-3, or the radii are fewer than two, do not have the radius as their
+/// mean, within 1e-3, or have one that leaves the rest_angle no room, as the radius does. Likewise if an
+/// angle of the arcs is not so with the largest radius along it, one is shorter than 1e-5 of the length,
+/// there are more than bend::max_regions, their lengths do not add up to that of the cylinder, within 1e-6,
+/// or rest_angle is not 0 beside them. Thread-safe.
 void check(const Cylinder& cylinder);
 
 /// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one and

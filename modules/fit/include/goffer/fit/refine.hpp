@@ -65,7 +65,8 @@ struct Stretch {
 /// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
 /// or else those that suit a region of that length whose mesh is fine enough. A region with Profile::even on
 /// a base with radii is many stretches, each with folds of its own length, and so is one with a
-/// wrinkle_range: beyond that there are none. Thread-safe.
+/// wrinkle_range: beyond that there are none. Throws Error where a cylinder has arcs, and the options have
+/// regions, but not one for each. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Returns how many folds there are in `stretches`, as `profile` counts them: over the whole length of a
@@ -73,7 +74,7 @@ struct Stretch {
 [[nodiscard]] int fold_count(std::span<const Stretch> stretches, Profile profile);
 
 /// Returns how many folds suit each region of a body with that base whose mesh is fine enough, as the profile
-/// counts them, whatever number `options` ask for. Thread-safe.
+/// counts them, whatever number `options` ask for. Errors as stretches_of(). Thread-safe.
 [[nodiscard]] std::vector<int> suitable_folds(const Cylinder& cylinder, const BindOptions& options);
 
 /// Thrown where a refined mesh would have more triangles than allowed.

@@ -35,15 +35,18 @@ struct Suitability {
 
 /// Why a region has fewer folds than were asked for or, where no number was, than suit it.
 enum class FoldShortage {
-    none,  ///< it has enough: a half of those that suit it keep their depth
-    rows,  ///< the mesh's rows of vertices are too far apart; folds that were asked for are made all the same
-    range,   ///< what BindOptions::wrinkle_range leaves of it is too short for folds, or its rows too far
-             ///< apart
-    length,  ///< it is so long that the most folds there may be are too long to wrinkle
+    /// It has enough: a half of those that suit it keep their depth.
+    none,
+    /// The mesh's rows of vertices are too far apart; folds that were asked for are made all the same.
+    rows,
+    /// What BindOptions::wrinkle_range leaves of it is too short for folds, or its rows are too far apart.
+    range,
+    /// It is so long that the most folds there may be are too long to wrinkle.
+    length,
 };
 
-/// Returns why each region of `binding`, which was bound with `options`, has too few folds. None with
-/// Amplitude::none and where 0 were asked for. Thread-safe.
+/// Returns why each region of `binding` has too few folds; `options` are those that it was bound with. None
+/// with Amplitude::none and where 0 were asked for. Errors as stretches_of(). Thread-safe.
 [[nodiscard]] std::vector<FoldShortage> fold_shortages(const Binding& binding, const BindOptions& options);
 
 }  // namespace goffer::fit
