@@ -42,7 +42,7 @@ def check_bend():
 
 
 def check_normals():
-    """Custom normals turn with the surface; a refined file, which has its folds, is bent to the command's bits."""
+    """Custom normals turn with the surface; a refined file, which has its folds, is bent as the command does."""
     refined = os.path.join(FOLDER, "refined.ply")
     subprocess.run([GOFFER, "refine", FUZE, "-o", refined], check=True, stdout=subprocess.DEVNULL)
     obj = imported(refined)
@@ -53,8 +53,9 @@ def check_normals():
     mesh.normals_split_custom_set_from_vertices([(0.6, 0, 0.8)] * len(mesh.vertices))
     bend(90)
     assert obj.goffer_bend.warnings == "" and mesh.has_custom_normals
-    expected = by_command(refined, "--angle", "90")
-    assert (coordinates(mesh.shape_keys.key_blocks["goffer bend"].data) == expected).all()
+    # Not to the bit: Blender lets some triangles begin with another corner.
+    check_near(coordinates(mesh.shape_keys.key_blocks["goffer bend"].data), by_command(refined, "--angle", "90"),
+               "refined")
     bpy.context.view_layer.update()
     shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     shown.calc_normals_split()
