@@ -69,7 +69,7 @@ def two_programs(program: str, case: str) -> float:
         return 2 * alone / statistics.mean(one.counters()[case]["real_time"] for one in both)
 
 
-class Binding:
+class Bound:
     """One ratio, and what was seen of it."""
 
     def __init__(self, kind: str, case: str, at_least: float):
@@ -110,10 +110,10 @@ class Binding:
         return row
 
 
-def bounds_of(baseline: dict, names: list[str]) -> list[Binding]:
+def bounds_of(baseline: dict, names: list[str]) -> list[Bound]:
     """The bounds in a baseline, given the cases that the program has."""
     isa = cases.widest(names)
-    return [Binding(kind, cases.resolve(case, isa), at_least)
+    return [Bound(kind, cases.resolve(case, isa), at_least)
             for kind, of_kind in baseline.get("ratios", {}).items() if kind in KINDS
             for case, at_least in of_kind.items()]
 
@@ -137,7 +137,7 @@ def judge(baseline: dict, program: str, progress: Callable[[str], None]) -> Part
     return part
 
 
-def _try(bounds: list[Binding], program: str, progress: Callable[[str], None]) -> None:
+def _try(bounds: list[Bound], program: str, progress: Callable[[str], None]) -> None:
     """Measures what these bounds need: those of one thread in one run, those of more each in one of their own."""
     groups = [[bound for bound in bounds if not bound.threads], *([bound] for bound in bounds if bound.threads)]
     for group in groups:

@@ -8,14 +8,11 @@ namespace {
 
 /// The same parts, counted in triangles.
 std::vector<mesh::Part> in_triangles(const mesh::Mesh& model) {
-    std::vector<mesh::Part> parts;
-    parts.reserve(model.parts.size());
-    std::uint32_t first = 0;
-    for (const mesh::Part& part : model.parts) {
-        std::uint32_t count = 0;
-        for (std::uint32_t i = 0; i < part.face_count; ++i) count += model.faces[part.first_face + i] - 2;
-        parts.push_back({part.name, part.material, first, count});
-        first += count;
+    std::vector<mesh::Part> parts = model.parts;
+    const std::vector<mesh::TriangleRange> triangles = mesh::triangles_of_parts(model);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i].first_face = triangles[i].first;
+        parts[i].face_count = triangles[i].count;
     }
     return parts;
 }

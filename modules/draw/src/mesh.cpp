@@ -200,12 +200,13 @@ void Mesh::set_coefficients(std::span<const bend::Coefficients> coefficients) {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     glBindTexture(GL_TEXTURE_2D, data_->coefficients);
-    if (data_->texture_lines < whole + 1) {
+    const GLsizei lines = whole + (rest > 0 ? 1 : 0);
+    if (data_->texture_lines < lines) {
         GLint most = 0;
         glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-        if (whole + 1 > most)
+        if (lines > most)
             throw Error("the instances' coefficients are more than a texture of this device holds");
-        data_->texture_lines = whole + 1;
+        data_->texture_lines = lines;
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, texture_width, data_->texture_lines, 0, GL_RGBA, GL_FLOAT,
                      nullptr);
     }

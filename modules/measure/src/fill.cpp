@@ -30,8 +30,8 @@ bool starts_line(const float* at) noexcept {
 class Pattern {
 public:
     explicit Pattern(float seed) noexcept {
-        constexpr std::uint32_t apart = 0x9e3779b1,
-                                one = 0x3f800000;  // 2^32 / golden ratio; the bits of 1.0f
+        // 2^32 / golden ratio, and the bits of 1.0f.
+        constexpr std::uint32_t apart = 0x9e3779b1, one = 0x3f800000;
         std::uint32_t bits = std::bit_cast<std::uint32_t>(seed) * apart;
         for (float& number : numbers_) number = std::bit_cast<float>(one | (bits += apart) >> 9);
     }

@@ -208,6 +208,20 @@ std::vector<std::uint32_t> triangles(const Mesh& mesh) {
     return cut_up(mesh, mesh.corners);
 }
 
+std::vector<TriangleRange> triangles_of_parts(const Mesh& mesh) {
+    std::vector<TriangleRange> ranges;
+    ranges.reserve(mesh.parts.size());
+    std::uint32_t next = 0;
+    for (const Part& part : mesh.parts) {
+        TriangleRange range{next, 0};
+        for (std::uint32_t face = 0; face < part.face_count; ++face)
+            range.count += mesh.faces[part.first_face + face] - 2;
+        next += range.count;
+        ranges.push_back(range);
+    }
+    return ranges;
+}
+
 Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent) {
     const Split parts =
         split(mesh, bent.uvs.empty() ? Attribute<glm::vec2>() : splitting_uvs(mesh, bent.uv_set));

@@ -73,13 +73,13 @@ double area_excess(const Wave& wave, const std::vector<AreaColumn>& columns, con
         const double slope = factor * column.slope;
         double along = 0;
         for (const Wave::Node& node : wave.nodes()) {
-            const double lift = amplitude * node.shape;
-            const double lost = column.squeeze + kappa * column.cosine * lift;
+            const double outward = amplitude * node.shape;
+            const double lost = column.squeeze + kappa * column.cosine * outward;
             const double stretch = (1 - lost) * (1 - lost);
-            const double rise = amplitude * node.slope * slope_scale;
+            const double steepness = amplitude * node.slope * slope_scale;
             const double across = slope * node.shape;
-            const double beyond = lift * (2 + lift) * (stretch + rise * rise) - lost * (2 - lost) +
-                                  rise * rise + across * across * stretch;
+            const double beyond = outward * (2 + outward) * (stretch + steepness * steepness) -
+                                  lost * (2 - lost) + steepness * steepness + across * across * stretch;
             along += node.weight * beyond / (1 + std::sqrt(std::max(0.0, 1 + beyond)));
         }
         sum += column.weight * along;

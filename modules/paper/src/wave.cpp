@@ -117,10 +117,10 @@ struct Excess {
 Excess excess(std::span<const Wave::Node> nodes, double a) {
     Excess sum;
     for (const Wave::Node& node : nodes) {
-        const double rise = a * node.slope;
-        const double root = std::sqrt(1 + rise * rise);
-        sum.length += node.weight * rise * rise / (1 + root);
-        sum.slope += node.weight * rise * node.slope / root;
+        const double steepness = a * node.slope;
+        const double root = std::sqrt(1 + steepness * steepness);
+        sum.length += node.weight * steepness * steepness / (1 + root);
+        sum.slope += node.weight * steepness * node.slope / root;
     }
     return sum;
 }

@@ -123,8 +123,8 @@ Wrinkle wrinkle_beyond(const RegionInput& own, const RegionInput& neighbor, doub
 }
 
 bool wrinkle_fits(const Wrinkle& wrinkle) noexcept {
-    constexpr double max_coefficient =
-        1e36;  // those of the slope are up to 15 times as large, and still float
+    // Those of the slope are up to 15 times as large, and still float.
+    constexpr double max_coefficient = 1e36;
     return wrinkle.depth <= Range::max_depth && wrinkle.amplitude <= max_coefficient;
 }
 

@@ -11,7 +11,7 @@
 
 namespace goffer::bend {
 
-/// The sections of a file, whose memory is aligned and begins with a whole header. FileSections may only lie
+/// The sections of a file, whose memory is aligned and begins with a whole header. Sections may only lie
 /// one behind the other, each at the next cache line.
 class FileSections {
 public:

@@ -57,7 +57,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       regions_(body_.regions.size()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, PosedGroup::capacity(regions_)),
-      stage_(plan_) {
+      staging_(plan_) {
     bool streams = false;
     for (const PassPlan& pass : plan_.passes()) {
         streams |= pass.pass == Pass::current;
@@ -313,14 +313,14 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
                                 std::size_t last) noexcept {
     while (first < last) {
         write_staged();
-        const std::size_t end = block_end(member, first, last, stage_.capacity());
+        const std::size_t end = block_end(member, first, last, staging_.capacity());
         for (const PassPlan& pass : plan_.passes()) {
             if (pass.mode != mode) continue;
             each_piece(first, end, [&](std::size_t region, std::size_t begin, std::size_t piece_end) {
                 each_input(member, pass, region, begin, piece_end,
                            [&](const KernelInput& input, std::size_t from, std::size_t to) {
                                kernels_.plane_kernel(input.squeeze, pass.streams)(
-                                   *input.columns, *input.k, stage_.output(pass, from - first), input.first,
+                                   *input.columns, *input.k, staging_.output(pass, from - first), input.first,
                                    to - from, Write::staged);
                            });
             });
@@ -332,7 +332,7 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
 
 void BatchRunner::write_staged() noexcept {
     const auto [mode, vertex, count, ends] = std::exchange(staged_, {});
-    if (count != 0) stage_.planes().write(plan_, kernels_, mode, vertex, count, ends);
+    if (count != 0) staging_.planes().write(plan_, kernels_, mode, vertex, count, ends);
 }
 
 }  // namespace goffer::bend

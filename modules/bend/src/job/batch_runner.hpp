@@ -110,7 +110,7 @@ private:
     Squeeze squeezes_[max_coefficients];
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;
-    StagingBuffer stage_;
+    StagingBuffer staging_;
     StagedBlock staged_ = {};  // what is yet to be written of the stage
     Blending blending_;
 };

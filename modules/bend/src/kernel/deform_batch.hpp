@@ -201,12 +201,12 @@ struct ColumnBuffer {
 /// Fills the buffer for the vertices [first, last): a batch at least, ColumnBuffer::vertices at most.
 template <class L, Squeeze squeeze>
 void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::size_t first, std::size_t last,
-                        ColumnBuffer<L>& ahead) {
+                        ColumnBuffer<L>& buffer) {
     for (std::size_t i = first; i < last; i += L::width) {
         const std::size_t at = i + L::width <= last ? i : last - L::width;
         const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, at);
-        L::store(ahead.rho_c + (at - first), b.rho_c);
-        L::store(ahead.rho_s + (at - first), b.rho_s);
+        L::store(buffer.rho_c + (at - first), b.rho_c);
+        L::store(buffer.rho_s + (at - first), b.rho_s);
     }
 }
 

@@ -171,8 +171,8 @@ private:
     float scale_, m0_, m2_;
     Float4 across_;
     float in_plane_, whole_;
-    float at_[edges], a_[edges],
-        tau_[edges];  // of the center line: place, and the axis' parts across and along
+    // Of the center line: place, and the axis' parts across and along.
+    float at_[edges], a_[edges], tau_[edges];
     Float4 low_ = splat(std::numeric_limits<float>::max());
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };

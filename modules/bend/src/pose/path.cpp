@@ -36,14 +36,14 @@ glm::dmat3 turned_to(const glm::dmat3& axes, const dvec3& direction) noexcept {
     return {turn(axes[0]), turn(axes[1]), direction};
 }
 
-/// How the end of a region turns: by `angle`, toward (`cosine`, `sine`) in its frame.
-struct Turn {
+/// How a region bends: by `angle`, toward (`cosine`, `sine`) in its frame.
+struct Bend {
     double angle, cosine, sine;
     bool clamped;
 };
 
-/// The turn from the axis of `axes` to `heading`, by at most `most`. None if `heading` is zero.
-Turn turn_toward(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
+/// The bend from the axis of `axes` to `heading`, by at most `most`. None if `heading` is zero.
+Bend bend_toward(const glm::dmat3& axes, const dvec3& heading, double most) noexcept {
     const dvec3 local = heading * axes;  // components along the axes
     const double across = std::sqrt(local.x * local.x + local.y * local.y);
     const double wanted = std::atan2(across, local.z), angle = std::min(wanted, most);
@@ -57,17 +57,17 @@ struct MovingFrame {
     glm::dmat3 axes;
 };
 
-/// Moves to the end of a region whose center line has `length` and bends by `turn`. Returns the samples
+/// Moves to the end of a region whose center line has `length` and bends by `bend`. Returns the samples
 /// between.
-CenterSamples advance(MovingFrame& frame, const Turn& turn, double length) noexcept {
-    const dvec3 n = turn.cosine * frame.axes[0] + turn.sine * frame.axes[1];
-    const dvec3 b = turn.cosine * frame.axes[1] - turn.sine * frame.axes[0];
+CenterSamples advance(MovingFrame& frame, const Bend& bend, double length) noexcept {
+    const dvec3 n = bend.cosine * frame.axes[0] + bend.sine * frame.axes[1];
+    const dvec3 b = bend.cosine * frame.axes[1] - bend.sine * frame.axes[0];
     const dvec3 t = frame.axes[2];
-    const Arc arc(turn.angle);
+    const Arc arc(bend.angle);
     const CenterSamples samples(frame.point, length, n, t, arc);
     const double sine = arc.sine[Arc::doublings], versine = arc.versine[Arc::doublings];
     const dvec3 turned_n = n - versine * n - sine * t;
-    frame.axes = {turn.cosine * turned_n - turn.sine * b, turn.sine * turned_n + turn.cosine * b,
+    frame.axes = {bend.cosine * turned_n - bend.sine * b, bend.sine * turned_n + bend.cosine * b,
                   t + sine * n - versine * t};
     frame.point += length / arc.angle * (versine * n + sine * t);
     return samples;
@@ -132,11 +132,11 @@ PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
         double ahead = share * length;
         for (int steps = r == 0 ? 2 : 1; steps > 0; --steps)
             ahead = end_of_region(path, frame.axes, ahead, length, radius, most);
-        const Turn turn = turn_toward(frame.axes, path.heading(ahead), most);
-        poses[r] = {static_cast<float>(turn.angle), static_cast<float>(std::atan2(turn.sine, turn.cosine))};
-        fit.clamped = fit.clamped || turn.clamped;
-        const double center = length - turn.angle * radius;
-        farthest = std::max(farthest, path.advance(advance(frame, turn, center)));
+        const Bend bend = bend_toward(frame.axes, path.heading(ahead), most);
+        poses[r] = {static_cast<float>(bend.angle), static_cast<float>(std::atan2(bend.sine, bend.cosine))};
+        fit.clamped = fit.clamped || bend.clamped;
+        const double center = length - bend.angle * radius;
+        farthest = std::max(farthest, path.advance(advance(frame, bend, center)));
         share = center / length;
     }
     fit.error = static_cast<float>(std::sqrt(farthest));

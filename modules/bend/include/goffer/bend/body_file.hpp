@@ -117,9 +117,10 @@ enum class Verify : std::uint8_t {
     /// anywhere.
     /// In the default floating-point environment, or with subnormal numbers taken as 0.
     everything,
-    /// The checksum, and what can be checked in constant time: for files from a source that is trusted.
+    /// The checksum, and what Verify::layout looks at: for files from a source that is trusted.
     checksum,
-    /// What takes no time in proportion to the vertices: loading does not touch columns, triangles or texture
+    /// What takes no time in proportion to vertices and triangles: loading does not touch columns, triangles
+    /// or texture
     /// coordinates, which a mapped file then reads when they are first used. For files that were verified
     /// once, by whoever installed them. In one that was changed since then, these are any bits: a run stays
     /// within its memory and writes numbers that mean nothing, but an index of a triangle may be that of no

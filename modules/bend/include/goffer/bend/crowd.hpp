@@ -109,9 +109,10 @@ struct Batch {
 
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not: of records of up to 64 bytes, most are then
-    /// written as whole cache lines, with zeros in the gaps, which takes no more time than to keep them. Gaps
-    /// are kept all the same where a batch writes several sets of records with one stride. Bytes before an
-    /// instance's first output and behind its last one stay untouched in any case.
+    /// written as whole cache lines, with zeros in the gaps. That takes less time than to keep them on some
+    /// machines, and about as much on others: measure it. Gaps are kept all the same where a batch writes
+    /// several sets of records with one stride. Bytes before an instance's first output and behind its last
+    /// one stay untouched in any case.
     bool scratch_gaps = false;
 };
 

@@ -18,8 +18,9 @@ struct RestVertex {
     /// These three are of the body's shape at z: see modules/paper/README.md, "Shaped bodies".
     double scale = 1;        ///< s > 0: the radius there over the region's
     double scale_slope = 0;  ///< ds / dz, 1 / model units
-    double drift = 0;  ///< D: integral of the radius there less the region's, from 0 to z, units squared;
-    ///< at most length radius max_scale, either way
+    /// D: integral of the radius there less the region's, from 0 to z, units squared; at most length radius
+    /// max_scale, either way.
+    double drift = 0;
 };
 
 /// A rest normal's or tangent's components along (e_rho, e_beta, e_z) at its vertex. In a region that is bent

@@ -68,10 +68,11 @@ struct GltfReport {
 /// 0 to 1, to which programs clamp them, and so that weights of 0 are the mesh at rest. Normals follow by the
 /// same weights, as closely as these can. Tangents are left as they are at rest: normal maps are lit a little
 /// wrong where the surface turns. There are never more targets than frames; where it takes as many, or no
-/// fewer are near enough, they are the frames themselves. Beyond 1024 frames, or fewer where `memory` asks
-/// for it, the components are those of evenly spaced ones; all frames are measured.
+/// fewer are near enough, they are the frames themselves. Of more than 1024 frames, or of fewer where
+/// `memory` asks for it, evenly spaced ones decide the components; all frames are measured.
 ///
-/// The placement becomes a node above the scene, with a key per frame unless it stays the same.
+/// The placement becomes a node above the scene, with a key per frame unless it stays the same; one that
+/// moves nothing is left out.
 ///
 /// Throws mesh::Error if the ending or the options are not these, there are no vertices, entries do not fit,
 /// a frame is not finite, or `memory` is too little for one target and two frames; and what save_morphing()

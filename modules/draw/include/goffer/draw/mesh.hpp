@@ -72,7 +72,8 @@ public:
     ~Mesh();
 
     /// Uploads instances that the processor has deformed, body.vertex_count() vertices each, one instance
-    /// behind the other. From then on they are drawn.
+    /// behind the other. From then on they are drawn. Throws Error where 256 MiB or more are refused by the
+    /// device.
     void set_vertices(std::span<const Vertex> vertices);
 
     /// Uploads instances that the vertex shader is to deform: what bend::set_up() wrote, as many for each
@@ -81,7 +82,7 @@ public:
     void set_coefficients(std::span<const bend::Coefficients> coefficients);
 
     /// Gives each of body.vertex_count() vertices a color, linear, in place of its part's or, with a texture,
-    /// multiplied by that; none: takes the colors away.
+    /// multiplied by that; none: takes the colors away. Errors as set_vertices().
     void set_colors(std::span<const glm::vec3> colors);
 
 private:

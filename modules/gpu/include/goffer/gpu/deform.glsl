@@ -167,13 +167,13 @@ GofferBent goffer_deform(GofferVertex vertex, int first_row) {
     vec3 turned = goffer_row3(row + 8) * (p * cosine + local.z * sine) +
                   goffer_row3(row + 9) * (s * local.x + c * local.y) +
                   goffer_row3(row + 10) * (local.z * cosine - p * sine);
-    bent.normal = turned * inversesqrt(dot(turned, turned) + 1e-30f);
+    bent.normal = turned * inversesqrt(dot(turned, turned) + 1e-37f);
 
     at_rest = vec3(vertex.tangent.x, vertex.tangent.y, vertex.tangent.z);
     local = vec3(outward * at_rest.x + across * at_rest.y + along * at_rest.z, around * at_rest.y, stretch * at_rest.z);
     p = c * local.x - s * local.y;
     turned = frame_n * (p * cosine + local.z * sine) + frame_b * (s * local.x + c * local.y) +
              frame_t * (local.z * cosine - p * sine);
-    bent.tangent = vec4(turned * inversesqrt(dot(turned, turned) + 1e-30f), size.w * vertex.tangent.w);
+    bent.tangent = vec4(turned * inversesqrt(dot(turned, turned) + 1e-37f), size.w * vertex.tangent.w);
     return bent;
 }

@@ -169,6 +169,15 @@ struct VertexArrays {
 /// has no area, or has more than 4096 corners.
 [[nodiscard]] std::vector<std::uint32_t> triangles(const Mesh& mesh);
 
+/// Triangles [first, first + count) of triangles(mesh).
+struct TriangleRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Returns which triangles each part of `mesh` has.
+[[nodiscard]] std::vector<TriangleRange> triangles_of_parts(const Mesh& mesh);
+
 /// Returns where in their images the corners of triangles(mesh) are, each in the texture of its part's
 /// material: of its set, and transformed. 0, 0 where there is no texture, or the corner has no coordinate in
 /// it; empty where that is so of all. Values may be infinite or NaN if the file has such.

@@ -42,10 +42,11 @@ struct MorphingFile {
 
 /// Writes `mesh` as save() does, as .glb or .gltf, with `morphing`: each of its nodes gets the targets that
 /// move it, with `weights` as an animation, and all nodes of the scene get a common parent, which is
-/// animated by translations and rotations. What has the same value at all keys is no animation, but the
-/// node's own; weights alone keep their first and last key then, so that the clip keeps its length. Weights
-/// outside of 0..1 are written, but programs clamp them, Blender 3.4 for one. Targets are floats, and sparse
-/// accessors where these are smaller. Tangents are not in them: they stay as they are in the mesh.
+/// animated by translations and rotations, unless it leaves them where they are at all keys. What has the
+/// same value at all keys is no animation, but the node's own; weights alone keep their first and last key
+/// then, so that the clip keeps its length. Weights outside of 0..1 are written, but programs clamp them,
+/// Blender 3.4 for one. Targets are floats, and sparse accessors where these are smaller. Tangents are not in
+/// them: they stay as they are in the mesh.
 ///
 /// Where the source is a glTF, what would move the mesh another way is left out, with a warning: animations,
 /// skins, and the morph targets of what moves. Their bytes stay in the buffer. A node that is scaled to

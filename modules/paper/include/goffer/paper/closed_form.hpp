@@ -65,7 +65,7 @@ struct Depth {
 class ClosedForm {
 public:
     /// Throws std::invalid_argument if length or radius is not a finite number above 0; folds, rest_angle or
-    /// onset is negative; the folds do not lie in their wave; roundness is not in 0..0.5; |angle| or
+    /// onset is negative; the folds do not lie in their wave, or have a roundness outside 0..0.5; |angle| or
     /// rest_angle is not below length / (2 radius); a direction is not finite; the amplitude is `area` and
     /// the body is bent at rest, has an onset or a shape, or its wave runs on, for which no factor is known;
     /// a wave that runs on is not of Profile::even; or the shape has another radius, or is too thick for an
@@ -157,9 +157,9 @@ inline constexpr double crease_width = 1e-3;
 [[nodiscard]] glm::dvec3 from_cylindrical(const Cylindrical& point);
 
 /// Returns the straightened cylinder coordinates of a point of a body that is bent by `rest` at rest: the
-/// inverse of the bend (eq 2-5), without a wrinkle. For a body with a shape, z is then
-/// Shape::unshifted(z, |rest.angle| / length). `point` is in the body frame of the bent body, whose e3
-/// is the tangent of the center line at the base end.
+/// inverse of the bend (eq 2-5), without a wrinkle. If the body has a shape, replace z by
+/// Shape::unshifted(z, |rest.angle| / length). `point` is in the body frame of the bent body, whose e3 is the
+/// tangent of the center line at the base end.
 ///
 /// Beyond the ends the arc goes on, as it does for ClosedForm: z < 0 and z > L come back from there. The gap
 /// between tip and base is divided in its middle: one half lies beyond the tip, the other before the base.

@@ -97,7 +97,8 @@ enum class Amplitude {
 
 /// Solves eq 7 for the relative amplitude a >= 0: the integral of sqrt(1 + a^2 g'(u)^2) over u in 0..1 is
 /// 1 / (1 - q). The relative error is below 1e-12 up to a squeeze of 0.999.
-/// Throws std::invalid_argument if folds < 1 or `squeeze` is not in 0 <= q < 1.
+/// Throws std::invalid_argument if folds < 1, the profile's roundness is not in 0..0.5, or `squeeze`
+/// is not in 0 <= q < 1.
 [[nodiscard]] double relative_amplitude(Profile profile, int folds, double squeeze);
 
 /// Returns the amplitude A = (L / 2) S a of a column (eq 7), in the units of `length`. Domain and errors as
@@ -107,7 +108,8 @@ enum class Amplitude {
 /// Returns the lateral area of the bent, wrinkled base cylinder as a fraction of 2 pi r L, by quadrature of
 /// the map's exact Jacobian. `factor` multiplies the amplitude of eq 7; 0 is the bare bend, whose area is
 /// exactly 1 - kappa. Throws std::invalid_argument if length or radius is not a finite number above 0,
-/// `angle` (radians) is not in 0 <= alpha < length / (2 radius), or folds < 1 with a factor other than 0.
+/// `angle` (radians) is not in 0 <= alpha < length / (2 radius), or, with a factor other than 0, folds < 1 or
+/// the profile's roundness is not in 0..0.5.
 [[nodiscard]] double lateral_area(Profile profile, int folds, double length, double radius, double angle,
                                   double factor);
 
