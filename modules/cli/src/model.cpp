@@ -171,8 +171,7 @@ void add_fit_words(CLI::App& command, FitWords& words) {
         ->capture_default_str();
     command
         .add_option("--arcs", words.arcs,
-                    "Make the center line at rest a chain of this many arcs, each of which is a region "
-                    "(default: as many as follow the body, where one does not)")
+                    "Make the center line at rest a chain of this many arcs, each of which is a region")
         ->check(CLI::Range(std::size_t{2}, fit::max_arcs));
 }
 
