@@ -140,7 +140,7 @@ TEST_CASE("P6: frames allocate nothing and take no lock") {
     Frames frames;
     frames.single(0);
     const auto allocated = measure::allocations(), locked = locks();
-    if (!allocated || !locked) MESSAGE("not counted here");
+    if (!allocated || !locked) MESSAGE("skipped: they are not counted here");
     for (int frame = 0; frame < frame_count(); ++frame) frames.single(frame);
     const auto allocated_now = measure::allocations(), locked_now = locks();
     CHECK(allocated == allocated_now);
@@ -155,6 +155,7 @@ TEST_CASE("P6: to make a body table, and to move it, allocates nothing") {
     bend::BodyTable moved = std::move(table);
     table = std::move(moved);
     const auto after = measure::allocations();
+    if (!before) MESSAGE("skipped: allocations are not counted here");
     CHECK(before == after);
     CHECK(table.size() == 0);
 }
@@ -166,6 +167,7 @@ TEST_CASE("P6: frames on the scheduler allocate nothing once it is warm") {
         const auto allocated = measure::allocations();
         for (int frame = 0; frame < frame_count(); ++frame) frames.parallel(frame);
         const auto allocated_now = measure::allocations();
+        if (!allocated) MESSAGE("skipped: allocations are not counted here");
         CHECK(allocated == allocated_now);
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/chains.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/bend/path.hpp>
 
@@ -112,7 +113,7 @@ double error_of(const bend::Body& body, const bend::PathFit& fit, std::span<cons
                 std::span<const glm::dvec3> path) {
     double worst = 0;
     for (const glm::dvec3& place : center_line(body, fit, poses))
-        worst = std::max(worst, distance_to_polyline(place, path));
+        test::take_worst(worst, distance_to_polyline(place, path));
     return worst;
 }
 
@@ -232,7 +233,7 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
             const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
             const double exact = error_of(body, fit, poses, line_of(control, 1000));
             const double off = std::fabs(static_cast<double>(fit.error) - exact) / (exact + 0.01);
-            worst = std::max(worst, off);
+            test::take_worst(worst, off);
             sum += off;
         }
     }
@@ -283,7 +284,7 @@ TEST_CASE("the first region ends in the direction that the path has there") {
                                   static_cast<double>(poses[0].angle) * body.radius();
             const double off = glm::distance(end_direction(body, fit, poses[0]),
                                              direction_at(line_of(control, 2000), length));
-            worst = std::max(worst, off);
+            test::take_worst(worst, off);
             sum += off;
             ++trials;
         }

@@ -197,6 +197,26 @@ TEST_CASE("chain: --arcs says how many there are, and with it what is said for e
                   "--folds", "5,6"});
 }
 
+TEST_CASE("chain: keys of one angle move all of its regions") {
+    const Folder folder;
+    pipe(folder);
+    std::ofstream(folder / "keys.json") << R"({"interpolation": "linear", "keys": [{"time": 0, "angle": 20},
+                                               {"time": 2, "angle": 60, "direction": 30}]})";
+    well(folder,
+         {"animate", "s.obj", "--keys", "keys.json", "-o", "%02d.ply", "--frames", "3", "--fps", "1"});
+    const auto off = [&](const char* frame, const char* angle, const char* direction) {
+        (void)run(folder, {"bend", "s.obj", "-o", "bent.ply", "--angle", angle, "--direction", direction});
+        return farthest(mesh::load(folder / frame), mesh::load(folder / "bent.ply"));
+    };
+    CHECK(off("02.ply", "60", "30") < 1e-4);
+    std::ofstream(folder / "keys.json")
+        << R"({"interpolation": "linear", "keys": [{"time": 0, "angle": 20, "direction": 30},
+                                               {"time": 2, "angle": 60, "direction": 30}]})";
+    well(folder,
+         {"animate", "s.obj", "--keys", "keys.json", "-o", "%02d.ply", "--frames", "3", "--fps", "1"});
+    CHECK(off("01.ply", "40", "30") < 1e-4);
+}
+
 TEST_CASE("chain: a crowd is bent along one arc") {
     const Folder folder;
     pipe(folder);

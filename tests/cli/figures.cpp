@@ -339,7 +339,10 @@ TEST_CASE("figures: a page of two models, its data, its pictures and its charts"
         CAPTURE(name);
         CHECK(before.at((folder / "./page/").string() + name).first == bytes_of(folder / ("page/" + name)));
     }
-    if (!has_gnuplot()) return;
+    if (!has_gnuplot()) {
+        MESSAGE("skipped: without gnuplot there are no charts");
+        return;
+    }
     for (const std::string name : {"figure_9", "fold_lengths", "area", "vertices", "instances"}) {
         const std::filesystem::path chart = folder / ("page/" + name + ".svg");
         const std::string drawn = bytes_of(chart);

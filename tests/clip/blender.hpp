@@ -4,6 +4,7 @@
 #include "clips.hpp"
 #include "played.hpp"
 #include "support/files.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/clip/gltf.hpp>
 
@@ -68,7 +69,7 @@ inline void check_in_blender(const std::filesystem::path& file, const mesh::Mesh
             REQUIRE(at + sizeof(there) <= bytes.size());
             std::memcpy(&there, bytes.data() + at, sizeof(there));
             at += sizeof(there);
-            most = std::max(most, glm::distance(glm::dvec3(there), in_frame));
+            test::take_worst(most, glm::distance(glm::dvec3(there), in_frame));
             from_file = std::max(from_file, glm::distance(glm::dvec3(there), in_file));
         }
     CHECK(at == bytes.size());

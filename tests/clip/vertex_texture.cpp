@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/models.hpp"
+#include "support/worst.hpp"
 #include "textures.hpp"
 #include "wide_image.hpp"
 
@@ -75,9 +76,9 @@ Errors errors_of(const Decoder& decoder, std::size_t frames, Positions positions
         const std::vector<glm::dvec3> p = positions(frame), n = normals(frame);
         for (std::size_t i = 0; i < p.size(); ++i) {
             const glm::dvec3 decoded = decoder.position(i, frame);
-            worst.position = std::max(worst.position, farthest(decoded, p[i]));
-            worst.distance = std::max(worst.distance, glm::distance(decoded, p[i]));
-            worst.normal = std::max(worst.normal, angle_between(decoder.normal(i, frame), n[i]));
+            test::take_worst(worst.position, farthest(decoded, p[i]));
+            test::take_worst(worst.distance, glm::distance(decoded, p[i]));
+            test::take_worst(worst.normal, angle_between(decoder.normal(i, frame), n[i]));
         }
     }
     return worst;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/angles.hpp"
 #include "support/rounds.hpp"
+#include "support/worst.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/cylinder.hpp>
@@ -162,10 +163,10 @@ TEST_CASE("arcs: 1 % noise: angle within 1 degree, direction within 0.6, length 
         CHECK(off.direction < 0.6 * degree);
         CHECK(off.length < 0.005);
         CHECK(off.radius < 0.001);
-        worst.angle = std::max(worst.angle, off.angle);
-        worst.direction = std::max(worst.direction, off.direction);
-        worst.length = std::max(worst.length, off.length);
-        worst.radius = std::max(worst.radius, off.radius);
+        test::take_worst(worst.angle, off.angle);
+        test::take_worst(worst.direction, off.direction);
+        test::take_worst(worst.length, off.length);
+        test::take_worst(worst.radius, off.radius);
     });
     MESSAGE("worst: angle ", worst.angle / degree, " degrees, direction ", worst.direction / degree,
             " degrees, length ", 100 * worst.length, " %, radius ", 100 * worst.radius, " %");

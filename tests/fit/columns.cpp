@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refined.hpp"
 #include "support/angles.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/bind.hpp>
@@ -58,7 +59,7 @@ double widest(const Solid& solid, double low, double high) {
         const glm::dvec3 b = solid.positions[solid.triangles[t % 3 == 2 ? t - 2 : t + 1]];
         if (std::min(a.z, b.z) < low || std::max(a.z, b.z) > high) continue;
         const double turn = std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
-        most = std::max(most, std::abs(turn) / degree);
+        test::take_worst(most, std::abs(turn) / degree);
     }
     return most;
 }

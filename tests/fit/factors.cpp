@@ -3,6 +3,7 @@
 #include "support/arena.hpp"
 #include "support/models.hpp"
 #include "support/rounds.hpp"
+#include "support/worst.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -63,7 +64,11 @@ double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose
 struct AreaChange {
     double low = 0, high = 0;
 
-    [[nodiscard]] double most() const { return std::max(-low, high); }
+    [[nodiscard]] double most() const {
+        double most = -low;
+        test::take_worst(most, high);
+        return most;
+    }
 };
 
 AreaChange area_change_of(const fit::Binding& binding, const Soup& soup) {
@@ -76,7 +81,8 @@ AreaChange area_change_of(const fit::Binding& binding, const Soup& soup) {
             const bend::Pose pose{static_cast<float>(angle),
                                   static_cast<float>(2 * std::numbers::pi * direction / 16)};
             const double here = bent_area(binding, soup, pose) / rest - 1;
-            change = {std::min(change.low, here), std::max(change.high, here)};
+            test::take_least(change.low, here);
+            test::take_worst(change.high, here);
         }
     }
     return change;
@@ -90,7 +96,7 @@ void check_area(const char* name, double most, std::optional<glm::dvec3> axis = 
     const mesh::VertexArrays records = mesh::vertex_arrays(mesh::load(path));
     const Soup read{records.positions, records.triangles};
     if (read.positions.size() > max_vertices) {
-        MESSAGE("left out where few rounds are run: ", name);
+        MESSAGE("skipped: few rounds are run, without ", name);
         return;
     }
     const fit::Cylinder fitted = fit::fit_cylinder(read.geometry(), axis, fit::RestPose::straight);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "parts.hpp"
 
+#include "support/worst.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -166,7 +167,7 @@ TEST_CASE("parts: a wrinkle moves nothing through what lies farther out") {
                 const auto moved = [&](double at) {
                     return depth * parts.at({beta, z, at}).value * paper::depth_weight(at, 1);
                 };
-                worst = std::max(worst, std::fabs(moved(rho + step) - moved(rho)) / step);
+                test::take_worst(worst, std::fabs(moved(rho + step) - moved(rho)) / step);
             }
         }
     }
@@ -208,7 +209,7 @@ TEST_CASE("parts: what is turned about the axis has the same weights, turned") {
         double worst = 0;
         for (double beta = 0; beta < 6.2; beta += 0.2) {
             for (double rho = 0.1; rho < 2.8; rho += 0.1)
-                worst = std::max(
+                test::take_worst(
                     worst, std::fabs(parts.at({beta, 5, rho}).value - other.at({beta + turn, 5, rho}).value));
         }
         MESSAGE("weights differ by ", worst, " at most");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refined.hpp"
 #include "support/models.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
@@ -138,8 +139,8 @@ TEST_CASE("refine: what is linear over the surface stays linear, to the last rou
     for (std::size_t i = 0; i < refinement.vertices.size(); ++i) {
         const auto [a, b, t] = refinement.vertices[i];
         const double from = linear(positions[a]), to = linear(positions[b]);
-        worst =
-            std::max(worst, std::abs(from + t * (to - from) - linear(positions[solid.positions.size() + i])));
+        test::take_worst(worst,
+                         std::abs(from + t * (to - from) - linear(positions[solid.positions.size() + i])));
     }
     CHECK(refinement.vertices.size() > 1000);
     CHECK(worst < 3e-7);

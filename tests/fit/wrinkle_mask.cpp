@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mask.hpp"
 #include "support/angles.hpp"
+#include "support/worst.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
@@ -81,7 +82,7 @@ double worst_normal(const Solid& solid, const Bent& result) {
     float least = 1;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         if (solid.positions[i].z > 0.1f && solid.positions[i].z < 9.9f)
-            least = std::min(least, glm::dot(glm::normalize(truth[i]), glm::normalize(result.normals[i])));
+            test::take_least(least, glm::dot(glm::normalize(truth[i]), glm::normalize(result.normals[i])));
     }
     return glm::degrees(std::acos(static_cast<double>(least)));
 }
@@ -115,7 +116,7 @@ TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profi
                 double worst = 0, deepest = 0;
                 for (std::size_t i = 0; i < mask.size(); ++i) {
                     const glm::vec3 expected = glm::mix(bare.positions[i], full.positions[i], mask[i]);
-                    worst = std::max(worst, double{glm::distance(part.positions[i], expected)});
+                    test::take_worst(worst, double{glm::distance(part.positions[i], expected)});
                     deepest = std::max(deepest, double{glm::distance(bare.positions[i], full.positions[i])});
                 }
                 CHECK(worst < 5e-6);
@@ -196,7 +197,7 @@ TEST_CASE("wrinkle mask: vertices at one place that a seam has split have one no
     const Bent result = bent_with_normals(fit::bind(geometry, upright()), 1);
     double worst = 0;
     for (std::size_t i = 0; i < count; ++i)
-        worst = std::max(worst, double{glm::distance(result.normals[i], result.normals[count + i])});
+        test::take_worst(worst, double{glm::distance(result.normals[i], result.normals[count + i])});
     CHECK(worst < 1e-6);
 }
 
@@ -215,7 +216,7 @@ TEST_CASE("wrinkle mask: a socket goes where its place on the mesh goes") {
             fit::socket_near(binding, solid.geometry(), glm::dvec3(solid.positions[i]))};
         bend::SocketFrame frames[2];
         bend::Sockets::make(binding.body, sockets).value().frames(job, frames);
-        worst = std::max(worst, double{glm::distance(frames[0][3], result.positions[i])});
+        test::take_worst(worst, double{glm::distance(frames[0][3], result.positions[i])});
         unmasked = std::max(unmasked, double{glm::distance(frames[1][3], result.positions[i])});
     }
     CHECK(worst < 2e-5);
@@ -235,7 +236,7 @@ TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bar
         const Bent bare = bent_with_normals(plain, 0);
         double worst = 0;
         for (std::size_t i = 0; i < bare.positions.size(); ++i)
-            worst = std::max(worst, double{glm::distance(nothing.positions[i], bare.positions[i])});
+            test::take_worst(worst, double{glm::distance(nothing.positions[i], bare.positions[i])});
         CHECK(worst < 5e-6);
     }
 }
@@ -248,7 +249,7 @@ TEST_CASE("wrinkle mask: a level of detail has its own") {
                bare = bent_with_normals(fit::bind_level(level.geometry(), rig), 0);
     double worst = 0;
     for (std::size_t i = 0; i < bare.positions.size(); ++i)
-        worst = std::max(worst, double{glm::distance(smooth.positions[i], bare.positions[i])});
+        test::take_worst(worst, double{glm::distance(smooth.positions[i], bare.positions[i])});
     CHECK(worst < 5e-6);
 }
 

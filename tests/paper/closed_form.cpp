@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/worst.hpp"
 #include "surface.hpp"
 
 #include <goffer/paper/closed_form.hpp>
@@ -152,13 +153,13 @@ TEST_CASE("a negative angle bends the other way") {
         const ClosedForm there(body, {-pose.angle, pose.direction}),
             here(body, {pose.angle, pose.direction + pi});
         CHECK(there.position(v) == here.position(v));
-        CHECK(glm::dot(there.position(v), there.position(v)) > 0);
     }
 }
 
 TEST_CASE("tangents are the map's derivatives, normals stand on them") {
     RandomBodies random;
     double worst = 0;
+    int looked_at = 0;
     for (int i = 0; i < 1500; ++i) {
         const Parameters body =
             i % 4 == 1 ? random.shaped_body() : random.body(i % 3 ? Amplitude::paper : Amplitude::area);
@@ -166,6 +167,7 @@ TEST_CASE("tangents are the map's derivatives, normals stand on them") {
         const Pose pose = random.pose(body, i % 2 ? share : -share);
         const Cylindrical v = random.vertex(body);
         if (near_a_crease(body, pose, v)) continue;
+        ++looked_at;
         const ClosedForm map(body, pose);
         const double h = 1e-4 * body.radius;
         const glm::dvec3 by_rho = difference(map, v, 0, h), by_beta = difference(map, v, 1, h);
@@ -173,14 +175,15 @@ TEST_CASE("tangents are the map's derivatives, normals stand on them") {
         const CylindricalVector t = random.vector(), n = random.vector();
 
         const glm::dvec3 tangent = glm::normalize(t.rho * by_rho + t.beta * by_beta + t.z * by_z);
-        worst = std::max(worst, glm::length(map.tangent(v, t) - tangent));
+        goffer::test::take_worst(worst, glm::length(map.tangent(v, t) - tangent));
         // Cofactors: the normal of the plane that the images of two vectors normal to n span.
         const glm::dvec3 normal =
             glm::normalize(n.rho * glm::cross(by_beta, by_z) + n.beta * glm::cross(by_z, by_rho) +
                            n.z * glm::cross(by_rho, by_beta));
-        worst = std::max(worst, glm::length(map.normal(v, n) - normal));
+        goffer::test::take_worst(worst, glm::length(map.normal(v, n) - normal));
     }
     CAPTURE(worst);
+    CHECK(looked_at > 1000);
     CHECK(worst < 2e-10);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/worst.hpp"
 #include "surface.hpp"
 
 #include <goffer/paper/grid.hpp>
@@ -36,7 +37,8 @@ TEST_CASE("P3: every column of the wrinkled base keeps its length") {
                     Grid({tube_length, tube_radius, folds, profile}, columns, rows).bend({angle * degree, 0});
                 double worst = 0;
                 for (std::uint32_t column = 0; column < columns; ++column) {
-                    worst = std::max(worst, std::abs(length_of_column(bent, column, rows) / tube_length - 1));
+                    goffer::test::take_worst(
+                        worst, std::abs(length_of_column(bent, column, rows) / tube_length - 1));
                 }
                 std::printf("columns, %s, k = %2d, %3.0f deg: within %.4f %%\n",
                             profile == Profile::damped ? "damped" : "smooth", folds, angle, 100 * worst);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/angles.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/paper/closed_form.hpp>
 
@@ -52,7 +53,8 @@ TEST_CASE("inverse of the bend: there and back, within 1e-12 L") {
         const Case c = random.bent();
         const double length = c.body.length;
         const Cylindrical v{random.in(-7, 7), random.in(0, length), c.body.radius * random.in(0, 1)};
-        worst = std::max(worst, apart(inverse(ClosedForm(c.body, c.rest).position(v), c), v) / length);
+        goffer::test::take_worst(worst,
+                                 apart(inverse(ClosedForm(c.body, c.rest).position(v), c), v) / length);
     }
     CAPTURE(worst);
     CHECK(worst < 1e-14);

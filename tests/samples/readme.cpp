@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/files.hpp"
+#include "support/worst.hpp"
 
 #include <goffer/mesh/mesh.hpp>
 
@@ -46,7 +47,7 @@ TEST_CASE("the README's program bends the bundled model") {
     CHECK(after.materials.size() == before.materials.size());
     float farthest = 0;
     for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        farthest = std::max(farthest, glm::length(after.positions[i] - before.positions[i]));
+        test::take_worst(farthest, glm::length(after.positions[i] - before.positions[i]));
         REQUIRE(glm::length(after.normals.values[i]) == doctest::Approx(1));
     }
     CHECK(farthest > 0.3f);  // the model is 1 long and its tip turns by 86 degrees

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/bodies.hpp"
+#include "support/worst.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -25,11 +26,6 @@ struct Expected {
         }
     }
 };
-
-/// Takes the larger of two differences; NaN counts as the largest of all.
-inline void take_worst(double& worst, double value) {
-    worst = !(value <= worst) ? value : worst;
-}
 
 /// The largest differences; NaN counts as the largest of all.
 struct Worst {

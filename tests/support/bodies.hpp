@@ -356,7 +356,9 @@ private:
     paper::ClosedForm map_;
 };
 
+/// In degrees, right for small angles; 180 where one of them has no direction.
 inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    if (!(glm::dot(a, a) > 0 && glm::dot(b, b) > 0)) return 180;
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 

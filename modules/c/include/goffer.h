@@ -108,7 +108,7 @@ enum { GOFFER_AMPLITUDE_NONE, GOFFER_AMPLITUDE_PAPER, GOFFER_AMPLITUDE_AREA, GOF
 typedef struct goffer_bind_options {
     int profile, amplitude;
     double roundness;                   /* of GOFFER_PROFILE_EVEN, 0 to 0.5 */
-    int folds;                          /* of each region; negative: what suits it */
+    int folds;                          /* of each region, or of a chain; negative: what suits it */
     double fold_length;                 /* in radii; 0: the profile's own */
     int one_radius;                     /* not 0: the base is a cylinder, whatever the body's shape */
     int straight;                       /* not 0: the rest shape is taken for straight */
@@ -118,8 +118,8 @@ typedef struct goffer_bind_options {
     const double* shares;               /* null, or what each region is of the length; adds up to 1 */
     size_t region_count;                /* of shares */
     int folds_apart;                    /* not 0: folds end where regions meet, instead of running on */
-    /* Of a chain that the body is bent along at rest, 2 to 12, each of which is a region; negative: as many
-     * as follow it, where one does not; 0 or 1: no chain. */
+    /* Of a chain that the body is bent along at rest, 2 to GOFFER_MAX_REGIONS, each of which is a region;
+     * negative: as many as follow it, where one does not; 0 or 1: no chain. */
     int arcs;
 } goffer_bind_options;
 

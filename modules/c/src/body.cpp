@@ -5,7 +5,6 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/fit/suitability.hpp>
 
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <memory>
 #include <stdexcept>
-#include <vector>
 
 using namespace goffer;
 using namespace goffer::c;

@@ -6,7 +6,6 @@
 #include <goffer/gpu/vertices.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 using namespace goffer;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "body_file.hpp"
 #include "commands.hpp"
-#include "memory.hpp"
 #include "model.hpp"
 #include "poses.hpp"
 #include "progress.hpp"
@@ -20,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 namespace goffer::cli {
@@ -201,13 +199,7 @@ void report_sockets(Report& report, const BoundModel& model, const std::vector<S
 
 /// Warns of what shows at a right angle, or as far as the body bends.
 void warn_of_binding(Report& report, const BakeRequest& request, const BoundModel& model) {
-    const bend::Body& body = model.binding.body;
-    std::vector<double> angles;
-    for (std::size_t r = 0; r < body.region_count(); ++r) {
-        const double share = body.region_inputs()[r].length / body.length();
-        angles.push_back(std::min(static_cast<double>(body.max_angle(r)), share * std::numbers::pi / 2));
-    }
-    warn_of_folds(report, request.bind, model, angles);
+    warn_of_folds(report, request.bind, model, right_angle_of(model.binding.body));
 }
 
 void report_body(Report& report, const std::vector<Level>& levels, std::size_t bytes,

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace goffer::cli {
@@ -28,7 +29,9 @@ struct InspectOptions {
 /// The center line at rest, if it is bent, beside the straight line that it replaces.
 void report_rest(Report& report, const BindRequest& request, const BoundModel& model) {
     const fit::Cylinder& fitted = model.cylinder;
-    const bool bent = fitted.bent();
+    const bool bent = fitted.rest_angle != 0 || std::ranges::any_of(fitted.arcs, [](const fit::RestArc& arc) {
+                          return arc.angle != 0;
+                      });
     const auto straight_residual = [&]() -> std::optional<double> {
         const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
         try {
@@ -100,7 +103,7 @@ void report_regions(Report& report, const bend::Body& body, Notes notes) {
 
 void inspect_body_file(const InspectOptions& options) {
     if (options.said_fit) {
-        throw UsageError("--axis, --rest: " + options.model.string() +
+        throw UsageError("--axis, --rest, --arcs: " + options.model.string() +
                          " is a body file, which was fitted already; leave them out");
     }
     check_places({{"MODEL", options.model}}, {{"--json", options.json}});

@@ -116,7 +116,9 @@ void take_arrays(BoundModel& model, const BindRequest& request) {
 void add_fold_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
                        "Make this many folds over the length of a region (with --profile damped or smooth: "
-                       "over half of it), or a list of one number for each (default: what suits the body and "
+                       "over half of it), of a chain of arcs over all of it, or a list of one number for "
+                       "each (default: what "
+                       "suits the body and "
                        "its mesh)");
     command
         .add_option("--fold-length", words.fold_length,
@@ -172,7 +174,7 @@ void add_fit_words(CLI::App& command, FitWords& words) {
     command
         .add_option("--arcs", words.arcs,
                     "Make the center line at rest a chain of this many arcs, each of which is a region")
-        ->check(CLI::Range(std::size_t{2}, fit::max_arcs));
+        ->check(CLI::Range(std::size_t{2}, bend::max_regions));
 }
 
 void add_bind_words(CLI::App& command, BindWords& words) {
@@ -301,7 +303,8 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     const std::size_t arcs = cylinder.arcs.size(), said = request.words.fit.arcs;
     if (given && said > 0 && said != arcs)
         throw UsageError("--arcs: the cylinder in " + fit.string() + " has " +
-                         (arcs == 0 ? "none" : std::to_string(arcs)) + "; say the same, or leave out --fit");
+                         (arcs == 0 ? "none; leave out one of them"
+                                    : std::to_string(arcs) + "; say the same, or leave out --fit"));
     if (said == 0 && arcs > 0 && !request.options.regions.empty())
         throw UsageError("--fit: the cylinder in " + fit.string() + " is a chain of " + counted(arcs, "arc") +
                          ", which are its regions; leave it out, or --regions and --path, which have others");

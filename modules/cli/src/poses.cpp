@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace goffer::cli {
 namespace {
@@ -17,6 +18,13 @@ namespace {
 [[noreturn]] void refuse_count(const std::string& option, std::size_t count, std::size_t regions) {
     throw UsageError(option + ": " + std::to_string(count) + " for " + counted(regions, "region") +
                      "; give one for each");
+}
+
+/// Of a list, where nobody says what each of its numbers is for.
+[[noreturn]] void refuse_list(const std::string& option) {
+    throw UsageError(option +
+                     ": a list is for a body of several regions; add --regions, or --arcs for a model "
+                     "that is bent at rest along a chain of them");
 }
 
 std::vector<fit::RegionOptions> read_regions(const std::string& text) {
@@ -209,10 +217,7 @@ PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<f
         throw UsageError("--regions: those of --arcs are its arcs; leave out one of them");
     for (const auto& [said, option] : {std::pair(words.angles.has_value(), "--angles"),
                                        std::pair(words.directions.has_value(), "--directions")}) {
-        if (said && !words.regions && regions.empty())
-            throw UsageError(std::string(option) +
-                             ": is for a body of several regions; add --regions, or --arcs for a model "
-                             "that is bent at rest along a chain of them");
+        if (said && regions.empty()) refuse_list(option);
     }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
@@ -225,6 +230,11 @@ PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<f
     }
     for (std::size_t i = 0; i < count && !words.angles; ++i)
         angles.push_back(all * (regions.empty() ? 1 : regions[i].share));
+}
+
+void PoseRequest::share_out(const bend::Body& body) {
+    for (std::size_t i = 0; shared && i < angles.size(); ++i)
+        angles[i] = *shared * (body.region_inputs()[i].length / body.length());
 }
 
 RestPose rest_pose(const bend::Body& body, std::size_t region) {
@@ -271,7 +281,7 @@ std::string rest_words(const bend::Body& body) {
         same = same && (rest.angle == 0 || rest.direction == toward);
         list += (i == 0 ? "" : ", ") + number(rest.angle) + " toward " + number(rest.direction);
     }
-    return same ? number(all) + " degrees toward " + number(toward) : list + " degrees";
+    return same && !is_chain(body) ? number(all) + " degrees toward " + number(toward) : list + " degrees";
 }
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {
@@ -317,8 +327,8 @@ std::optional<int> read_folds(const std::optional<std::string>& text,
         }
     }
     if (folds.size() == 1) return static_cast<int>(folds[0]);
-    if (folds.size() != regions.size())
-        refuse_count("--folds", folds.size(), std::max<std::size_t>(regions.size(), 1));
+    if (regions.empty()) refuse_list("--folds");
+    if (folds.size() != regions.size()) refuse_count("--folds", folds.size(), regions.size());
     for (std::size_t i = 0; i < folds.size(); ++i) regions[i].folds = static_cast<int>(folds[i]);
     return std::nullopt;
 }
@@ -329,6 +339,15 @@ std::string region_words(std::size_t region, std::size_t count) {
 
 double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose) {
     return static_cast<double>(std::min(std::fabs(pose.angle), body.max_angle(region)));
+}
+
+std::vector<double> right_angle_of(const bend::Body& body) {
+    std::vector<double> angles;
+    for (std::size_t r = 0; r < body.region_count(); ++r) {
+        const double share = body.region_inputs()[r].length / body.length();
+        angles.push_back(std::min(static_cast<double>(body.max_angle(r)), share * std::numbers::pi / 2));
+    }
+    return angles;
 }
 
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,

@@ -49,6 +49,9 @@ struct PoseRequest {
     /// has several.
     explicit PoseRequest(const PoseWords& words, std::size_t arcs = 0,
                          std::vector<fit::RegionOptions> baked = {});
+
+    /// Shares one angle out over regions by the lengths that they have in `body`.
+    void share_out(const bend::Body& body);
 };
 
 /// A region's rest arc, in degrees; both are 0 of a straight one.
@@ -98,6 +101,9 @@ struct Target {
 
 /// The angle of a pose that a run uses, radians, >= 0: clamped to the region's largest.
 [[nodiscard]] double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose);
+
+/// What each region of a body has of a right angle, radians, or its largest angle if that is less.
+[[nodiscard]] std::vector<double> right_angle_of(const bend::Body& body);
 
 /// Warns that an angle is beyond the largest, both in degrees. `which` begins the line; `then` ends it: what
 /// is done.

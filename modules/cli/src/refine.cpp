@@ -14,7 +14,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>

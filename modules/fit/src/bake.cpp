@@ -4,7 +4,6 @@
 #include <goffer/fit/bake.hpp>
 
 #include <string>
-#include <utility>
 
 namespace goffer::fit {
 namespace {

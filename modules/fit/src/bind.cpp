@@ -41,10 +41,12 @@ void check_options(const BindOptions& options, const Cylinder& cylinder, double 
     check(options.profile);
     const int most =
         options.profile.kind == Profile::Kind::even ? 2 * BindOptions::max_folds : BindOptions::max_folds;
-    for (const RegionOptions& region : regions_of(options)) {
-        if (region.folds && (*region.folds < 0 || *region.folds > most))
-            throw Error("folds: " + std::to_string(*region.folds) + " is outside 0.." + std::to_string(most));
-    }
+    const auto check_folds = [most](std::optional<int> folds) {
+        if (folds && (*folds < 0 || *folds > most))
+            throw Error("folds: " + std::to_string(*folds) + " is outside 0.." + std::to_string(most));
+    };
+    check_folds(options.folds);
+    for (const RegionOptions& region : options.regions) check_folds(region.folds);
     const bool whole = options.wrinkle_range.whole();
     if (options.amplitude == paper::Amplitude::area && (cylinder.bent() || onset != 0 || !whole)) {
         throw Error(std::string("amplitude: area cannot be had for a body ") +

@@ -34,7 +34,7 @@ struct CenterPoints {
     double radius;  ///< of a tube of that length with the body's area
 };
 
-/// Returns points 0.75 radii apart, or 96 of them along a longer body; none if the body is too stout for
+/// Returns points 0.75 radii apart, or 92 of them along a longer body; none if the body is too stout for
 /// that. They are the centroids of what is equally far from both ends, measured along the surface, so that it
 /// does not matter how far a body is bent.
 [[nodiscard]] CenterPoints center_points(const Body& body);

@@ -280,7 +280,8 @@ std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
     // Further arcs than those that follow the body would follow its noise. Fewer may be fewer still, since
     // arcs beyond an end are left out; or more, since one of more than a half turn becomes two.
     std::optional<Cylinder> best = follow(0);
-    for (std::size_t count = arcs; count > 0 && !(best && best->arcs.size() <= arcs); --count)
+    for (std::size_t count = std::min(arcs, max_arcs); count > 0 && !(best && best->arcs.size() <= arcs);
+         --count)
         best = follow(count);
     if (!best || best->arcs.size() > arcs) return std::nullopt;
     return cut_to(*best, arcs);

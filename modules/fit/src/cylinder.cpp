@@ -13,12 +13,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
 namespace goffer::fit {
 namespace {
@@ -209,8 +207,8 @@ void check_arcs(const Cylinder& cylinder) {
 void check_count(std::size_t arcs, RestPose rest) {
     if (arcs == 0) return;
     if (rest != RestPose::chain) throw Error("arcs: are for RestPose::chain; give none, or that");
-    if (arcs < 2 || arcs > max_arcs)
-        throw Error("arcs: " + std::to_string(arcs) + " is outside 2.." + std::to_string(max_arcs));
+    if (arcs < 2 || arcs > bend::max_regions)
+        throw Error("arcs: " + std::to_string(arcs) + " is outside 2.." + std::to_string(bend::max_regions));
 }
 
 Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {

@@ -16,7 +16,6 @@
 #include <numbers>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 namespace goffer::fit {
 namespace {

@@ -4,7 +4,6 @@
 #include <goffer/bend/job.hpp>
 
 #include <glm/geometric.hpp>
-#include <glm/mat4x3.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>

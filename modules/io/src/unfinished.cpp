@@ -11,7 +11,6 @@
 #ifndef _WIN32
 #include <unistd.h>
 
-#include <ctime>
 #endif
 
 namespace goffer::io {

@@ -78,6 +78,13 @@ struct CrowdRequest {
         check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}});
         picture = picture_settings(options.picture);
     }
+
+    /// Has regions share an angle by the lengths that they have in `body`, the first of the models.
+    void share_out(const bend::Body& body) {
+        pose.share_out(body);
+        targets = targets_from_straight(pose);
+        plan.poses = poses_of(targets);
+    }
 };
 
 std::vector<BoundModel> bind_models(std::vector<ModelFile> files, const BindRequest& request) {
@@ -193,9 +200,10 @@ void run_crowd(const CrowdOptions& options) {
     files.reserve(options.models.size());
     for (const std::filesystem::path& model : options.models)
         files.emplace_back(model, options.bind.load.limits);
-    const CrowdRequest request(options, baked_regions(files));
+    CrowdRequest request(options, baked_regions(files));
     Report report(options.json);
     const std::vector<BoundModel> models = bind_models(std::move(files), request.bind);
+    if (options.bind.fit.arcs > 0) request.share_out(models[0].binding.body);
     auto progress =
         std::make_unique<Progress>("deforming " + counted(options.frames, "frame"), options.frames);
     Crowd crowd(models, request.plan);

@@ -68,15 +68,16 @@ private:
     /// its sign; else the vector (angle cos direction, angle sin direction), which goes the short way, and
     /// for which 0 degrees is a place like all others.
     void move_on(RegionAngles& angles, const KeyPlace& place, const bend::Body& body) const {
-        for (std::size_t r = 0; r < flat_.size(); ++r) {
+        for (std::size_t r = 0; r < angles.angles.size(); ++r) {
+            const std::size_t own = flat_.size() == 1 ? 0 : r;  // one is said for all regions of a chain
             const auto value = [&](std::size_t key) { return angle_of(keys_.keys[key], body, r); };
-            if (flat_[r]) {
+            if (flat_[own]) {
                 angles.angles[r] = between(place, value);
-                angles.directions[r] = plane(r);
+                angles.directions[r] = plane(own);
                 continue;
             }
             const glm::dvec2 vector = between(place, [&](std::size_t key) {
-                const std::optional<double>& said = keys_.keys[key].directions[r];
+                const std::optional<double>& said = keys_.keys[key].directions[own];
                 const double direction = radians(said.value_or(rest_direction(body)));
                 return value(key) * glm::dvec2(std::cos(direction), std::sin(direction));
             });
@@ -125,6 +126,7 @@ double angle_of(const RegionAngles& said, const bend::Body& body, std::size_t re
 
 RegionAngles on_body(const RegionAngles& said, const bend::Body& body) {
     RegionAngles own{{}, said.directions};
+    if (own.directions.size() == 1) own.directions.resize(body.region_count(), said.directions.front());
     own.angles.reserve(body.region_count());
     for (std::size_t r = 0; r < body.region_count(); ++r) own.angles.push_back(angle_of(said, body, r));
     return own;

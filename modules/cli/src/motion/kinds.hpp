@@ -29,7 +29,9 @@ struct RegionAngles {
 /// The same of all regions: one angle for each.
 [[nodiscard]] RegionAngles on_body(const RegionAngles& said, const bend::Body& body);
 
-/// The poses that `goffer bend` has for these angles, one per region.
+/// The poses that `goffer bend --angles` has for these, one per region. From the rest pose of a chain, what a
+/// region has no room for is lost, where `goffer bend --by` gives it to others: which these are would change
+/// from one frame to the next.
 [[nodiscard]] std::vector<bend::Pose> poses_for(const bend::Body& body, const RegionAngles& angles,
                                                 bool from_rest);
 

@@ -142,7 +142,8 @@ Wish wish_of(const Controls& controls, Wish wish) {
     wish.keep_rest = false;
     wish.new_pose = !same;
     if (shares && !shares->empty()) wish.pose.regions = std::move(shares);
-    if (!same && words.fit.arcs > 0) {  // the arcs give way
+    const bool others = words.fit.arcs > 0 || controls.region_count == 1;
+    if (!same && others && words.fit.rest == "auto") {  // arcs that were or would be found give way
         words.fit.arcs = 0;
         words.fit.rest = "arc";
     }

@@ -40,11 +40,7 @@ std::vector<std::string> warnings_of(const BoundModel& model, const Textures& te
     for (const std::string& warning : textures.warnings) report.warn(warning);
     if (!model.baked) {
         report_suitability(report, model);
-        const bend::Body& body = model.binding.body;
-        std::vector<double> angles;
-        for (std::size_t r = 0; r < body.region_count(); ++r)
-            angles.push_back(std::min(static_cast<double>(body.max_angle(r)), std::numbers::pi / 2));
-        warn_of_folds(report, request, model, angles);
+        warn_of_folds(report, request, model, right_angle_of(model.binding.body));
     }
     return report.warnings();
 }

@@ -199,19 +199,20 @@ void Viewer::take_keys() {
     for (const KeyPress& key : window_.take_keys()) press(key);
 }
 
+void Viewer::press_with_control(int key) {
+    Done done;
+    done.save_model = key == 'S';
+    done.save_picture = key == 'P';
+    done.save_body = key == 'B';
+    done.copy = key == 'C';
+    act(done);
+    if (key == 'Q') window_.close();
+}
+
 void Viewer::press(const KeyPress& key) {
     const float step = key.shift ? 1 : 5;
     redraws_ = settling;
-    if (key.control) {
-        Done done;
-        done.save_model = key.key == 'S';
-        done.save_picture = key.key == 'P';
-        done.save_body = key.key == 'B';
-        done.copy = key.key == 'C';
-        act(done);
-        if (key.key == 'Q') window_.close();
-        return;
-    }
+    if (key.control) return press_with_control(key.key);
     Show& show = controls_.show;
     const auto flip = [](bool& value) { value = !value; };
     if (key.key >= '1' && key.key <= '9') {

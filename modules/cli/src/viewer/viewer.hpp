@@ -63,6 +63,7 @@ private:
     void take_keys();
     void take_mouse();
     void press(const KeyPress& key);
+    void press_with_control(int key);
     void turn_region(std::size_t region, float angle, float direction);
     void bind();
     void ask(Wish wish);

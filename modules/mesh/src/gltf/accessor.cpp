@@ -2,7 +2,6 @@
 #include "gltf.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace goffer::mesh::gltf {

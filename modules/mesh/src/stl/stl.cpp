@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 
 // No library is used: a facet is 50 bytes, and importers drop the header and the attribute bytes, which have
 // to be given back. The normal of a facet follows from its corners and belongs to no vertex. So it is not an

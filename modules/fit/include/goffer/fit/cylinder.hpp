@@ -87,8 +87,8 @@ public:
 /// mesh without a long axis may get one, too. How many arcs follow a body best may change with a small change
 /// of its mesh.
 ///
-/// `arcs`, 2..max_arcs, says how many with RestPose::chain: the result is then a chain of so many, whatever
-/// else would be better. Where fewer follow the body, the longest ones are halved. 0: as above.
+/// `arcs`, 2..bend::max_regions, says how many with RestPose::chain: the result is then a chain of so many,
+/// whatever else would be better. Where fewer follow the body, the longest ones are halved. 0: as above.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
