@@ -208,13 +208,13 @@ TEST_CASE("chain: keys of one angle move all of its regions") {
         (void)run(folder, {"bend", "s.obj", "-o", "bent.ply", "--angle", angle, "--direction", direction});
         return farthest(mesh::load(folder / frame), mesh::load(folder / "bent.ply"));
     };
-    CHECK(off("02.ply", "60", "30") < 1e-4);
+    CHECK(off("03.ply", "60", "30") < 1e-4);
     std::ofstream(folder / "keys.json")
         << R"({"interpolation": "linear", "keys": [{"time": 0, "angle": 20, "direction": 30},
                                                {"time": 2, "angle": 60, "direction": 30}]})";
     well(folder,
          {"animate", "s.obj", "--keys", "keys.json", "-o", "%02d.ply", "--frames", "3", "--fps", "1"});
-    CHECK(off("01.ply", "40", "30") < 1e-4);
+    CHECK(off("02.ply", "40", "30") < 1e-4);
 }
 
 TEST_CASE("chain: a crowd is bent along one arc") {
