@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,44 @@ bool same_numbers(const Output& a, const Output& b) {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "wrinkles are as deep as the factor of the direction in which a body is bent, also by a negative angle") {
+    Random random(83);
+    constexpr std::size_t count = 500;
+    const LooseVertices loose(random, count, 0.11);
+    bend::RegionInput region = loose_region(count);
+    const bend::Body plain = loose.body({&region, 1});
+    region.factors.max_angle = plain.max_angle();
+    region.factors.rows.resize(2);
+    for (auto& row : region.factors.rows) {
+        for (std::size_t d = 0; d < row.size(); ++d)
+            row[d] =
+                static_cast<float>(1 + 0.8 * std::cos(2 * std::numbers::pi * static_cast<double>(d) / 16));
+    }
+    const bend::Body own = loose.body({&region, 1});
+    const auto deepest = [&](const bend::Body& of, const bend::Pose& pose) {
+        Output bare(of.vertex_count()), all(of.vertex_count());
+        bend::DeformJob job = make_job(of, pose, Isa::automatic, bare);
+        job.wrinkle_weight = 0;
+        bend::run(job);
+        bend::run(make_job(of, pose, Isa::automatic, all));
+        double most = 0;
+        for (std::size_t i = 0; i < of.vertex_count(); ++i)
+            take_worst(most, glm::length(all.position(i) - bare.position(i)));
+        return most;
+    };
+    for (const float angle : {0.9f, -0.9f}) {
+        for (const float direction : {0.0f, 0.7f, 2.0f, 3.1f}) {
+            CAPTURE(angle);
+            CAPTURE(direction);
+            const float toward = direction + (angle < 0 ? std::numbers::pi_v<float> : 0);
+            const double factor{region.factors.at(std::fabs(angle), toward)};
+            const bend::Pose pose{angle, direction};
+            CHECK(deepest(own, pose) == doctest::Approx(factor * deepest(plain, pose)).epsilon(1e-3));
+        }
+    }
+}
 
 TEST_CASE("without wrinkles a body bends as one that has no folds") {
     Random random(69);

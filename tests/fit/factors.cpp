@@ -9,6 +9,7 @@
 #include <goffer/bend/job.hpp>
 #include <goffer/fit/base.hpp>
 #include <goffer/fit/bind.hpp>
+#include <goffer/fit/patches.hpp>
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
@@ -48,7 +49,8 @@ Soup refined_soup(Soup soup, const fit::Cylinder& cylinder, const fit::BindOptio
     return {fit::refined_positions(soup.positions, refinement), refinement.triangles};
 }
 
-double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose, float wrinkles = 1) {
+std::vector<glm::vec3> bent_positions(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose,
+                                      float wrinkles = 1) {
     std::vector<glm::vec3> bent(soup.positions.size());
     bend::DeformJob job;
     job.body = &binding.body;
@@ -57,7 +59,11 @@ double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose
     job.transform[3] = -glm::vec3(binding.body.origin());
     job.positions = interleaved<3>(&bent[0].x, bent.size());
     bend::run(job);
-    return fit::surface_area(bent, soup.triangles);
+    return bent;
+}
+
+double bent_area(const fit::Binding& binding, const Soup& soup, const bend::Pose& pose, float wrinkles = 1) {
+    return fit::surface_area(bent_positions(binding, soup, pose, wrinkles), soup.triangles);
 }
 
 /// The largest changes of area in 16 directions at six angles from 10 degrees to 0.9 of the largest.
@@ -215,6 +221,27 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
             sorted[binding.order.empty() ? i : binding.order[i]] = bent[i];
         // What passes over the joint was solved for regions that bend alike.
         CHECK(std::abs(fit::surface_area(sorted, soup.triangles) / rest - 1) < 1.5e-3);
+    }
+}
+
+TEST_CASE("amplitude mesh: slices of a body that is thick here and thin there keep their area each") {
+    std::mt19937 random(21);
+    const test::Solid solid =
+        test::warped(test::cylinder({.columns = 48, .rows = 240, .closed = false}, random), [](glm::dvec3 p) {
+            const double thick = 0.75 + 0.35 * std::cos(0.9 * p.z);
+            return glm::dvec3(thick * p.x, thick * p.y, p.z);
+        });
+    const Soup soup{solid.positions, solid.triangles};
+    const fit::Binding binding =
+        fit::bind(soup.geometry(), test::upright(), {.amplitude = paper::Amplitude::mesh});
+    const std::vector<std::uint32_t> slices =
+        fit::patches_of(soup.geometry(), binding.cylinder, {.slices = 10, .sides = 1});
+    for (const float direction : {0.0f, 2.0f}) {
+        const fit::PatchChange change =
+            fit::patch_change(soup.geometry(), bent_positions(binding, soup, {1.5f, direction}), slices);
+        MESSAGE("slices: rms ", change.rms, ", worst ", change.worst);
+        CHECK(change.rms < 0.013);
+        CHECK(std::abs(change.worst) < 0.022);
     }
 }
 

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: MIT
 """What people and programs read: the gate's report and history, and the report of a whole benchmark run."""
 
+import contextlib
+import io
 import json
+import pathlib
 import shutil
 import subprocess
 import sys
 import unittest
 
 import support
-from gating import history, report
+from gating import command, history, report
 from gating.outcome import Part, Row, Unmeasured, Verdict
 
 PAIR = {"low": 0.05, "high": 0.2, "p": 0.001, "pairs": 40, "median_of_head": 11.5}
@@ -71,6 +74,16 @@ class History(support.Case):
         for words in ("setup/x", "ns per instance", "abc", "def"):
             self.assertIn(words, chart)
         self.assertNotIn("allocations", chart)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not here")
+    def test_command_draws_it(self):
+        path = self.folder / "h.csv"
+        for head in ("abc", "def"):
+            history.record(path, parts(), {"head": head, "processor": "cpu"})
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            self.assertEqual(command.main(["--chart", str(path)]), 0)
+        self.assertIn("<svg", pathlib.Path(out.getvalue().strip()).read_text())
 
     def test_no_history(self):
         with self.assertRaises(Unmeasured):

@@ -186,6 +186,16 @@ TEST_CASE("gltf: a GLB cut off anywhere is refused, and so are other versions") 
         CHECK_MESSAGE(!load_error("d.glb", whole.substr(0, length)).empty(), "cut to ", length);
     }
     CHECK(tells(load_error("d.glb", whole.substr(0, 1000)), "the GLB is cut off"));
+    // A second chunk of another type is no buffer, and a third one neither.
+    const std::size_t binary = whole.find(std::string("BIN\0", 4));
+    REQUIRE(binary != whole.npos);
+    std::string unknown = whole;
+    unknown.replace(binary, 4, "ODD!");
+    CHECK(tells(load_error("d.glb", unknown), "buffers[0]"));
+    std::string late = whole;
+    late.insert(binary - 4, std::string("\0\0\0\0ODD!", 8));
+    late[8] = static_cast<char>(static_cast<unsigned char>(late[8]) + 8);
+    CHECK(tells(load_error("d.glb", late), "buffers[0]"));
     std::string other = whole;
     other[4] = 1;
     CHECK(tells(load_error("d.glb", other), "is GLB version 1; only 2 can be read"));

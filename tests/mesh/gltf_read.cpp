@@ -290,14 +290,16 @@ TEST_CASE("gltf: materials have their names and base colors") {
     Document document = tetra();
     document.json["materials"] =
         Json::parse(R"([{"name": "skin", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]}},
-        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.75, 0, 1, 0.5]}}}, {}])");
+        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.75, 0, 1, 0.5]}}}, {},
+        {"pbrMetallicRoughness": {"metallicFactor": 0}}])");
     primitive_of(document)["material"] = 1;
     const Mesh mesh = load_document(document);
-    REQUIRE(mesh.materials.size() == 3);
+    REQUIRE(mesh.materials.size() == 4);
     CHECK(mesh.materials[0].name == "skin");
     CHECK(mesh.materials[0].base_color == glm::vec4(0.5f, 0.25f, 0.125f, 1));
     CHECK(mesh.materials[1].base_color == glm::vec4(0.75f, 0, 1, 0.5f));
     CHECK(mesh.materials[2].base_color == glm::vec4(1));
+    CHECK(mesh.materials[3].base_color == glm::vec4(1));
     CHECK(mesh.parts[0].material == 1);
 }
 

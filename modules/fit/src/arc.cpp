@@ -189,7 +189,8 @@ std::optional<Fitted> fit_arc(const Body& body, const Vector3d& axis, const Line
     std::vector<std::uint32_t> triangles;
     const Body cloud = sampled_surface(body, enough, triangles);
     const std::optional<Fitted> rough = rough_arc(cloud, axis);
-    if (!rough || !convincing(cloud, *rough, straight, slack)) return std::nullopt;
+    if (!rough) return std::nullopt;
+    if (!convincing(cloud, *rough, straight, slack)) return std::nullopt;
     const std::optional<Fitted> arc = arc_from(body, rough->line, max_steps);
     return arc && convincing(body, *arc, straight, 1) ? arc : std::nullopt;
 }

@@ -193,7 +193,7 @@ std::optional<ArcChain> chain_through(const Body& cloud, std::vector<CenterPoint
                                       const ChainLimits& limits, std::size_t arcs) {
     constexpr int rounds = 3;
     for (int round = 0;; ++round) {
-        const std::optional<ArcChain> chain =
+        std::optional<ArcChain> chain =
             arcs == 0 ? fit_fewest_arcs(points, limits) : fit_arcs(points, limits, arcs);
         if (!chain || round == rounds) return chain;
         points = section_centers(cloud, *chain, limits);
