@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
-
-#include <goffer/paper/base.hpp>
-#include <goffer/paper/chain.hpp>
+#include "support/bent_pipe.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -21,26 +19,15 @@ using nlohmann::json;
 
 namespace {
 
-/// A pipe of radius 1 in the shape of an S in `folder`: two arcs of 120 degrees, the one back from the other.
-/// Returns its name.
+/// A bent pipe in `folder`. Returns its name.
 std::string pipe(const Folder& folder) {
-    constexpr double half = 12, angle = 2 * std::numbers::pi / 3;
-    const paper::BaseMesh straight = paper::base_mesh(2 * half, 1, 32, 193, true);
-    const std::vector<paper::Parameters> regions(2, {.length = half, .radius = 1});
-    const std::vector<paper::Pose> poses{{angle, 0}, {angle, std::numbers::pi}};
-    const paper::Chain chain(regions, poses);
+    const BentPipe pipe;
     std::ofstream file(folder / "s.obj");
     file.precision(9);
-    for (const auto& p : straight.positions) {
-        paper::Cylindrical at = paper::to_cylindrical(glm::dvec3(p));
-        const std::size_t region = at.z > half ? 1 : 0;
-        at.z -= region == 1 ? half : 0;
-        const glm::dvec3 q = chain.position(region, at);
-        file << "v " << q.x << ' ' << q.y << ' ' << q.z << '\n';
-    }
-    for (std::size_t i = 0; i < straight.triangles.size(); i += 3)
-        file << "f " << straight.triangles[i] + 1 << ' ' << straight.triangles[i + 1] + 1 << ' '
-             << straight.triangles[i + 2] + 1 << '\n';
+    for (const glm::vec3& p : pipe.positions) file << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    for (std::size_t i = 0; i < pipe.triangles.size(); i += 3)
+        file << "f " << pipe.triangles[i] + 1 << ' ' << pipe.triangles[i + 1] + 1 << ' '
+             << pipe.triangles[i + 2] + 1 << '\n';
     return "s.obj";
 }
 
