@@ -89,7 +89,7 @@ TEST_CASE("bad regions: wrong usage, one line, and nothing written") {
              Bad{{"--regions", "0.5,0.5", "--angles", "1,2,3"}, "--angles: 3 for 2 regions"},
              Bad{{"--regions", "0.5,0.5", "--directions", "1"}, "--directions: 1 for 2 regions"},
              Bad{{"--regions", "0.5,0.5", "--folds", "1,2,3"}, "--folds: 3 for 2 regions"},
-             Bad{{"--folds", "1,2"}, "--folds: 2 for 1 region"},
+             Bad{{"--folds", "1,2"}, "--folds: a list is for a body of several regions; add --regions"},
              Bad{{"--folds", "2.5"}, "whole number"},
              Bad{{"--folds", "513"}, "0..512"},
              Bad{{"--regions", "0.5,0.5", "--angles", "1,most"}, "'most'"},
