@@ -2,6 +2,7 @@
 #pragma once
 
 #include "moving.hpp"
+#include "support/angles.hpp"
 #include "support/files.hpp"
 
 #include <goffer/clip/vertex_texture.hpp>
@@ -38,12 +39,6 @@ inline mesh::Mesh strip(std::size_t vertices) {
 /// The largest difference on any axis.
 inline double farthest(const glm::dvec3& a, const glm::dvec3& b) {
     return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
-}
-
-/// In degrees, right for small angles; 180 where one of them has no direction.
-inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    if (!(glm::dot(a, a) > 0 && glm::dot(b, b) > 0)) return 180;
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232;
 }
 
 /// What a decoder in float arithmetic may add to half a step: three roundings of numbers as large as these.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/angles.hpp"
+
 #include <goffer/bend/body_input.hpp>
 #include <goffer/bend/job.hpp>
 #include <goffer/engine/columns.hpp>
@@ -355,11 +357,5 @@ private:
     glm::dmat3 axes_;
     paper::ClosedForm map_;
 };
-
-/// In degrees, right for small angles; 180 where one of them has no direction.
-inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    if (!(glm::dot(a, a) > 0 && glm::dot(b, b) > 0)) return 180;
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
-}
 
 }  // namespace goffer::test

@@ -117,9 +117,7 @@ void add_fold_words(CLI::App& command, BindWords& words) {
     command.add_option("--folds", words.folds,
                        "Make this many folds over the length of a region (with --profile damped or smooth: "
                        "over half of it), of a chain of arcs over all of it, or a list of one number for "
-                       "each (default: what "
-                       "suits the body and "
-                       "its mesh)");
+                       "each (default: what suits the body and its mesh)");
     command
         .add_option("--fold-length", words.fold_length,
                     "Make folds so many radii long: the shorter, the shallower (default: " +

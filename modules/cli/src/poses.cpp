@@ -233,13 +233,16 @@ PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<f
 }
 
 void PoseRequest::share_out(const bend::Body& body) {
-    for (std::size_t i = 0; shared && i < angles.size(); ++i)
-        angles[i] = *shared * (body.region_inputs()[i].length / body.length());
+    for (std::size_t i = 0; shared && i < angles.size(); ++i) angles[i] = *shared * share_of(body, i);
 }
 
 RestPose rest_pose(const bend::Body& body, std::size_t region) {
     const bend::RegionInput& input = body.region_inputs()[region];
     return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
+}
+
+double share_of(const bend::Body& body, std::size_t region) {
+    return body.region_inputs()[region].length / body.length();
 }
 
 double rest_direction(const bend::Body& body) {
@@ -299,9 +302,8 @@ std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& reques
         shares = shared_from_rest(body, *request.shared, request.directions, toward);
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const std::optional<double>& direction = request.directions[request.directions.size() == 1 ? 0 : i];
-        const double share = body.region_inputs()[i].length / body.length();
         const double angle = !shares.empty()  ? shares[i]
-                             : request.shared ? *request.shared * share
+                             : request.shared ? *request.shared * share_of(body, i)
                                               : request.angles[i];
         targets.push_back(request.from_rest ? target_from_rest(body, i, angle, direction, toward)
                                             : target(angle, direction.value_or(toward)));
@@ -344,8 +346,8 @@ double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& 
 std::vector<double> right_angle_of(const bend::Body& body) {
     std::vector<double> angles;
     for (std::size_t r = 0; r < body.region_count(); ++r) {
-        const double share = body.region_inputs()[r].length / body.length();
-        angles.push_back(std::min(static_cast<double>(body.max_angle(r)), share * std::numbers::pi / 2));
+        const double angle = share_of(body, r) * std::numbers::pi / 2;
+        angles.push_back(std::min(static_cast<double>(body.max_angle(r)), angle));
     }
     return angles;
 }

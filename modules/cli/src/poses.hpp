@@ -61,6 +61,9 @@ struct RestPose {
 
 [[nodiscard]] RestPose rest_pose(const bend::Body& body, std::size_t region);
 
+/// What a region is of the length of its body.
+[[nodiscard]] double share_of(const bend::Body& body, std::size_t region);
+
 /// Returns which way a body is bent at rest as a whole, degrees: as its rest arcs are, added up as vectors
 /// (alpha cos theta, alpha sin theta), or, where they cancel out, as the one that is bent furthest; 0 of a
 /// straight body.

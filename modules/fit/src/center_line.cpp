@@ -4,6 +4,8 @@
 #include "disjoint_sets.hpp"
 #include "stretches.hpp"
 
+#include <goffer/fit/cylinder.hpp>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -387,7 +389,7 @@ std::optional<ArcChain> fit_fewest_arcs(std::span<const CenterPoint> points, con
     double weight = 0;
     for (const CenterPoint& point : points) weight += point.weight;
     std::optional<ArcChain> best;
-    for (std::size_t count = 2; count <= limits.max_arcs; ++count) {
+    for (std::size_t count = 2; count <= max_arcs; ++count) {
         std::optional<ArcChain> chain = fit_arcs(points, limits, count);
         if (!chain) break;
         best = std::move(chain);

@@ -76,19 +76,18 @@ private:
 
 /// Which chains may be fitted.
 struct ChainLimits {
-    double radius;    ///< an arc that has hardly an inner side at this distance is avoided; look all the same
-    double shortest;  ///< no arc is shorter
-    double tolerance;  ///< rms distance from the points
-    std::size_t max_arcs;
+    /// An arc that has hardly an inner side at this distance is avoided, but the caller has to look.
+    double radius;
+    double shortest;   ///< no arc is shorter
+    double tolerance;  ///< rms distance from the points: of fit_fewest_arcs()
 };
 
 /// Returns the chain of `count` arcs, 1 or more, that is near the points; nothing where so many have no room.
-/// The limits' tolerance and number of arcs have no effect.
 [[nodiscard]] std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, const ChainLimits& limits,
                                                std::size_t count);
 
-/// Returns the chain of fewest arcs, two or more, that is within the tolerance of the points, or that of the
-/// most arcs, or of as many as have room; nothing where two have none.
+/// Returns the chain of fewest arcs, two or more, that is within the tolerance of the points, or that of
+/// max_arcs, or of as many as have room; nothing where two have none.
 [[nodiscard]] std::optional<ArcChain> fit_fewest_arcs(std::span<const CenterPoint> points,
                                                       const ChainLimits& limits);
 

@@ -16,7 +16,7 @@ namespace {
 /// Lengths that a chain is fitted by, for a body of such a radius, in units of the body's size. A joint takes
 /// a stretch of the body.
 ChainLimits limits_of(double radius) {
-    return {.radius = radius, .shortest = 1.5 * radius, .tolerance = 0.08 * radius, .max_arcs = max_arcs};
+    return {.radius = radius, .shortest = 1.5 * radius, .tolerance = 0.08 * radius};
 }
 
 View view_about(const Body& body, const ArcChain& chain) {
@@ -219,6 +219,17 @@ CenterPoints points_along(const Body& body, const std::optional<Vector3d>& axis)
     return found;
 }
 
+/// The base about a chain, if the sections lie all around it and the body between its ends. `view`: of the
+/// cloud, about the chain.
+std::optional<Cylinder> base_about(const ArcChain& chain, const Body& body, const Body& cloud,
+                                   const View& view) {
+    constexpr double most_one_sided = 0.25;
+    if (!(one_sidedness(cloud, view) < most_one_sided)) return std::nullopt;
+    std::optional<Cylinder> cylinder = cylinder_of(body, chain);
+    if (cylinder && !holds(*cylinder, body)) return std::nullopt;
+    return cylinder;
+}
+
 /// The base with `count` arcs, the longest of which are halved for it.
 Cylinder cut_to(Cylinder cylinder, std::size_t count) {
     while (cylinder.arcs.size() < count) {
@@ -231,7 +242,6 @@ Cylinder cut_to(Cylinder cylinder, std::size_t count) {
 }
 
 constexpr std::size_t samples = 4000;
-constexpr double most_one_sided = 0.25;
 
 }  // namespace
 
@@ -257,9 +267,7 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     const View view = view_about(cloud, chain);
     const double now = roughness(cloud, view);
     if (!(now < smooth * limits.radius && now < better * rough)) return std::nullopt;
-    if (!(one_sidedness(cloud, view) < most_one_sided)) return std::nullopt;
-    const std::optional<Cylinder> cylinder = cylinder_of(body, chain);
-    return cylinder && holds(*cylinder, body) ? cylinder : std::nullopt;
+    return base_about(chain, body, cloud, view);
 }
 
 std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
@@ -273,9 +281,7 @@ std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
         const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, count);
         if (!through) return std::nullopt;
         const ArcChain chain = finished(body, *through, limits);
-        if (!(one_sidedness(cloud, view_about(cloud, chain)) < most_one_sided)) return std::nullopt;
-        const std::optional<Cylinder> cylinder = cylinder_of(body, chain);
-        return cylinder && holds(*cylinder, body) ? cylinder : std::nullopt;
+        return base_about(chain, body, cloud, view_about(cloud, chain));
     };
     // Further arcs than those that follow the body would follow its noise. Fewer may be fewer still, since
     // arcs beyond an end are left out; or more, since one of more than a half turn becomes two.

@@ -18,9 +18,9 @@ namespace goffer::fit {
 [[nodiscard]] std::optional<Cylinder> fit_chain(const Body& body, const Line& line,
                                                 const std::optional<Vector3d>& axis);
 
-/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not, of which some are
-/// halves of one where fewer follow the body as closely as fit_chain() asks for; nothing where the
-/// body has none, or is not all around it. `axis` as above.
+/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not; nothing where the
+/// body has none, or is not all around it. Where fewer arcs follow the body as closely as fit_chain() asks
+/// for, the longest ones are halved. `axis` as above.
 [[nodiscard]] std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
                                                    const std::optional<Vector3d>& axis);
 

@@ -61,10 +61,9 @@ struct CrowdRequest {
 
     CrowdRequest(const CrowdOptions& options, std::vector<fit::RegionOptions> baked)
         : pose(options.pose, options.bind.fit.arcs, std::move(baked)),
-          targets(targets_from_straight(pose)),
           bind(BindRequest(options.bind, pose.regions).with_one_arc()),
           plan{.instances = options.instances,
-               .poses = poses_of(targets),
+               .poses = {},
                .layout = parse_layout(options.streams, options.normals),
                .isa = parse_isa_option(options.isa),
                .stores = parse_stores(options.stores)},
@@ -79,9 +78,10 @@ struct CrowdRequest {
         picture = picture_settings(options.picture);
     }
 
-    /// Has regions share an angle by the lengths that they have in `body`, the first of the models.
-    void share_out(const bend::Body& body) {
-        pose.share_out(body);
+    /// Sets the targets and the plan's poses. The arcs of a chain share an angle by the lengths that they
+    /// have in `body`, the first of the models.
+    void set_targets(const bend::Body& body) {
+        if (bind.words.fit.arcs > 0) pose.share_out(body);
         targets = targets_from_straight(pose);
         plan.poses = poses_of(targets);
     }
@@ -203,7 +203,7 @@ void run_crowd(const CrowdOptions& options) {
     CrowdRequest request(options, baked_regions(files));
     Report report(options.json);
     const std::vector<BoundModel> models = bind_models(std::move(files), request.bind);
-    if (options.bind.fit.arcs > 0) request.share_out(models[0].binding.body);
+    request.set_targets(models[0].binding.body);
     auto progress =
         std::make_unique<Progress>("deforming " + counted(options.frames, "frame"), options.frames);
     Crowd crowd(models, request.plan);

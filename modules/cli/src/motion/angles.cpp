@@ -118,8 +118,7 @@ private:
 
 double angle_of(const RegionAngles& said, const bend::Body& body, std::size_t region) {
     const bool shared = said.angles.size() != body.region_count();
-    const double angle = shared ? said.angles.front() * (body.region_inputs()[region].length / body.length())
-                                : said.angles[region];
+    const double angle = shared ? said.angles.front() * share_of(body, region) : said.angles[region];
     if (!std::isinf(angle)) return angle;
     return std::copysign(degrees(static_cast<double>(body.max_angle(region))), angle);
 }

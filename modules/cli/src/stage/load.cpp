@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace goffer::cli {
@@ -47,12 +46,16 @@ std::vector<std::string> warnings_of(const BoundModel& model, const Textures& te
 
 }  // namespace
 
+BindRequest bind_request(const Wish& wish, const PoseRequest& pose) {
+    BindRequest request(wish.bind, pose.regions);
+    return wish.files.size() > 1 ? request.with_one_arc() : request;
+}
+
 Loaded load(const Wish& wish) {
     std::vector<ModelFile> files;
     for (const std::filesystem::path& file : wish.files) files.emplace_back(file, wish.bind.load.limits);
     const PoseRequest pose(wish.pose, wish.bind.fit.arcs, baked_regions(files));
-    const BindRequest said(wish.bind, pose.regions);
-    const BindRequest request = files.size() > 1 ? said.with_one_arc() : said;
+    const BindRequest request = bind_request(wish, pose);
     Loaded loaded{
         .wish = wish, .models = {}, .textures = {}, .words = request.words, .targets = {}, .warnings = {}};
     if (files.empty()) loaded.models.push_back(bind_mesh(base_model(), request));

@@ -32,6 +32,10 @@ struct Loaded {
     std::vector<std::string> warnings;  ///< in one line each
 };
 
+/// How the wish's models are bound; `pose` is what its words say of poses. Several of them are posed alike,
+/// and none is bent along a chain of arcs unless it is said of how many. Throws UsageError.
+[[nodiscard]] BindRequest bind_request(const Wish& wish, const PoseRequest& pose);
+
 /// Reads, fits, refines and binds. Throws what the commands throw.
 [[nodiscard]] Loaded load(const Wish& wish);
 

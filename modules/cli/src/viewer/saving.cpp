@@ -47,8 +47,7 @@ std::filesystem::path Saver::save_model(const BoundModel& model, std::span<const
 std::filesystem::path Saver::save_body(const Wish& wish) {
     if (wish.files.empty()) throw InputError("the base model has no file to bake; open a model");
     refuse_body_file(wish.files[0]);
-    const BindRequest said(wish.bind, PoseRequest(wish.pose, wish.bind.fit.arcs).regions);
-    BindRequest request = wish.files.size() > 1 ? said.with_one_arc() : said;
+    BindRequest request = bind_request(wish, PoseRequest(wish.pose, wish.bind.fit.arcs));
     request.with_uvs = true;
     BoundModel model = bind_model(wish.files[0], request);
     std::filesystem::path file = name_for(model, "", ".goffer");

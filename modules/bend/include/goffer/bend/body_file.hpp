@@ -120,11 +120,10 @@ enum class Verify : std::uint8_t {
     /// The checksum, and what Verify::layout looks at: for files from a source that is trusted.
     checksum,
     /// What takes no time in proportion to vertices and triangles: loading does not touch columns, triangles
-    /// or texture
-    /// coordinates, which a mapped file then reads when they are first used. For files that were verified
-    /// once, by whoever installed them. In one that was changed since then, these are any bits: a run stays
-    /// within its memory and writes numbers that mean nothing, but an index of a triangle may be that of no
-    /// vertex.
+    /// or texture coordinates, which a mapped file then reads when they are first used. For files that were
+    /// verified once, by whoever installed them. In one that was changed since then, these are any bits: a
+    /// run stays within its memory and writes numbers that mean nothing, but an index of a triangle may be
+    /// that of no vertex.
     layout,
 };
 

@@ -43,7 +43,7 @@ struct Cylinder {
     /// region of each. Empty: one arc, or a straight line.
     std::vector<RestArc> arcs = {};
 
-    /// Whether the center line at rest is not straight.
+    /// Whether the center line at rest is an arc, or a chain, be it of straight arcs.
     [[nodiscard]] bool bent() const { return rest_angle != 0 || !arcs.empty(); }
 };
 
