@@ -48,6 +48,7 @@ TEST_CASE("each layout is written on its way") {
     struct Case {
         std::string_view picture;
         Mode mode;
+        bool scratch_gaps = false;
     };
     const bend::KernelSet& kernels = bend::kernels(Isa::automatic);
     // Some sets have no kernels that write records.
@@ -61,13 +62,32 @@ TEST_CASE("each layout is written on its way") {
                             {"xyzuvw", records},
                             {"123", records},
                             {"xyz uvw", Mode::staged},
-                            {"xyz.", Mode::staged},
+                            {"xyz.", records},
+                            {"xyz.uvw.", records},
+                            {"xyzuvw..", records},
+                            {"xyz..", Mode::staged},
+                            {"xyz.pqr.", Mode::staged},
+                            {"xyz.", records, true},
+                            {"123.", Mode::staged, true},
+                            {"xyz.uvw.", records, true},
+                            {"xyzuvw..", records, true},
+                            {".xyz", Mode::staged, true},
+                            {"xyz..", Mode::staged, true},
+                            {"xyz.pqr.", Mode::staged, true},
+                            {"xyz.uvw.abcd", Mode::staged, true},
                             {"xyzpqr", Mode::staged},
+                            {"xyzuvwpqr", Mode::staged},
+                            {"123pqr", Mode::staged},
+                            {"pqrxyz", Mode::staged},
+                            {"uvwxyzpqr", Mode::staged},
+                            {"xzypqr", Mode::staged},
+                            {"xyzpqr.", Mode::staged},
                             {"uvwxyz", Mode::staged},
                             {"xyzuvwabcd", Mode::staged}}) {
-        CAPTURE(one.picture);
+        INFO(one.picture, ", scratch ", one.scratch_gaps);
         OutputBuffer out(one.picture, test_mesh.count());
-        const bend::Batch batch = bend::batch_of(test_mesh.job(out));
+        bend::Batch batch = bend::batch_of(test_mesh.job(out));
+        batch.scratch_gaps = one.scratch_gaps;
         const bend::OutputPlan plan(batch, kernels, false);
         for (const bend::PassPlan& pass : plan.passes()) CHECK(pass.mode == one.mode);
     }

@@ -30,7 +30,10 @@ constexpr std::string_view named[] = {
     "pqrxyz",
     "abcdpqruvwxyz",
     "123pqrabcd uvwxyz",
-    // with gaps: 32, 48, 64, 80, 128 bytes
+    // with gaps: 16, 32, 48, 64, 80, 128 bytes
+    "xyz.",
+    "123.",
+    "xyz.uvw.",
     "xyzuvw..",
     "xyz.pqr.",
     "xyz.uvw.abcd",

@@ -14,7 +14,6 @@ struct Avx2Lanes : XsimdLanes<xsimd::fma3<xsimd::avx2>>, X86Rows<Avx2Lanes> {
     using X86Rows<Avx2Lanes>::mixed_row;
     using X86Rows<Avx2Lanes>::row_times;
     using X86Rows<Avx2Lanes>::store_row;
-    using X86Rows<Avx2Lanes>::stream_row;
     using X86Rows<Avx2Lanes>::store_row_first;
     using X86Rows<Avx2Lanes>::store_transposed;
 

@@ -19,7 +19,6 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
     using X86Rows<Avx512Lanes>::store_row;
     using X86Rows<Avx512Lanes>::store_row_first;
     using X86Rows<Avx512Lanes>::store_transposed;
-    using X86Rows<Avx512Lanes>::stream_row;
 
     static Vec madd(Vec a, Vec b, Vec c) { return Vec(_mm512_fmadd_ps(a, b, c)); }
     static Vec nmadd(Vec a, Vec b, Vec c) { return Vec(_mm512_fnmadd_ps(a, b, c)); }
@@ -35,6 +34,17 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         if (count == 0) return;  // a store with an empty mask would fetch its line all the same
         const auto lanes = static_cast<__mmask16>(count >= width ? 0xffffu : (1u << count) - 1u);
         _mm512_mask_storeu_ps(to, lanes, value);
+    }
+    /// Stores the lanes for which Picks::at(lane) is true.
+    template <class Picks>
+    static void store_lanes(float* to, Vec value) {
+        constexpr auto mask = [] {
+            unsigned bits = 0;
+            for (unsigned lane = 0; lane < width; ++lane)
+                if (Picks::at(static_cast<int>(lane))) bits |= 1u << lane;
+            return static_cast<__mmask16>(bits);
+        }();
+        _mm512_mask_storeu_ps(to, mask, value);
     }
 
     template <class Visit>

@@ -68,8 +68,6 @@ struct ScalarLanes {
     /// The row of lane 0.
     static Row first_row(Vec a, Vec b, Vec c, Vec d) { return {{a, b, c, d}}; }
     static void store_row(float* to, const Row& row) { std::memcpy(to, row.values, sizeof row.values); }
-    /// The same past the cache, to an address that is a multiple of 16 bytes.
-    static void stream_row(float* to, const Row& row) { store_row(to, row); }
     /// Stores the first `count` values, 1 to 4.
     template <std::size_t count>
     static void store_row_first(float* to, const Row& row) {

@@ -34,7 +34,6 @@ struct X86Rows {
         _mm_storeu_ps(to[3], d);
     }
     static void store_row(float* to, Row row) { _mm_storeu_ps(to, row); }
-    static void stream_row(float* to, Row row) { _mm_stream_ps(to, row); }
     template <std::size_t count>
     static void store_row_first(float* to, Row row) {
         if constexpr (count == 4) {

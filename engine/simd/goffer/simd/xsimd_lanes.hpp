@@ -142,9 +142,6 @@ struct XsimdLanes {
     static void store_row(float* to, Vec row) {
         store(to, row);
     }
-    static void stream_row(float* to, Vec row) {
-        stream(to, row);
-    }
     template <std::size_t count>
     static void store_row_first(float* to, Vec row) {
         alignas(16) float values[4];

@@ -266,13 +266,18 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_stretch(member, WriteMode::records, first, last,
                  [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
-                     const Record& record = plan_.records()[pass.places[0].record];
+                     const Record& record = *pass.record;
                      const std::size_t vertex = members_[member].vertex + begin;
-                     const bool non_temporal = plan_.non_temporal();
+                     const std::size_t stride = record.stride_floats();
+                     const RecordOutput out = {record.first + vertex * stride,
+                                               stride,
+                                               pass.gaps,
+                                               pass.value_bits,
+                                               pass.gaps != RecordGaps::none && end == body_.vertex_count,
+                                               record.in_lines ? record.to_line(vertex) : 0};
                      kernels_.weaving_kernel(input.squeeze, pass.streams)(
-                         *input.columns, *input.k, record.first + vertex * record.floats, input.first,
-                         end - begin, non_temporal ? Write::non_temporal : Write::cached,
-                         non_temporal ? record.to_line(vertex) : 0);
+                         *input.columns, *input.k, out, input.first, end - begin,
+                         record.in_lines ? Write::non_temporal : Write::cached);
                  });
 }
 
@@ -282,12 +287,12 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
 template <class Deform>
 void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {
-    const bool non_temporal = plan_.non_temporal();
+    const bool in_lines = plan_.in_lines(mode);
     std::size_t region = 0;
     while (first < last) {
         while (body_.regions[region].last <= first) ++region;
         const std::size_t region_end = std::min(body_.regions[region].last, last);
-        const bool whole = region_end == last || !non_temporal;
+        const bool whole = region_end == last || !in_lines;
         const std::size_t end = whole ? region_end : line_before(member, region_end);
         if (!whole && end < first + min_direct) {
             const std::size_t joints = joints_end(member, region, first, last);

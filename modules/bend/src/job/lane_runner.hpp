@@ -77,7 +77,8 @@ private:
     std::size_t in_tile_ = 0;  // vertices in the tile
     Squeeze squeezes_[kept];
     alignas(64) LaneCoefficients coefficients_[kept];
-    alignas(64) float floats_[max_lines * line_floats];  // the tile, then planes
+    // The tile, then planes, behind which a line may be read.
+    alignas(64) float floats_[(max_lines + 1) * line_floats];
 };
 
 }  // namespace goffer::bend

@@ -98,11 +98,27 @@ struct PlaneOutput {
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
                              std::size_t first, std::size_t count, Write write);
 
-/// The same to records without gaps that hold the kernel's vectors and nothing else, the first one at
-/// `record`. With Write::non_temporal, vertex first + peeled must begin a cache line, from which on lines go
-/// past the cache.
-using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, float* record,
-                               std::size_t first, std::size_t count, Write write, std::size_t peeled);
+/// What lies between a kernel's vectors in a record.
+enum class RecordGaps : unsigned char {
+    none,
+    one_behind_each,  ///< a float behind each vector: records of 4 or 8 floats
+    two_behind_all,   ///< two floats behind a position and a normal: records of 8 floats
+};
+
+/// Where a kernel call writes records of its vectors, in their order. Those of packed vertices have no gaps.
+struct RecordOutput {
+    float* first;        ///< the first vertex's
+    std::size_t stride;  ///< floats
+    RecordGaps gaps;
+    unsigned char value_bits;  ///< bit i: float i of a record belongs to a vector
+    bool keeps_last_gap;       ///< of the last vertex
+    std::size_t peeled;  ///< with Write::non_temporal, vertices before the first that begins a cache line
+};
+
+/// The same to records. With Write::cached, gaps keep what they hold. With Write::non_temporal they become
+/// zero, and lines go past the cache, from vertex first + peeled on.
+using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, const RecordOutput& out,
+                               std::size_t first, std::size_t count, Write write);
 
 /// Wrinkles `count` vertices of one region from vertex `first` on, at most BlendColumns::places, of which
 /// some are near the joint that `joint` tells of. `neighbor` has what set_as_own() sets of the region beyond

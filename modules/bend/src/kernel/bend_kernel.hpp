@@ -4,11 +4,10 @@
 #include "kernel/args.hpp"
 #include "kernel/deform_batch.hpp"
 #include "kernel/lines.hpp"
-#include "kernel/weave.hpp"
 
 #include <cstddef>
 
-/// The kernels: they deform batch after batch of vertices and write the values. `L` is ScalarLanes,
+/// The kernels that deform batch after batch of vertices and write planes. `L` is ScalarLanes,
 /// XsimdLanes<Arch>, Avx2Lanes, Avx512Lanes, or DoubledLanes of one of these.
 
 namespace goffer::bend {
@@ -148,51 +147,6 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
             if constexpr (has_tangents(streams)) {
                 store_planes<L>(results, &Results<L>::tangent, out.tangent, j, count, write);
                 store_signs<L>(results, out.tangent[3], j, count, write);
-            }
-        });
-}
-
-/// Stores a unit as records of N floats: the position, and the normal if N is 6.
-template <class L, int N>
-void write_records(const Results<L> (&results)[batches<L>], float* to, bool non_temporal) {
-    using Single = typename L::Single;
-    for (std::size_t b = 0; b < batches<L>; ++b) {
-        for (std::size_t part = 0; part < L::width / Single::width; ++part) {
-            typename Single::Vec planes[N];
-            for (int c = 0; c < N; ++c) {
-                const Vector<L>& from = c < 3 ? results[b].position : results[b].normal;
-                planes[c] = L::single(from.component[c % 3], part);
-            }
-            store_records<Single, N>(planes, to, non_temporal);
-            to += N * Single::width;
-        }
-    }
-}
-
-template <class L, Squeeze squeeze, StreamSet streams>
-GOFFER_FLATTENED void bend_to_records(const RestColumns& columns, const Coefficients& coefficients,
-                                      float* record, std::size_t first, std::size_t vertices, Write write,
-                                      std::size_t peeled) {
-    const RestColumns rest = columns;
-    const Coefficients k = coefficients;
-    constexpr int floats = streams == StreamSet::positions_normals ? 6 : 3;
-    if (write == Write::non_temporal) prefetch_ends<L>(record, floats * vertices);
-    deform_units<L, squeeze, streams>(
-        rest, k, first, vertices, peeled != 0 ? peeled : unit<L>,
-        [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
-            float* const to = record + j * floats;
-            if (count == unit<L>) [[likely]] {
-                write_records<L, floats>(results, to, write == Write::non_temporal);
-            } else {
-                alignas(64) float line[floats * unit<L>];
-                write_records<L, floats>(results, line, false);
-                std::size_t f = 0;
-                if (write == Write::non_temporal && floats_to_line<L>(to) == 0) {
-                    const std::size_t whole = floats * count / line_floats * line_floats;
-                    for (; f < whole; f += L::Single::width)
-                        L::Single::stream(to + f, L::Single::load(line + f));
-                }
-                for (; f < floats * count; ++f) to[f] = line[f];
             }
         });
 }

@@ -5,6 +5,7 @@
 #include "kernel/blend_kernel.hpp"
 #include "kernel/copy_kernel.hpp"
 #include "kernel/lane_kernel.hpp"
+#include "kernel/record_kernel.hpp"
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
 
@@ -96,7 +97,7 @@ constexpr KernelSet kernel_set() {
     add_kernels<L, records, Squeeze::shaped>(set);
     add_weaves<Single>(set, std::make_index_sequence<max_woven - min_woven + 1>());
     set.copy_lines = &copy_lines<Single>;
-    add_row_writers<Single>(set, std::integer_sequence<int, 3, 4, 6, 7, 9, 10, 12, 13>());
+    add_row_writers<Single>(set, std::integer_sequence<int, 3, 4, 6>());
     set.setup = &set_up<Single>;
     return set;
 }

@@ -2,24 +2,13 @@
 #pragma once
 
 #include "kernel/args.hpp"
+#include "kernel/lines.hpp"
 
 #include <cstddef>
 
 /// Writes planes as rows: members of records that hold other things too. `L` is lanes of single registers.
 
 namespace goffer::bend {
-
-/// How many rows ahead their lines are asked for. A record with gaps is not written whole, so that its line
-/// is read first; some processors do not foresee that, and wait for memory.
-constexpr std::size_t rows_ahead = 128;
-
-template <class L>
-void prefetch_rows(const std::byte* row, std::size_t stride) {
-    constexpr std::size_t line = line_floats * sizeof(float);
-    const std::size_t step = stride < line ? line : stride;
-    for (std::size_t b = 0; b < L::width * stride; b += step)
-        L::prefetch(reinterpret_cast<const float*>(row + b));
-}
 
 /// Writes `vertices` rows of N values, at most a register of each plane, four values of all of them at a
 /// time.
@@ -43,7 +32,8 @@ GOFFER_FLATTENED void write_rows(const float* const* planes, std::size_t count, 
     auto* row = reinterpret_cast<std::byte*>(first);
     std::size_t i = 0;
     for (; i + L::width <= count; i += L::width, row += L::width * stride) {
-        prefetch_rows<L>(row + rows_ahead * stride, stride);
+        prefetch_records<L>(reinterpret_cast<const float*>(row + records_ahead * stride), L::width,
+                            stride / sizeof(float));
         write_some<L, N>(from, i, row, stride, L::width);
     }
     if (i < count) write_some<L, N>(from, i, row, stride, count - i);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace goffer::bend {
 namespace {
@@ -67,6 +68,19 @@ bool has_kernels(const KernelSet& kernels, const BodyData& body, StreamSet strea
                                   streams) != nullptr;
 }
 
+/// Whether all that a record holds are the values from `first` on, as vectors whose begins are `step` floats
+/// apart.
+bool has_vectors(std::span<const Component> components, std::size_t first, std::size_t values,
+                 std::size_t step) noexcept {
+    if (components.size() != values) return false;
+    for (std::size_t i = 0; i < values; ++i) {
+        const std::size_t place = i / 3 * step + i % 3;
+        if (components[i].value != first + i || components[i].first != components[0].first + place)
+            return false;
+    }
+    return true;
+}
+
 const Stream3& positions_of(const PassPlan& pass, const Batch& batch) noexcept {
     return pass.pass == Pass::previous ? batch.previous_positions : batch.positions;
 }
@@ -78,6 +92,19 @@ bool writes_normals(const PassPlan& pass) noexcept {
 
 bool writes_tangents(const PassPlan& pass) noexcept {
     return pass.streams == StreamSet::positions_normals_tangents;
+}
+
+/// The gaps of records that kernels write, if these are such: `stride` floats, of which `components` hold
+/// values.
+std::optional<RecordGaps> gaps_of(const PassPlan& pass, std::size_t stride,
+                                  std::span<const Component> components) noexcept {
+    const std::size_t values = values_of(pass.streams), gaps = stride - components.size();
+    const auto has = [&](std::size_t step) { return has_vectors(components, pass.value, values, step); };
+    if (gaps == 0 && has(3)) return RecordGaps::none;
+    if (pass.pass == Pass::packed) return std::nullopt;
+    if (gaps == values / 3 && has(4)) return RecordGaps::one_behind_each;
+    if (values == 6 && gaps == 2 && has(3)) return RecordGaps::two_behind_all;
+    return std::nullopt;
 }
 
 }  // namespace
@@ -119,15 +146,17 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
         pass.mode = set_planes(pass, batch) ? WriteMode::planes
-                    : set_places(pass, batch) && fills_record(pass) &&
-                            has_kernels(kernels, *batch.body->data(), pass.streams)
+                    : has_kernels(kernels, *batch.body->data(), pass.streams) && set_record(pass)
                         ? WriteMode::records
                         : WriteMode::staged;
         staged |= pass.mode == WriteMode::staged;
     }
     if (staged) stage_all();
     for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.mode)] = true;
-    for (Record& record : std::span(records_, record_count_)) record.mode = mode_of(record);
+    for (Record& record : std::span(records_, record_count_)) {
+        record.mode = mode_of(record);
+        in_lines_[static_cast<std::size_t>(record.mode)] |= record.in_lines;
+    }
     const auto lines = std::ranges::find_if(records(), &Record::in_lines);
     if (lines != records().end()) lines_ = &*lines;
 }
@@ -136,14 +165,23 @@ void OutputPlan::stage_all() noexcept {
     for (PassPlan& pass : std::span(passes_, pass_count_)) pass.mode = WriteMode::staged;
 }
 
-/// Whether the pass' own kernels can write its record: it holds the values of the pass, in its order, and
-/// nothing else. All others are written from the stage.
-bool OutputPlan::fills_record(const PassPlan& pass) const noexcept {
-    const Record& record = records_[pass.places[0].record];
-    const bool alone = !record.has_gaps() && record.first == pass.places[0].first &&
-                       record.floats == values_of(pass.streams) &&
-                       (!writes_normals(pass) || pass.places[1].first == record.first + 3);
-    return alone && (!non_temporal_ || record.to_line(0) != line_floats);
+/// Sets what `pass` has for WriteMode::records, if its own kernels can write its record: it holds the vectors
+/// of the pass, in their order, and nothing else but gaps that kernels know. All other records are written
+/// from the stage.
+bool OutputPlan::set_record(PassPlan& pass) const noexcept {
+    for (const Record& record : records()) {
+        const bool begins_lines = record.lead == 0 && (!record.in_lines || record.to_line(0) != line_floats);
+        if (!begins_lines) continue;
+        const std::span<const Component> all = components(record);
+        const std::optional<RecordGaps> gaps = gaps_of(pass, record.stride_floats(), all);
+        if (!gaps) continue;
+        pass.gaps = *gaps;
+        pass.record = &record;
+        for (const Component& component : all)
+            pass.value_bits |= static_cast<unsigned char>(1u << (component.first - record.first));
+        return true;
+    }
+    return false;
 }
 
 /// Passes that share a record have the same mode.
@@ -202,29 +240,6 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (writes_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
     if (writes_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
     return !non_temporal_ || side_by_side(planes.all());
-}
-
-/// Sets `place`, if the components of the stream follow each other in a record.
-template <std::size_t N>
-bool OutputPlan::set_place(StreamPlace& place, const Stream<N>& stream) const noexcept {
-    if (stream.empty() || stream.planar()) return false;
-    for (std::size_t c = 1; c < N; ++c) {
-        if (stream.component[c] != stream.component[0] + c) return false;
-    }
-    place.first = stream.component[0];
-    for (place.record = 0; place.record < record_count_; ++place.record) {
-        for (const Component& component : components(records_[place.record]))
-            if (component.first == place.first) return true;
-    }
-    return false;
-}
-
-/// Tangents are woven from the stage alone.
-bool OutputPlan::set_places(PassPlan& pass, const Batch& batch) const noexcept {
-    if (writes_tangents(pass)) return false;
-    if (pass.pass == Pass::packed) return set_place(pass.places[0], words_of(batch.packed));
-    return set_place(pass.places[0], positions_of(pass, batch)) &&
-           (!writes_normals(pass) || set_place(pass.places[1], batch.normals));
 }
 
 std::size_t OutputPlan::peeled(std::size_t vertex) const noexcept {

@@ -24,7 +24,7 @@ constexpr std::size_t max_values = 16;
 /// How the values of a pass get to the caller's memory.
 enum class WriteMode : std::uint8_t {
     planes,   ///< kernels write the caller's planes
-    records,  ///< kernels write the caller's records, which have no gaps and hold this pass alone
+    records,  ///< kernels write the caller's records, which hold this pass alone
     staged,   ///< kernels write planes of a stage, which is then copied to the caller's memory
 };
 constexpr std::size_t write_mode_count = 3;
@@ -60,18 +60,14 @@ struct Record {
     [[nodiscard]] std::size_t to_line(std::size_t vertex) const noexcept;
 };
 
-/// A stream of a pass whose components follow each other.
-struct StreamPlace {
-    float* first = nullptr;  ///< its first component of vertex 0; null if the pass has no such stream
-    std::size_t record = 0;  ///< index of the record that it is a part of
-};
-
 struct PassPlan {
     Pass pass = Pass::current;
     StreamSet streams = StreamSet::positions;
-    std::size_t value = 0;       ///< index of its first value among those of all passes
-    PlaneOutput planes = {};     ///< for WriteMode::planes, from vertex 0 on
-    StreamPlace places[2] = {};  ///< for WriteMode::records: of positions or packed words, and of normals
+    std::size_t value = 0;               ///< index of its first value among those of all passes
+    PlaneOutput planes = {};             ///< for WriteMode::planes, from vertex 0 on
+    const Record* record = nullptr;      ///< for WriteMode::records
+    RecordGaps gaps = RecordGaps::none;  ///< the record's
+    unsigned char value_bits = 0;        ///< see RecordOutput
     WriteMode mode = WriteMode::staged;
 };
 
@@ -92,6 +88,10 @@ public:
     [[nodiscard]] bool non_temporal() const noexcept { return non_temporal_; }
     /// Whether a pass is written in that mode. If one is staged, all are.
     [[nodiscard]] bool has(WriteMode mode) const noexcept { return has_[static_cast<std::size_t>(mode)]; }
+    /// Whether anything that is written in that mode goes past the cache, as whole lines.
+    [[nodiscard]] bool in_lines(WriteMode mode) const noexcept {
+        return in_lines_[static_cast<std::size_t>(mode)];
+    }
     /// The number of vertices from vertex `vertex` of the buffer to the first one that begins a cache line,
     /// in the first plane or record that is written as whole lines. 0 if there is no such plane, record or
     /// vertex.
@@ -104,10 +104,7 @@ private:
     void set_woven(Record& record) const noexcept;
     void stage_all() noexcept;
     [[nodiscard]] bool set_planes(PassPlan& pass, const Batch& batch) const noexcept;
-    template <std::size_t N>
-    [[nodiscard]] bool set_place(StreamPlace& place, const Stream<N>& stream) const noexcept;
-    [[nodiscard]] bool set_places(PassPlan& pass, const Batch& batch) const noexcept;
-    [[nodiscard]] bool fills_record(const PassPlan& pass) const noexcept;
+    [[nodiscard]] bool set_record(PassPlan& pass) const noexcept;
     [[nodiscard]] WriteMode mode_of(const Record& record) const noexcept;
 
     PassPlan passes_[pass_count];
@@ -119,6 +116,7 @@ private:
     std::size_t value_count_ = 0;
     bool non_temporal_ = false;
     bool has_[write_mode_count] = {};
+    bool in_lines_[write_mode_count] = {};
     const Record* lines_ = nullptr;  // the first record that is written as whole lines
 };
 

@@ -104,7 +104,17 @@ void StagedPlanes::weave(const Record& record, std::span<const Component> compon
     float* const to = record.first - record.lead + (vertex + peeled) * floats;
     kernels.weave[floats](planes, lines, to, non_temporal);
     write_values(record, components, vertex, 0, peeled);
-    write_values(record, components, vertex, peeled + lines * line_floats - left, count);
+    std::size_t written = peeled + lines * line_floats - left;
+    if (record.lead == 0 && written < most) {
+        // What is left fills lines too, which would be read first if they were written value by value.
+        alignas(64) float rest[line_floats * max_woven];
+        for (std::size_t c = 0; c < floats; ++c)
+            if (planes[c] != zeros) planes[c] += lines * line_floats;
+        kernels.weave[floats](planes, 1, rest, false);
+        kernels.copy_lines(rest, to + lines * line_floats * floats, (most - written) * floats, non_temporal);
+        written = most;
+    }
+    write_values(record, components, vertex, written, count);
 }
 
 }  // namespace goffer::bend
