@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body/body_data.hpp"
 #include "body/check.hpp"
 #include "body_files.hpp"
 #include "support/bound_case.hpp"
@@ -90,6 +91,13 @@ struct Shifted {
     }
 };
 
+bool holds(const bend::Capsule& capsule, const glm::vec3& p) {
+    const glm::vec3 along = capsule.to - capsule.from;
+    const float square = glm::dot(along, along);
+    const float t = square > 0 ? std::clamp(glm::dot(p - capsule.from, along) / square, 0.0f, 1.0f) : 0.0f;
+    return glm::distance(p, capsule.from + t * along) <= capsule.radius;
+}
+
 }  // namespace
 
 TEST_CASE("P1, P2, P4: folds over joints agree with the double chain") {
@@ -173,14 +181,36 @@ TEST_CASE("P10: bounds and capsules hold folds over joints") {
             const glm::vec3 p(out.position(i));
             REQUIRE(glm::all(glm::lessThanEqual(box.low, p)));
             REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
-            REQUIRE(std::ranges::any_of(capsules, [&](const bend::Capsule& c) {
-                const glm::vec3 along = c.to - c.from;
-                const float square = glm::dot(along, along);
-                const float t =
-                    square > 0 ? std::clamp(glm::dot(p - c.from, along) / square, 0.0f, 1.0f) : 0.0f;
-                return glm::distance(p, c.from + t * along) <= c.radius;
-            }));
+            REQUIRE(std::ranges::any_of(capsules, [&](const bend::Capsule& c) { return holds(c, p); }));
         }
+    }
+}
+
+TEST_CASE("P10: capsules of a region hold what the folds of its neighbors lift there") {
+    Random random(166);
+    constexpr std::size_t pieces = 8;
+    for (int trial = 0; trial < rounds(30, 10); ++trial) {
+        const BoundCase one = joined_case(random, Kind::plain);
+        const bend::Body& body = one.binding.body;
+        std::vector<bend::Pose> poses;  // the one is straight, the next is bent as far as it can be
+        for (std::size_t r = 0; r < body.region_count(); ++r)
+            poses.push_back({r % 2 == 0 ? 0 : body.max_angle(r), 0.3f});
+        Output out(one.test_mesh.positions.size());
+        const bend::DeformJob job = make_job(body, poses, Isa::automatic, out);
+        bend::run(job);
+        std::vector<bend::Capsule> capsules(bend::capsule_count(body, pieces));
+        bend::capsules(job, pieces, capsules);
+        std::size_t lifted = 0;
+        for (std::size_t r = 0; r < body.region_count(); r += 2) {
+            const bend::Region& region = body.data()->regions[r];
+            const auto own = std::span(capsules).subspan(r * pieces, pieces);
+            for (std::size_t i = region.first; i < region.last; ++i) {
+                const glm::vec3 p(out.position(i));
+                REQUIRE(std::ranges::any_of(own, [&](const bend::Capsule& c) { return holds(c, p); }));
+                ++lifted;
+            }
+        }
+        CHECK(lifted > 0);
     }
 }
 

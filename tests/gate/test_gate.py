@@ -151,6 +151,24 @@ class Gate(support.Case):
             self.assertEqual(json.loads((self.folder / "build/gate/report.json").read_text())["exit_code"], 1)
             self.assertIn("head does not build", (self.folder / "build/gate/report.markdown").read_text())
 
+    def test_counts_and_ratios_are_judged_by_the_baseline(self):
+        for naive, code in ((100.0, 0), (5.0, 1)):  # the bound is ten times as fast
+            times = {"naive/positions": naive, "deform/positions/cache/avx2/1": 1.0}
+            head = unittest.mock.Mock(label="head", **{"compiler.return_value": "GNU",
+                                                       "program.return_value": self.fake("head", times)})
+            document = {"compiler": "GNU", "counts": {"allocations/run": 0.0},
+                        "ratios": {"over_naive": {"deform/positions/cache/avx2/1": 10.0}}}
+            (self.folder / "baseline.json").write_text(json.dumps(document))
+            with self.subTest(naive), unittest.mock.patch.object(command.Gate, "head", return_value=head), \
+                    unittest.mock.patch.object(command.counts, "count", return_value={"allocations/run": 0.0}), \
+                    contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                self.assertEqual(command.main(["--only", "counts,ratios", "--baseline", str(self.folder / "baseline.json"),
+                                               "--json", str(self.folder / "r.json"),
+                                               "--markdown", str(self.folder / "r.md")]), code)
+            parts = {part["name"]: part for part in json.loads((self.folder / "r.json").read_text())["parts"]}
+            self.assertEqual(set(parts), {"counts", "ratios"})
+            self.assertEqual(len(parts["ratios"]["rows"]), 1)
+
     def test_a_report_that_cannot_be_written(self):
         (self.folder / "file").write_text("")
         code = self.gate(self.fake("base", ONE), self.fake("head", ONE), "--json", str(self.folder / "file" / "r.json"))

@@ -76,6 +76,20 @@ TEST_CASE("limits: a PLY is kept as it is, and counts once more") {
     CHECK(tells(within({.memory = 180000}, "a.ply", bytes), "Limits::memory"));
 }
 
+TEST_CASE("limits: faces of a PLY count, however few vertices they share") {
+    constexpr std::size_t faces = 20000;
+    std::string bytes =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face " +
+        std::to_string(faces) +
+        "\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+    for (std::size_t f = 0; f < faces; ++f) bytes += f % 2 == 0 ? "3 0 1 2\n" : "3 0 2 3\n";
+    // The file itself, read and kept; three corners and the size of each face, at the least.
+    const std::size_t least = 2 * bytes.size() + faces * 4 * sizeof(std::uint32_t);
+    CHECK(tells(within({.memory = least}, "a.ply", bytes), "Limits::memory"));
+    CHECK(within({.memory = 4 * least}, "a.ply", bytes).empty());
+}
+
 TEST_CASE("limits: elements that no bytes are behind count in the scene, not in each accessor") {
     Document document = tetra();
     document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1 << 20}, {"type", "VEC3"}};

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from .groups import GROUPS
 from .sites import Mutant
 
-OPTIONS = ["-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1", "-DGOFFER_TOOLS=OFF", "-DGOFFER_BENCH=OFF",
+OPTIONS = ["-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1 -D_GLIBCXX_ASSERTIONS", "-DGOFFER_TOOLS=OFF", "-DGOFFER_BENCH=OFF",
            "-DGOFFER_SAMPLES=OFF", "-DGOFFER_INSTALL=OFF"]
 BUILDS = {"scalar": ["-DGOFFER_SIMD=OFF"], "vectors": ["-DGOFFER_SIMD=ON"]}
 SLOW = 0.5  # seconds, of a test case that is run after the others
