@@ -63,9 +63,17 @@ bool is_harmless(const std::string& name) {
 /// machine is looked at, the guard of a constant that is made once), sanitizers, and assertions of builds
 /// that have them.
 bool is_compilers(const std::string& name) {
-    constexpr std::string_view beginnings[] = {
-        "_GLOBAL_OFFSET_TABLE_", "__asan_",      "__ubsan_",      "__tsan_", "__sanitizer_",
-        "__stack_chk_",          "__cxa_guard_", "__assert_fail", "__gcov_", "__aarch64_"};
+    constexpr std::string_view beginnings[] = {"_GLOBAL_OFFSET_TABLE_",
+                                               "__asan_",
+                                               "__ubsan_",
+                                               "__tsan_",
+                                               "__sanitizer_",
+                                               "__stack_chk_",
+                                               "__cxa_guard_",
+                                               "__assert_fail",
+                                               "__gcov_",
+                                               "__aarch64_",
+                                               "std::__glibcxx_assert_fail("};
     return std::ranges::any_of(beginnings, [&](std::string_view start) { return name.starts_with(start); });
 }
 

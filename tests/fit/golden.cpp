@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "support/angles.hpp"
 #include "support/models.hpp"
 #include "support/worst.hpp"
 #include "synthetic.hpp"
@@ -10,6 +9,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
