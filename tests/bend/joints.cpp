@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "body/body_data.hpp"
 #include "body/check.hpp"
 #include "body_files.hpp"
+#include "capsules.hpp"
 #include "support/bound_case.hpp"
 #include "support/chain_checks.hpp"
 #include "support/rounds.hpp"
@@ -9,7 +9,6 @@
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/body_input.hpp>
 #include <goffer/bend/bounds.hpp>
-#include <goffer/bend/capsules.hpp>
 #include <goffer/bend/crowd.hpp>
 #include <goffer/bend/sockets.hpp>
 #include <goffer/fit/sockets.hpp>
@@ -90,13 +89,6 @@ struct Shifted {
         return job;
     }
 };
-
-bool holds(const bend::Capsule& capsule, const glm::vec3& p) {
-    const glm::vec3 along = capsule.to - capsule.from;
-    const float square = glm::dot(along, along);
-    const float t = square > 0 ? std::clamp(glm::dot(p - capsule.from, along) / square, 0.0f, 1.0f) : 0.0f;
-    return glm::distance(p, capsule.from + t * along) <= capsule.radius;
-}
 
 }  // namespace
 
@@ -181,7 +173,7 @@ TEST_CASE("P10: bounds and capsules hold folds over joints") {
             const glm::vec3 p(out.position(i));
             REQUIRE(glm::all(glm::lessThanEqual(box.low, p)));
             REQUIRE(glm::all(glm::lessThanEqual(p, box.high)));
-            REQUIRE(std::ranges::any_of(capsules, [&](const bend::Capsule& c) { return holds(c, p); }));
+            REQUIRE(hold(capsules, out.position(i)));
         }
     }
 }
@@ -202,11 +194,10 @@ TEST_CASE("P10: capsules of a region hold what the folds of its neighbors lift t
         bend::capsules(job, pieces, capsules);
         std::size_t lifted = 0;
         for (std::size_t r = 0; r < body.region_count(); r += 2) {
-            const bend::Region& region = body.data()->regions[r];
+            const bend::Region& region = body.regions()[r];
             const auto own = std::span(capsules).subspan(r * pieces, pieces);
             for (std::size_t i = region.first; i < region.last; ++i) {
-                const glm::vec3 p(out.position(i));
-                REQUIRE(std::ranges::any_of(own, [&](const bend::Capsule& c) { return holds(c, p); }));
+                REQUIRE(hold(own, out.position(i)));
                 ++lifted;
             }
         }

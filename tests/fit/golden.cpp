@@ -13,8 +13,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <istream>
 #include <map>
-#include <sstream>
+#include <ostream>
 #include <string>
 
 /// What the models of tests/data become, against what they became before: tests/data/bent.txt. Other tests

@@ -47,28 +47,27 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         _mm512_mask_storeu_ps(to, mask, value);
     }
 
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+    /// Sets rows[i] to the rows (a, b, c, d) of lanes i, i + 4, i + 8 ..
+    static void make_rows(Vec a, Vec b, Vec c, Vec d, Vec (&rows)[4]) {
         const __m512 ab_low = _mm512_unpacklo_ps(a, b), ab_high = _mm512_unpackhi_ps(a, b);
         const __m512 cd_low = _mm512_unpacklo_ps(c, d), cd_high = _mm512_unpackhi_ps(c, d);
-        const __m512 rows[4] = {
-            _mm512_shuffle_ps(ab_low, cd_low, 0x44), _mm512_shuffle_ps(ab_low, cd_low, 0xee),
-            _mm512_shuffle_ps(ab_high, cd_high, 0x44), _mm512_shuffle_ps(ab_high, cd_high, 0xee)};
-        visit_rows(rows, visit);
+        rows[0] = Vec(_mm512_shuffle_ps(ab_low, cd_low, 0x44));
+        rows[1] = Vec(_mm512_shuffle_ps(ab_low, cd_low, 0xee));
+        rows[2] = Vec(_mm512_shuffle_ps(ab_high, cd_high, 0x44));
+        rows[3] = Vec(_mm512_shuffle_ps(ab_high, cd_high, 0xee));
     }
-    static Row first_row(Vec a, Vec b, Vec c, Vec d) {
-        return first_of(_mm512_castps512_ps128(a), _mm512_castps512_ps128(b), _mm512_castps512_ps128(c),
-                        _mm512_castps512_ps128(d));
-    }
-
-private:
-    /// Each register of `rows` holds four rows: those of lanes 0, 4, 8 and 12, of 1, 5, 9 and 13, and so on.
     template <class Visit>
-    static void visit_rows(const __m512 (&rows)[4], const Visit& visit) {
+    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+        Vec rows[4];
+        make_rows(a, b, c, d, rows);
         for (std::size_t i = 0; i < 4; ++i) visit(i, _mm512_castps512_ps128(rows[i]));
         for (std::size_t i = 0; i < 4; ++i) visit(4 + i, _mm512_extractf32x4_ps(rows[i], 1));
         for (std::size_t i = 0; i < 4; ++i) visit(8 + i, _mm512_extractf32x4_ps(rows[i], 2));
         for (std::size_t i = 0; i < 4; ++i) visit(12 + i, _mm512_extractf32x4_ps(rows[i], 3));
+    }
+    static Row first_row(Vec a, Vec b, Vec c, Vec d) {
+        return first_of(_mm512_castps512_ps128(a), _mm512_castps512_ps128(b), _mm512_castps512_ps128(c),
+                        _mm512_castps512_ps128(d));
     }
 };
 

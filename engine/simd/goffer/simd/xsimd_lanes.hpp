@@ -120,15 +120,21 @@ struct XsimdLanes {
 
     // Rows for registers of four lanes. Avx2Lanes and Avx512Lanes have their own.
     using Row = Vec;
-    template <class Visit>
-    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+    /// Sets rows[i] to the rows (a, b, c, d) of lanes i, i + 4, i + 8 ..
+    static void make_rows(Vec a, Vec b, Vec c, Vec d, Vec (&rows)[4]) {
         static_assert(width == 4);
         const Vec ac_low = xsimd::zip_lo(a, c), ac_high = xsimd::zip_hi(a, c);
         const Vec bd_low = xsimd::zip_lo(b, d), bd_high = xsimd::zip_hi(b, d);
-        visit(0, xsimd::zip_lo(ac_low, bd_low));
-        visit(1, xsimd::zip_hi(ac_low, bd_low));
-        visit(2, xsimd::zip_lo(ac_high, bd_high));
-        visit(3, xsimd::zip_hi(ac_high, bd_high));
+        rows[0] = xsimd::zip_lo(ac_low, bd_low);
+        rows[1] = xsimd::zip_hi(ac_low, bd_low);
+        rows[2] = xsimd::zip_lo(ac_high, bd_high);
+        rows[3] = xsimd::zip_hi(ac_high, bd_high);
+    }
+    template <class Visit>
+    static void for_rows(Vec a, Vec b, Vec c, Vec d, const Visit& visit) {
+        Vec rows[4];
+        make_rows(a, b, c, d, rows);
+        for (std::size_t i = 0; i < 4; ++i) visit(i, rows[i]);
     }
     static Row first_row(Vec a, Vec b, Vec c, Vec d) {
         return xsimd::zip_lo(xsimd::zip_lo(a, c), xsimd::zip_lo(b, d));

@@ -269,10 +269,7 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
                      const Record& record = *pass.record;
                      const std::size_t vertex = members_[member].vertex + begin;
                      const std::size_t stride = record.stride_floats();
-                     const RecordOutput out = {record.first + vertex * stride,
-                                               stride,
-                                               pass.gaps,
-                                               pass.value_bits,
+                     const RecordOutput out = {record.first + vertex * stride, stride, pass.gaps,
                                                pass.gaps != RecordGaps::none && end == body_.vertex_count,
                                                record.in_lines ? record.to_line(vertex) : 0};
                      kernels_.weaving_kernel(input.squeeze, pass.streams)(

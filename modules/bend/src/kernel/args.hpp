@@ -110,9 +110,8 @@ struct RecordOutput {
     float* first;        ///< the first vertex's
     std::size_t stride;  ///< floats
     RecordGaps gaps;
-    unsigned char value_bits;  ///< bit i: float i of a record belongs to a vector
-    bool keeps_last_gap;       ///< of the last vertex
-    std::size_t peeled;  ///< with Write::non_temporal, vertices before the first that begins a cache line
+    bool keeps_last_gap;  ///< of the last vertex
+    std::size_t peeled;   ///< with Write::non_temporal, vertices before the first that begins a cache line
 };
 
 /// The same to records. With Write::cached, gaps keep what they hold. With Write::non_temporal they become

@@ -78,9 +78,13 @@ void copy_dense(const float* from, std::size_t count, float* to, bool non_tempor
 /// Copies `count` records without gaps to some that have them.
 template <class L>
 void copy_between_gaps(const float* from, std::size_t count, const RecordOutput& out, float* to) {
-    for (std::size_t v = 0; v < count; ++v, to += out.stride)
-        for (std::size_t i = 0; i < out.stride; ++i)
-            if ((out.value_bits >> i & 1) != 0) to[i] = *from++;
+    const bool after_each = out.gaps == RecordGaps::one_behind_each;
+    for (std::size_t v = 0; v < count; ++v, to += out.stride) {
+        for (std::size_t i = 0; i < out.stride; ++i) {
+            const bool in_gap = after_each ? i % 4 == 3 : i >= 6;
+            if (!in_gap) to[i] = *from++;
+        }
+    }
 }
 
 template <class L, Squeeze squeeze, StreamSet streams>

@@ -92,6 +92,12 @@ typename L::Vec records(const typename L::Vec (&blends)[planes], std::integer_se
     return result;
 }
 
+template <class L, std::size_t count>
+void store_batches(const typename L::Vec (&batches)[count], float* to, bool non_temporal) {
+    for (std::size_t j = 0; j < count; ++j, to += L::width)
+        non_temporal ? L::stream(to, batches[j]) : L::store(to, batches[j]);
+}
+
 /// Stores the records of W / group vertices from `from` on, which are N / group batches.
 template <class L, int N, int group, int from, int... c>
 void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_temporal,
@@ -102,25 +108,12 @@ void spread_and_store(const typename L::Vec (&planes)[N], float* to, bool non_te
     const typename L::Vec blends[N / group] = {blend_for_part<P, L, c % P::part, c / P::part>(spread)...};
     const typename L::Vec batches[N / group] = {
         records<P, L, c>(blends, std::make_integer_sequence<int, P::part - 1>())...};
-    for (std::size_t j = 0; j < N / group; ++j) {
-        float* at = to + j * L::width;
-        non_temporal ? L::stream(at, batches[j]) : L::store(at, batches[j]);
-    }
+    store_batches<L>(batches, to, non_temporal);
 }
 
 /// Picks for registers of W lanes that are taken as rows of four.
 template <int W>
 struct RowPicks {
-    /// Values 2 half and 2 half + 1 of each row of `a` and of that row of `b`, in turns.
-    template <int half>
-    struct Zip {
-        static constexpr int at(int lane) { return lane / 4 * 4 + 2 * half + lane % 4 / 2 + lane % 2 * W; }
-    };
-    /// The same values of each row of `a`, then of that row of `b`.
-    template <int half>
-    struct Halves {
-        static constexpr int at(int lane) { return lane / 4 * 4 + 2 * half + lane % 2 + lane % 4 / 2 * W; }
-    };
     /// Half of the rows of `a`, row `from` and each `step` rows behind it, then the same ones of `b`.
     template <int from, int step>
     struct Rows {
@@ -131,24 +124,6 @@ struct RowPicks {
         }
     };
 };
-
-/// Turns four planes into rows, of which result i has those of the vertices i, i + 4, i + 8 ..
-template <class L>
-void make_rows(const typename L::Vec* planes, typename L::Vec (&rows)[4]) {
-    using P = RowPicks<static_cast<int>(L::width)>;
-    using Low = typename P::template Zip<0>;
-    using High = typename P::template Zip<1>;
-    using FirstHalves = typename P::template Halves<0>;
-    using LastHalves = typename P::template Halves<1>;
-    const auto ab_low = L::template shuffle<Low>(planes[0], planes[1]);
-    const auto ab_high = L::template shuffle<High>(planes[0], planes[1]);
-    const auto cd_low = L::template shuffle<Low>(planes[2], planes[3]);
-    const auto cd_high = L::template shuffle<High>(planes[2], planes[3]);
-    rows[0] = L::template shuffle<FirstHalves>(ab_low, cd_low);
-    rows[1] = L::template shuffle<LastHalves>(ab_low, cd_low);
-    rows[2] = L::template shuffle<FirstHalves>(ab_high, cd_high);
-    rows[3] = L::template shuffle<LastHalves>(ab_high, cd_high);
-}
 
 /// Makes register q of `out` from row q of each of the registers `in`, which are as many as a register has
 /// rows.
@@ -186,7 +161,8 @@ void make_records(const typename L::Vec (&planes)[N], typename L::Vec (&records)
     typename L::Vec rows[N];
     for (std::size_t g = 0; g < groups; ++g) {
         typename L::Vec of_group[4];
-        make_rows<L>(planes + 4 * g, of_group);
+        const auto* const four = planes + 4 * g;
+        L::make_rows(four[0], four[1], four[2], four[3], of_group);
         for (std::size_t i = 0; i < 4; ++i) rows[i * groups + g] = of_group[i];
     }
     for (std::size_t m = 0; m < parts; ++m) {
@@ -201,10 +177,7 @@ template <class L, int N>
 void store_rows(const typename L::Vec (&planes)[N], float* to, bool non_temporal) {
     typename L::Vec records[N];
     make_records<L, N>(planes, records);
-    for (std::size_t j = 0; j < N; ++j) {
-        float* const at = to + j * L::width;
-        non_temporal ? L::stream(at, records[j]) : L::store(at, records[j]);
-    }
+    store_batches<L>(records, to, non_temporal);
 }
 
 /// The same for records with gaps that keep what they hold: of row g of a record, the first

@@ -172,13 +172,10 @@ bool OutputPlan::set_record(PassPlan& pass) const noexcept {
     for (const Record& record : records()) {
         const bool begins_lines = record.lead == 0 && (!record.in_lines || record.to_line(0) != line_floats);
         if (!begins_lines) continue;
-        const std::span<const Component> all = components(record);
-        const std::optional<RecordGaps> gaps = gaps_of(pass, record.stride_floats(), all);
+        const std::optional<RecordGaps> gaps = gaps_of(pass, record.stride_floats(), components(record));
         if (!gaps) continue;
         pass.gaps = *gaps;
         pass.record = &record;
-        for (const Component& component : all)
-            pass.value_bits |= static_cast<unsigned char>(1u << (component.first - record.first));
         return true;
     }
     return false;

@@ -67,7 +67,6 @@ struct PassPlan {
     PlaneOutput planes = {};             ///< for WriteMode::planes, from vertex 0 on
     const Record* record = nullptr;      ///< for WriteMode::records
     RecordGaps gaps = RecordGaps::none;  ///< the record's
-    unsigned char value_bits = 0;        ///< see RecordOutput
     WriteMode mode = WriteMode::staged;
 };
 
