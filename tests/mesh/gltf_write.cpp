@@ -289,6 +289,8 @@ TEST_CASE("gltf: normals do not ask how small their node is, mirrored or not") {
     };
     CHECK(normals("1e-200") == normals("2"));
     CHECK(normals("-1e-200") == normals("-2"));
+    const Mesh thin = load_document(tetra_with_nodes(R"([{"mesh": 0, "scale": [1, 1, 1e-160]}])"));
+    for (const glm::vec3& n : thin.normals.values) CHECK(glm::length(n) == doctest::Approx(1));
 }
 
 TEST_CASE("gltf: images beside the source are taken into a GLB, and named from the new place by a .gltf") {

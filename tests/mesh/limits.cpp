@@ -117,6 +117,15 @@ TEST_CASE("limits: a mesh that is repeated, a buffer that is named again and aga
     CHECK(within(small, "d.glb", repeated(document, 10).glb()).empty());
     CHECK(tells(within(small, "d.glb", repeated(document, 50).glb()), "Limits::memory"));
 
+    // A node's mesh may be written for it alone: it counts again, though it is shown once.
+    const std::vector<Json> much(4000, {{"a", 0}});
+    document = tetra();
+    document.json["extras"] = much;
+    CHECK(within(small, "d.glb", document.glb()).empty());
+    document = tetra();
+    document.json["meshes"][0]["extras"] = much;
+    CHECK(tells(within(small, "d.glb", document.glb()), "Limits::memory"));
+
     document = tetra();
     document.json["extras"] = std::vector<Json>(50000, Json::array());
     CHECK(tells(within(small, "d.gltf", document.gltf()), "Limits::memory"));

@@ -123,6 +123,9 @@ void each(Owner& owner, const char* key, Visit&& visit) {
 /// Says which images are not where their URIs lead, or may not be read; broken ones are not looked at.
 [[nodiscard]] std::vector<std::string> missing_images(const Document& document);
 
+/// The document's materials: their names and base colors, still without textures. Throws Error.
+[[nodiscard]] std::vector<Material> materials_of(const Document& document);
+
 /// Gives the materials of `mesh`, which are those of the document, their base-color textures. Returns, as a
 /// warning or none, which are broken and left out; of missing images missing_images() tells.
 [[nodiscard]] std::vector<std::string> read_textures(const std::shared_ptr<const Document>& document,

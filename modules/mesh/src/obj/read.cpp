@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "budget.hpp"
 #include "format.hpp"
+#include "materials.hpp"
 #include "obj.hpp"
 
-#include <goffer/io/error.hpp>
-#include <goffer/io/named_files.hpp>
-
-#include <tiny_obj_loader.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
-#include <set>
-#include <span>
-#include <sstream>
-#include <unordered_map>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace goffer::mesh {
@@ -26,12 +21,7 @@ class ObjReader {
 public:
     ObjReader(const std::filesystem::path& file, std::string_view text, const LoadOptions& options,
               Budget& budget, const Share& share)
-        : file_(file),
-          text_(text),
-          options_(options),
-          files_(file, options.allow_outside),
-          budget_(budget),
-          share_(share) {}
+        : file_(file), text_(text), options_(options), budget_(budget), share_(share) {}
     Mesh read();
 
 private:
@@ -49,28 +39,18 @@ private:
     float finite_or_zero(float value);
     std::uint32_t index(std::string_view token, std::size_t seen, std::size_t total, const char* what) const;
     void drop_unused_attributes();
-    void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
-    void warn_of_textures(const std::filesystem::path& library,
-                          std::span<const tinyobj::material_t> materials);
-    void find_textures(const std::filesystem::path& library, std::span<const tinyobj::material_t> materials);
-    std::vector<tinyobj::material_t> read_libraries();
-    void read_materials();
     [[noreturn]] void fail_at(std::string_view place, const std::string& what) const;
 
     const std::filesystem::path& file_;
     std::string_view text_;
     const LoadOptions& options_;
-    io::NamedFiles files_;
     Budget& budget_;
     const Share share_;
     Mesh mesh_;
     Counts total_, seen_;
     std::array<float, 8> numbers_{};
-    std::unordered_map<std::string_view, std::int32_t> material_of_;  ///< by its name
-    Part part_;                                                       ///< what o, g and usemtl said last
-    std::vector<std::string_view> libraries_;
-    std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
-    std::vector<std::optional<Texture>> textures_;  ///< of each entry of the material files
+    MaterialLines materials_;
+    Part part_;  ///< what o, g and usemtl said last
     std::size_t short_faces_ = 0;
     std::size_t not_finite_ = 0;
     std::size_t stray_exponents_ = 0;
@@ -105,7 +85,7 @@ Mesh ObjReader::read() {
         mesh_.warnings.push_back(std::to_string(stray_exponents_) +
                                  " numbers are written like 3.1+e2: read as 3.1, as other programs do");
     drop_unused_attributes();
-    read_materials();
+    read_materials(file_, text_, materials_, options_, budget_, mesh_);
     return std::move(mesh_);
 }
 
@@ -117,7 +97,7 @@ void ObjReader::take(const Statement& statement) {
     if (keyword == "f") take_face(statement);
     if (keyword == "o" || keyword == "g") part_.name = trimmed(statement.arguments);
     if (keyword == "usemtl") take_material(trimmed(statement.arguments));
-    if (keyword == "mtllib") libraries_.push_back(trimmed(statement.arguments));
+    if (keyword == "mtllib") materials_.libraries.push_back(trimmed(statement.arguments));
     seen_.add(statement);
 }
 
@@ -192,7 +172,8 @@ void ObjReader::begin_part() {
 
 void ObjReader::take_material(std::string_view name) {
     auto& materials = mesh_.materials;
-    const auto [known, is_new] = material_of_.try_emplace(name, static_cast<std::int32_t>(materials.size()));
+    const auto [known, is_new] =
+        materials_.used.try_emplace(name, static_cast<std::int32_t>(materials.size()));
     part_.material = known->second;
     if (!is_new) return;
     budget_.take(kept_copies * sizeof(Material) + kept_copies * name.size() + 2 * sizeof(*known));
@@ -257,193 +238,11 @@ void ObjReader::drop_unused_attributes() {
     if (unused(mesh_.uvs[0])) mesh_.uvs.clear();
 }
 
-std::uint64_t count_materials(std::string_view library) {
-    constexpr std::string_view keyword = "newmtl";
-    std::uint64_t count = 0;
-    for (std::size_t at = library.find(keyword); at != library.npos; at = library.find(keyword, at + 1))
-        ++count;
-    return count;
-}
-
-void ObjReader::read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found) {
-    std::istringstream text;
-    try {
-        std::string bytes = read_bytes(library, budget_);
-        budget_.take(bytes.size() + count_materials(bytes) * sizeof(tinyobj::material_t));
-        text.str(std::move(bytes));
-    } catch (const OverLimit&) {
-        throw;
-    } catch (const Error& error) {
-        mesh_.warnings.push_back(std::string("materials are left out: ") + error.what());
-    }
-    std::map<std::string, int> index;
-    std::string warnings, errors;
-    const std::size_t before = found.size();
-    tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
-    warn_of_textures(library, std::span(found).subspan(before));
-    find_textures(library, std::span(found).subspan(before));
-}
-
-/// Replaces the backslashes that paths have on Windows.
-std::string with_slashes(std::string name) {
-    std::ranges::replace(name, '\\', '/');
-    return name;
-}
-
-/// Kd is no factor: exporters write all kinds of gray beside a map, and programs that show it leave Kd out.
-Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<const Image> image) {
-    Texture texture{.image = std::move(image)};
-    texture.transform =
-        glm::mat3x2(option.scale[0], 0, 0, option.scale[1], option.origin_offset[0], option.origin_offset[1]);
-    if (option.clamp) texture.wrap_u = texture.wrap_v = Wrap::clamp;
-    return texture;
-}
-
-/// Finds the images of map_Kd that are there and may be read, each once.
-void ObjReader::find_textures(const std::filesystem::path& library,
-                              std::span<const tinyobj::material_t> materials) {
-    const io::NamedFiles files(library, options_.allow_outside);
-    std::set<std::string> outside;
-    for (const tinyobj::material_t& material : materials) {
-        const std::string name = with_slashes(material.diffuse_texname);
-        std::error_code error;
-        const auto place = name.empty() ? std::nullopt : files.find(name);
-        if (!name.empty() && !place && outside.insert(name).second)
-            mesh_.warnings.push_back("a texture is not looked at: " + io::about(library, "names ") +
-                                     mesh::quoted(name) + io::NamedFiles::outside);
-        if (place && images_.find(*place) == images_.end() && std::filesystem::is_regular_file(*place, error))
-            images_.emplace(*place, image_in(*place, options_.limits));
-        const auto image = place ? images_.find(*place) : images_.end();
-        textures_.push_back(image == images_.end()
-                                ? std::nullopt
-                                : std::optional(texture_with(material.diffuse_texopt, image->second)));
-    }
-}
-
-/// Most of them nothing reads, but whoever shows the output wants them. Those outside are not even looked
-/// for.
-void ObjReader::warn_of_textures(const std::filesystem::path& library,
-                                 std::span<const tinyobj::material_t> materials) {
-    const io::NamedFiles files(library, false);
-    std::set<std::string> missing;
-    for (const tinyobj::material_t& material : materials) {
-        for (const auto texture :
-             {&tinyobj::material_t::diffuse_texname, &tinyobj::material_t::ambient_texname,
-              &tinyobj::material_t::specular_texname, &tinyobj::material_t::specular_highlight_texname,
-              &tinyobj::material_t::bump_texname, &tinyobj::material_t::displacement_texname,
-              &tinyobj::material_t::alpha_texname, &tinyobj::material_t::reflection_texname,
-              &tinyobj::material_t::roughness_texname, &tinyobj::material_t::metallic_texname,
-              &tinyobj::material_t::emissive_texname, &tinyobj::material_t::normal_texname}) {
-            const std::string name = with_slashes(material.*texture);
-            std::error_code error;
-            const auto place = files.find(name);
-            if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
-                missing.insert(name);
-        }
-    }
-    for (const std::string& name : missing)
-        mesh_.warnings.push_back("a texture is missing: " + io::about(library, "names ") +
-                                 mesh::quoted(name) +
-                                 ", which is not there; put it beside the material file");
-}
-
-/// Reads the material files, each once. The file's name is looked up for each, which takes far longer than to
-/// read the line that names it: hence the limit.
-std::vector<tinyobj::material_t> ObjReader::read_libraries() {
-    constexpr std::size_t most = 1000;
-    std::vector<tinyobj::material_t> found;
-    std::set<std::string_view> lines;
-    std::set<std::filesystem::path> read;
-    for (const std::string_view line : libraries_) {
-        if (!lines.insert(line).second) continue;
-        for (const std::string_view name : library_names(file_, line)) {
-            if (read.size() >= most || lines.size() > most) {
-                mesh_.warnings.push_back("materials are left out: there are more than " +
-                                         std::to_string(most) + " material files; merge them");
-                return found;
-            }
-            const std::optional<std::filesystem::path> library = files_.find(name);
-            if (!library) {
-                mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
-                                         ": mtllib names " + quoted(name) + io::NamedFiles::outside);
-            } else if (read.insert(*library).second) {
-                read_library(*library, found);
-            }
-        }
-    }
-    return found;
-}
-
-void ObjReader::read_materials() {
-    const std::vector<tinyobj::material_t> found = read_libraries();
-    std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const tinyobj::material_t& entry = found[i];
-        const auto used = material_of_.find(trimmed(entry.name));
-        if (used == material_of_.end()) continue;
-        const auto number = static_cast<std::size_t>(used->second);
-        if (colored[number]) continue;
-        colored[number] = true;
-        const float rgba[] = {entry.diffuse[0], entry.diffuse[1], entry.diffuse[2], entry.dissolve};
-        for (int c = 0; c < 4; ++c) mesh_.materials[number].base_color[c] = std::clamp(rgba[c], 0.0f, 1.0f);
-        mesh_.materials[number].texture = textures_[i];
-    }
-}
-
 void ObjReader::fail_at(std::string_view place, const std::string& what) const {
     fail(file_, line_of(text_, place.data()) + ": " + what);
 }
 
 }  // namespace
-
-bool next_statement(std::string_view& rest, Statement& out) {
-    if (rest.empty()) return false;
-    const char* const begin = rest.data();
-    std::string_view line = next_line(rest);
-    const bool comment = trimmed(line).starts_with('#');
-    while (!comment && line.ends_with('\\') && !rest.empty()) {
-        const std::string_view more = next_line(rest);
-        line = {begin, static_cast<std::size_t>(more.data() + more.size() - begin)};
-    }
-    out.end = line.substr(line.size());
-    out.windows = rest.data() - out.end.data() == 2;
-    out.arguments = line;
-    out.keyword = comment ? std::string_view() : next_token(out.arguments);
-    return true;
-}
-
-std::string_view next_argument(std::string_view& rest) {
-    const std::string_view token = next_token(rest);
-    if (!token.starts_with('#')) return token;
-    rest = {};
-    return {};
-}
-
-void Counts::add(const Statement& statement) {
-    v += statement.keyword == "v";
-    vt += statement.keyword == "vt";
-    vn += statement.keyword == "vn";
-}
-
-std::vector<std::string_view> library_names(const std::filesystem::path& obj, std::string_view arguments) {
-    arguments = trimmed(arguments);
-    std::error_code error;
-    if (std::filesystem::is_regular_file(obj.parent_path() / arguments, error)) return {arguments};
-    std::vector<std::string_view> names;
-    for (std::string_view name = next_token(arguments); !name.empty(); name = next_token(arguments))
-        names.push_back(name);
-    return names;
-}
-
-std::array<std::string_view, 3> corner_parts(std::string_view argument) {
-    std::array<std::string_view, 3> parts;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t end = i < 2 ? std::min(argument.find('/'), argument.size()) : argument.size();
-        parts[i] = argument.substr(0, end);
-        argument.remove_prefix(std::min(end + 1, argument.size()));
-    }
-    return parts;
-}
 
 Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const LoadOptions& options,
               Budget& budget, const Share& share) {

@@ -3,6 +3,7 @@
 #include "gltf.hpp"
 #include "text.hpp"
 
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/vec2.hpp>
 
 #include <cmath>
@@ -13,6 +14,8 @@
 
 namespace goffer::mesh::gltf {
 namespace {
+
+constexpr const char* glossy = "KHR_materials_pbrSpecularGlossiness";
 
 /// Where a document's image is, if it is a file that may be read; it need not be there.
 std::optional<std::filesystem::path> file_of(const Document& document, const std::string& uri) {
@@ -124,7 +127,6 @@ std::optional<Texture> TextureReader::read(const Value& info) {
 
 /// Where a material says its base color's texture; nothing where it has none.
 std::optional<Value> info_of(const Value& material) {
-    constexpr const char* glossy = "KHR_materials_pbrSpecularGlossiness";
     const auto member = [](const Value& owner, const char* key) {
         return owner.has(key) ? std::optional(owner[key]) : std::nullopt;
     };
@@ -135,7 +137,27 @@ std::optional<Value> info_of(const Value& material) {
     return std::nullopt;
 }
 
+glm::vec4 color_of(const Value& owner, const char* key) {
+    if (!owner.has(key)) return glm::vec4(1.0f);
+    return glm::vec4(glm::make_vec4(owner[key].numbers(4).data()));
+}
+
 }  // namespace
+
+std::vector<Material> materials_of(const Document& document) {
+    std::vector<Material> materials;
+    for (std::size_t i = 0; i < document.count("materials"); ++i) {
+        const Value material = document.root()["materials"][i];
+        Material read{.name = material.text_or("name", ""), .base_color = glm::vec4(1.0f)};
+        if (material.has("pbrMetallicRoughness")) {
+            read.base_color = color_of(material["pbrMetallicRoughness"], "baseColorFactor");
+        } else if (material.has("extensions") && material["extensions"].has(glossy)) {
+            read.base_color = color_of(material["extensions"][glossy], "diffuseFactor");
+        }
+        materials.push_back(std::move(read));
+    }
+    return materials;
+}
 
 std::vector<std::string> read_textures(const std::shared_ptr<const Document>& document, Mesh& mesh) {
     TextureReader reader(document);

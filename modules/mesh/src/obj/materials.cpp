@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "materials.hpp"
+
+#include "format.hpp"
+#include "obj.hpp"
+
+#include <goffer/io/error.hpp>
+#include <goffer/io/named_files.hpp>
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace goffer::mesh {
+namespace {
+
+std::uint64_t count_materials(std::string_view library) {
+    constexpr std::string_view keyword = "newmtl";
+    std::uint64_t count = 0;
+    for (std::size_t at = library.find(keyword); at != library.npos; at = library.find(keyword, at + 1))
+        ++count;
+    return count;
+}
+
+/// Replaces the backslashes that paths have on Windows.
+std::string with_slashes(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    return name;
+}
+
+/// Kd is no factor: exporters write all kinds of gray beside a map, and programs that show it leave Kd out.
+Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<const Image> image) {
+    Texture texture{.image = std::move(image)};
+    texture.transform =
+        glm::mat3x2(option.scale[0], 0, 0, option.scale[1], option.origin_offset[0], option.origin_offset[1]);
+    if (option.clamp) texture.wrap_u = texture.wrap_v = Wrap::clamp;
+    return texture;
+}
+
+class MaterialReader {
+public:
+    MaterialReader(const std::filesystem::path& file, std::string_view text, const MaterialLines& lines,
+                   const LoadOptions& options, Budget& budget, Mesh& mesh)
+        : file_(file),
+          text_(text),
+          lines_(lines),
+          options_(options),
+          files_(file, options.allow_outside),
+          budget_(budget),
+          mesh_(mesh) {}
+    void read();
+
+private:
+    std::vector<tinyobj::material_t> read_libraries();
+    void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
+    void warn_of_textures(const std::filesystem::path& library,
+                          std::span<const tinyobj::material_t> materials);
+    void find_textures(const std::filesystem::path& library, std::span<const tinyobj::material_t> materials);
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    const MaterialLines& lines_;
+    const LoadOptions& options_;
+    io::NamedFiles files_;
+    Budget& budget_;
+    Mesh& mesh_;
+    std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+    std::vector<std::optional<Texture>> textures_;  ///< of each entry of the material files
+};
+
+void MaterialReader::read_library(const std::filesystem::path& library,
+                                  std::vector<tinyobj::material_t>& found) {
+    std::istringstream text;
+    try {
+        std::string bytes = read_bytes(library, budget_);
+        budget_.take(bytes.size() + count_materials(bytes) * sizeof(tinyobj::material_t));
+        text.str(std::move(bytes));
+    } catch (const OverLimit&) {
+        throw;
+    } catch (const Error& error) {
+        mesh_.warnings.push_back(std::string("materials are left out: ") + error.what());
+    }
+    std::map<std::string, int> index;
+    std::string warnings, errors;
+    const std::size_t before = found.size();
+    tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
+    warn_of_textures(library, std::span(found).subspan(before));
+    find_textures(library, std::span(found).subspan(before));
+}
+
+/// Finds the images of map_Kd that are there and may be read, each once.
+void MaterialReader::find_textures(const std::filesystem::path& library,
+                                   std::span<const tinyobj::material_t> materials) {
+    const io::NamedFiles files(library, options_.allow_outside);
+    std::set<std::string> outside;
+    for (const tinyobj::material_t& material : materials) {
+        const std::string name = with_slashes(material.diffuse_texname);
+        std::error_code error;
+        const auto place = name.empty() ? std::nullopt : files.find(name);
+        if (!name.empty() && !place && outside.insert(name).second)
+            mesh_.warnings.push_back("a texture is not looked at: " + io::about(library, "names ") +
+                                     mesh::quoted(name) + io::NamedFiles::outside);
+        if (place && images_.find(*place) == images_.end() && std::filesystem::is_regular_file(*place, error))
+            images_.emplace(*place, image_in(*place, options_.limits));
+        const auto image = place ? images_.find(*place) : images_.end();
+        textures_.push_back(image == images_.end()
+                                ? std::nullopt
+                                : std::optional(texture_with(material.diffuse_texopt, image->second)));
+    }
+}
+
+/// Most of them nothing reads, but whoever shows the output wants them. Those outside are not even looked
+/// for.
+void MaterialReader::warn_of_textures(const std::filesystem::path& library,
+                                      std::span<const tinyobj::material_t> materials) {
+    const io::NamedFiles files(library, false);
+    std::set<std::string> missing;
+    for (const tinyobj::material_t& material : materials) {
+        for (const auto texture :
+             {&tinyobj::material_t::diffuse_texname, &tinyobj::material_t::ambient_texname,
+              &tinyobj::material_t::specular_texname, &tinyobj::material_t::specular_highlight_texname,
+              &tinyobj::material_t::bump_texname, &tinyobj::material_t::displacement_texname,
+              &tinyobj::material_t::alpha_texname, &tinyobj::material_t::reflection_texname,
+              &tinyobj::material_t::roughness_texname, &tinyobj::material_t::metallic_texname,
+              &tinyobj::material_t::emissive_texname, &tinyobj::material_t::normal_texname}) {
+            const std::string name = with_slashes(material.*texture);
+            std::error_code error;
+            const auto place = files.find(name);
+            if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
+                missing.insert(name);
+        }
+    }
+    for (const std::string& name : missing)
+        mesh_.warnings.push_back("a texture is missing: " + io::about(library, "names ") +
+                                 mesh::quoted(name) +
+                                 ", which is not there; put it beside the material file");
+}
+
+/// Reads the material files, each once. The file's name is looked up for each, which takes far longer than to
+/// read the line that names it: hence the limit.
+std::vector<tinyobj::material_t> MaterialReader::read_libraries() {
+    constexpr std::size_t most = 1000;
+    std::vector<tinyobj::material_t> found;
+    std::set<std::string_view> lines;
+    std::set<std::filesystem::path> read;
+    for (const std::string_view line : lines_.libraries) {
+        if (!lines.insert(line).second) continue;
+        for (const std::string_view name : library_names(file_, line)) {
+            if (read.size() >= most || lines.size() > most) {
+                mesh_.warnings.push_back("materials are left out: there are more than " +
+                                         std::to_string(most) + " material files; merge them");
+                return found;
+            }
+            const std::optional<std::filesystem::path> library = files_.find(name);
+            if (!library) {
+                mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
+                                         ": mtllib names " + quoted(name) + io::NamedFiles::outside);
+            } else if (read.insert(*library).second) {
+                read_library(*library, found);
+            }
+        }
+    }
+    return found;
+}
+
+void MaterialReader::read() {
+    const std::vector<tinyobj::material_t> found = read_libraries();
+    std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const tinyobj::material_t& entry = found[i];
+        const auto used = lines_.used.find(trimmed(entry.name));
+        if (used == lines_.used.end()) continue;
+        const auto number = static_cast<std::size_t>(used->second);
+        if (colored[number]) continue;
+        colored[number] = true;
+        const float rgba[] = {entry.diffuse[0], entry.diffuse[1], entry.diffuse[2], entry.dissolve};
+        for (int c = 0; c < 4; ++c) mesh_.materials[number].base_color[c] = std::clamp(rgba[c], 0.0f, 1.0f);
+        mesh_.materials[number].texture = textures_[i];
+    }
+}
+
+}  // namespace
+
+void read_materials(const std::filesystem::path& file, std::string_view text, const MaterialLines& lines,
+                    const LoadOptions& options, Budget& budget, Mesh& mesh) {
+    MaterialReader(file, text, lines, options, budget, mesh).read();
+}
+
+}  // namespace goffer::mesh
