@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "kernel/amplitude_rows.hpp"
 #include "kernel/args.hpp"
+#include "kernel/setup_result.hpp"
 #include "kernel/sin_cos.hpp"
+#include "kernel/vector3.hpp"
 
 /// Set-up, for as many instances at a time as a register has lanes. The result of a lane depends on that lane
 /// alone, so an instance gets the same bits whatever its neighbors. `L` is lanes of single registers.
@@ -25,12 +28,6 @@ constexpr ArcTerms half_terms = {  // 9.0e-7 and 9.1e-8
 
 constexpr float half_turn = 3.14159265f;
 
-/// A vector per instance.
-template <class L>
-struct Vector3 {
-    typename L::Vec x, y, z;
-};
-
 template <class L>
 typename L::Vec horner(const float (&terms)[arc_terms], typename L::Vec x) {
     typename L::Vec sum = L::splat(terms[arc_terms - 1]);
@@ -52,47 +49,6 @@ SinCos<L> sin_cos(typename L::Vec angle) {
     return {angle * horner<L>(quarter_terms.sinc, x),
             L::nmadd(x, horner<L>(quarter_terms.versine, x), L::splat(1.0f))};
 }
-
-/// How many lanes of a register hold instances.
-enum class Lanes { one, some, all };
-
-/// Coefficients of the instances in one register, each instance's by themselves: those of lane i at
-/// k[i * step].
-template <class L, Lanes lanes>
-struct SeparateResult {
-    Coefficients* k;
-    std::size_t step, count;
-
-    /// Stores four coefficients that follow each other. row(k) is the address of the first one.
-    template <class Row>
-    void put(const Row& row, typename L::Vec a, typename L::Vec b, typename L::Vec c,
-             typename L::Vec d) const {
-        if constexpr (lanes == Lanes::one) {
-            L::store_row(row(k[0]), L::first_row(a, b, c, d));
-        } else {
-            L::for_rows(a, b, c, d, [&](std::size_t i, typename L::Row values) {
-                if (lanes == Lanes::all || i < count) L::store_row(row(k[i * step]), values);
-            });
-        }
-    }
-};
-
-/// Coefficients of the instances in one register, among those of all instances side by side.
-template <class L>
-struct LaneResult {
-    LaneCoefficients& k;
-    std::size_t first;  ///< the register's first lane among them
-
-    template <class Row>
-    void put(const Row& row, typename L::Vec a, typename L::Vec b, typename L::Vec c,
-             typename L::Vec d) const {
-        InstanceLanes* const to = row(k);
-        L::store(to[0] + first, a);
-        L::store(to[1] + first, b);
-        L::store(to[2] + first, c);
-        L::store(to[3] + first, d);
-    }
-};
 
 /// Sets up the instances in one register.
 template <class L, class Result>
@@ -193,23 +149,6 @@ private:
         L::store(columns_.frame[to + 2] + first_, v.z);
     }
 
-    /// a u + b v
-    static Vector3<L> combined(Vec a, const Vector3<L>& u, Vec b, const Vector3<L>& v) {
-        return {L::madd(a, u.x, b * v.x), L::madd(a, u.y, b * v.y), L::madd(a, u.z, b * v.z)};
-    }
-
-    static Vector3<L> sum(const Vector3<L>& u, const Vector3<L>& v) {
-        return {u.x + v.x, u.y + v.y, u.z + v.z};
-    }
-
-    static Vec dot(const Vector3<L>& u, const Vector3<L>& v) {
-        return L::madd(u.x, v.x, L::madd(u.y, v.y, u.z * v.z));
-    }
-
-    static Vector3<L> cross(const Vector3<L>& u, const Vector3<L>& v) {
-        return {L::nmadd(u.z, v.y, u.y * v.z), L::nmadd(u.x, v.z, u.z * v.x), L::nmadd(u.y, v.x, u.x * v.y)};
-    }
-
     /// Half of the arc: its turn and its chord.
     struct HalfArc {
         Vec sine, cosine;  // of alpha / 2
@@ -284,10 +223,6 @@ private:
         set_normal_matrix(n, b, t);
     }
 
-    static Vec largest(const Vector3<L>& v) { return L::max(L::max(L::abs(v.x), L::abs(v.y)), L::abs(v.z)); }
-
-    static Vector3<L> scaled(Vec by, const Vector3<L>& v) { return {by * v.x, by * v.y, by * v.z}; }
-
     // Normals are transformed by the cofactors: the inverse transpose times the determinant, which turns them
     // inward if it is negative. The result is scaled, since kernels add a small number to squared lengths.
     // The matrix is scaled first if squares of its cofactors would leave float's range.
@@ -338,56 +273,6 @@ private:
     SinCos<L> half_, whole_;  // of half the direction, and of the direction
 };
 
-/// Two neighboring rows of the wrinkle table, and the weight of the second.
-struct RowPlace {
-    const float *from, *to;
-    float weight;
-};
-
-template <class L>
-RowPlace row_place(const SetupRegion& region, float place) {
-    const auto last = static_cast<int>(region.row_count) - 2;
-    int low = static_cast<int>(place);
-    low = low < last ? low : last;
-    return {region.rows[low], region.rows[low + 1], place - static_cast<float>(low)};
-}
-
-/// Sets the amplitude's coefficients in T. `factor` includes the root of kappa.
-template <class L, class K>
-void set_plain_amplitude(const RowPlace& row, float factor, K& k) {
-    static constexpr float slopes[amplitude_terms] = {-0.5f, -1.5f, -2.5f, -3.5f, -4.5f, -5.5f, -6.5f, -7.5f};
-    for (std::size_t n = 0; n < amplitude_terms; n += 4) {
-        const typename L::Row amplitude = L::mixed_row(row.from + n, row.to + n, row.weight, factor);
-        L::store_row(k.amplitude + n, amplitude);
-        L::store_row(k.amplitude_slope + n, L::row_times(amplitude, slopes + n));
-    }
-}
-
-/// Sets the amplitude's coefficients in q: the row's, which are in q / kappa, times powers of 1 / kappa.
-template <class L, class K>
-void set_relative_amplitude(const RowPlace& row, float kappa, float factor, K& k) {
-    const float per_kappa = 1 / kappa;
-    for (std::size_t n = 0; n < amplitude_terms; ++n, factor *= per_kappa) {
-        k.amplitude[n] = factor * (row.from[n] + row.weight * (row.to[n] - row.from[n]));
-        k.amplitude_slope[n] = (1 + 2 * static_cast<float>(n)) * k.amplitude[n];
-    }
-}
-
-template <class L, class K>
-void set_no_amplitude(K& k) {
-    for (std::size_t n = 0; n < amplitude_terms; ++n) k.amplitude[n] = k.amplitude_slope[n] = 0;
-}
-
-template <class L, class K>
-void set_amplitude(const SetupRegion& region, float place, float scale, float factor, K& k) {
-    const RowPlace row = row_place<L>(region, place);
-    if (region.relative) {
-        set_relative_amplitude<L>(row, scale, factor, k);
-    } else {
-        set_plain_amplitude<L>(row, scale * factor, k);
-    }
-}
-
 template <class L>
 GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, std::size_t count,
                              const bool* wrinkled, Coefficients* k, std::size_t step) {
@@ -413,34 +298,6 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
             continue;
         }
         set_amplitude<L>(region, place[i], scale[i], columns.factor[i], k[i * step]);
-    }
-}
-
-/// Sets the amplitudes of setup_width instances side by side. `place`, `scale`, `factor`: one of each.
-template <class L>
-void set_lane_amplitudes(const SetupRegion& region, bool wrinkled, const float* place, const float* scale,
-                         const float* factor, LaneCoefficients& k) {
-    struct Amplitudes {
-        alignas(64) float amplitude[amplitude_terms];
-        float amplitude_slope[amplitude_terms];
-    };
-    Amplitudes own[setup_width];
-    for (std::size_t i = 0; i < setup_width; ++i) {
-        if (wrinkled) {
-            set_amplitude<L>(region, place[i], scale[i], factor[i], own[i]);
-        } else {
-            set_no_amplitude<L>(own[i]);
-        }
-    }
-    for (std::size_t i = 0; i < setup_width; i += 4) {
-        const auto transpose = [&](auto Amplitudes::*of, InstanceLanes* to) {
-            for (std::size_t n = 0; n < amplitude_terms; n += 4)
-                L::store_transposed(
-                    {own[i].*of + n, own[i + 1].*of + n, own[i + 2].*of + n, own[i + 3].*of + n},
-                    {to[n] + i, to[n + 1] + i, to[n + 2] + i, to[n + 3] + i});
-        };
-        transpose(&Amplitudes::amplitude, k.amplitude);
-        transpose(&Amplitudes::amplitude_slope, k.amplitude_slope);
     }
 }
 
