@@ -17,6 +17,26 @@ float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
 }
 
+/// What poses amount to that are looked at one after the other.
+struct PoseSum {
+    float zero = 0;  ///< x * 0 is 0 if x is finite, else NaN
+    bool clamped = false;
+
+    void add(const Pose& pose, const Region& region) noexcept {
+        zero += pose.angle * 0.0f + pose.direction * 0.0f;
+        clamped |= std::fabs(pose.angle) > region.max_angle;
+    }
+    [[nodiscard]] PoseState state() const noexcept {
+        const bool finite = zero == 0;
+        return {.clamped = clamped && finite, .at_rest = !finite};
+    }
+};
+
+/// Sets a vector, which a 0 follows, in all lanes.
+void set_vector(float (*columns)[setup_width], const float (&vector)[4]) noexcept {
+    for (std::size_t c = 0; c < 3; ++c) std::fill_n(columns[c], setup_width, vector[c]);
+}
+
 /// Copies a matrix into lane `i`, column after column.
 void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
                     std::size_t i) noexcept {
@@ -30,17 +50,17 @@ void read_transform(const TransformColumn& transforms, std::size_t element, floa
 }  // namespace
 
 PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
-    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
-    bool clamped = false;
-    for (std::size_t r = 0; r < poses.size(); ++r) {
-        sum += poses[r].angle * 0.0f + poses[r].direction * 0.0f;
-        clamped |= std::fabs(poses[r].angle) > body.regions[r].max_angle;
-    }
-    const bool finite = sum == 0;
-    return {.clamped = clamped && finite, .at_rest = !finite};
+    PoseSum sum;
+    for (std::size_t r = 0; r < poses.size(); ++r) sum.add(poses[r], body.regions[r]);
+    return sum.state();
 }
 
-PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(body), most_(most) {
+PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept
+    : body_(body),
+      regions_(body.regions.data()),
+      details_(body.details.data()),
+      region_count_(body.regions.size()),
+      most_(most) {
     assert(most >= 1 && most <= capacity(body.regions.size()));
     // Set-up computes with unused lanes, too.
     const std::size_t read = (body.regions.size() - 1) * most + setup_width;
@@ -51,20 +71,20 @@ PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept : body_(
 
 /// Sets the frames of the first region, for all lanes.
 void PosedGroup::set_frames() noexcept {
-    for (std::size_t c = 0; c < 12; ++c)
-        std::fill_n(columns_.frame[c], setup_width,
-                    c < 9 ? body_.base.axes[c / 3][c % 3] : body_.base.origin[c - 9]);
+    const Frame frame = body_.base;  // a copy, of which nothing that is filled can be part
+    for (std::size_t axis = 0; axis < 3; ++axis) set_vector(&columns_.frame[3 * axis], frame.axes[axis]);
+    set_vector(&columns_.frame[9], frame.origin);
 }
 
 void PosedGroup::set_identities() noexcept {
-    for (std::size_t c = 0; c < 12; ++c)
-        std::fill_n(columns_.transform[c], setup_width, c % 4 == 0 && c < 9 ? 1.0f : 0.0f);
+    static constexpr float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}};
+    for (std::size_t c = 0; c < 4; ++c) set_vector(&columns_.transform[3 * c], identity[c]);
     transformed_ = false;
 }
 
 inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pose,
                                  float weight) noexcept {
-    const RegionData& details = body_.details[region];
+    const RegionData& details = details_[region];
     const bool wrinkled = details.setup.rows != nullptr && weight > 0;
     angle_[place] = pose.angle;
     direction_[place] = wrapped_direction(pose.direction);
@@ -74,15 +94,20 @@ inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Po
         take_factor(region, place, pose);
 }
 
-PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
-                          float weight) noexcept {
-    const std::size_t i = count_++, regions = body_.regions.size();
-    if (i == 0 && regions > 1) set_frames();  // set-up replaced them
-    poses = poses.first(std::min(poses.size(), regions));
-    const PoseState state = state_of(body_, poses);
-    const std::size_t posed = state.at_rest ? 0 : poses.size();
-    for (std::size_t r = 0; r < regions; ++r)
-        set_pose(r, r * most_ + i, r < posed ? poses[r] : body_.regions[r].rest, usable_weight(weight));
+inline PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms,
+                                 std::size_t element, float weight) noexcept {
+    const std::size_t i = count_++;
+    if (i == 0 && region_count_ > 1) set_frames();  // set-up replaced them
+    const float usable = usable_weight(weight);
+    poses = poses.first(std::min(poses.size(), region_count_));
+    PoseSum sum;
+    for (std::size_t r = 0; r < poses.size(); ++r) sum.add(poses[r], regions_[r]);
+    const PoseState state = sum.state();
+    if (region_count_ == 1 && !poses.empty() && !state.at_rest) {  // the usual case, without a loop
+        set_pose(0, i, poses[0], usable);
+    } else {
+        set_poses(state.at_rest ? poses.first(0) : poses, i, usable);
+    }
     if (!transforms.empty()) {
         read_transform(transforms, element, columns_.transform, i);
         transformed_ = true;
@@ -90,6 +115,12 @@ PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& tr
         set_identities();
     }
     return state;
+}
+
+/// Sets poses in lane `i`: those of regions beyond `poses` are their rest poses.
+void PosedGroup::set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept {
+    for (std::size_t r = 0; r < region_count_; ++r)
+        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : regions_[r].rest, weight);
 }
 
 PoseState PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {
@@ -102,7 +133,7 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
     const bool now = time == Time::now;
     const StridedView<Pose>& poses = now ? batch.poses : batch.previous_poses;
     const float weight = batch.wrinkle_weights.empty() ? 1.0f : batch.wrinkle_weights[element];
-    return add({poses.at(element), body_.regions.size()}, now ? batch.transforms : batch.previous_transforms,
+    return add({poses.at(element), region_count_}, now ? batch.transforms : batch.previous_transforms,
                element, weight);
 }
 

@@ -94,6 +94,7 @@ private:
     void set_identities() noexcept;
     void set_frames() noexcept;
     void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
+    void set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept;
     void take_factor(std::size_t region, std::size_t place, const Pose& pose) noexcept;
 
     static constexpr std::size_t max_poses = 160;  // as much stack as BatchRunner has left
@@ -101,6 +102,9 @@ private:
     static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 
     const BodyData& body_;
+    const Region* regions_;
+    const RegionData* details_;
+    std::size_t region_count_;
     std::size_t most_;
     std::size_t count_ = 0;
     std::size_t place_ = 0;                                   // of the region that was set up last, as are
