@@ -18,6 +18,12 @@ class Pairs(support.Case):
             row, = pairs.Comparison(("base", "head"), COUNT, threshold).judge(["case"])
         return row, [call.kwargs["swapped"] for call in measured.call_args_list if call.kwargs]
 
+    def test_it_tells_which_pair_is_measured(self):
+        told = []
+        with unittest.mock.patch.object(pairs, "measure_pair", return_value=(1.0, 1.0)):
+            pairs.Comparison(("base", "head"), 2, 0.05, told.append).judge(["case"])
+        self.assertEqual(told, ["pair 1 of 2: case", "pair 2 of 2: case"])
+
     def test_programs_take_turns_to_be_first(self):
         self.assertEqual(self.judge(1.0, 0.05)[1], [False, True] * (COUNT // 2))
 
