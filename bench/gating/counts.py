@@ -27,8 +27,8 @@ LIBRARIES = (("engine", "goffer_engine"), ("modules/bend", "goffer_bend"))
 class Work:
     """The instructions that one frame takes."""
 
-    instructions: float = 0
-    slow: float = 0  # divisions and roots
+    instructions: float
+    slow: float  # divisions and roots
 
     def minus(self, other: "Work", share: float = 1) -> "Work":
         """Less `share` of another."""

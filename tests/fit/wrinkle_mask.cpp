@@ -247,6 +247,14 @@ TEST_CASE("wrinkle mask: one everywhere is none, and nothing anywhere is the bar
     }
 }
 
+TEST_CASE("wrinkle mask: a vertex of no triangle is no reason to fail") {
+    Solid solid = very_fine_tube();
+    solid.positions.emplace_back(0.0f, 0.9f, 5.0f);
+    const std::vector<float> halves(solid.positions.size(), 0.5f);
+    const Bent bent = bent_with_normals(fit::bind(masked(solid, halves), upright()), 1);
+    CHECK(std::isfinite(bent.positions.back().x));
+}
+
 TEST_CASE("wrinkle mask: a level of detail has its own") {
     const Solid fine = very_fine_tube(), level = tube();
     const fit::Binding rig = fit::bind(fine.geometry(), upright());

@@ -97,6 +97,21 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("wrinkle range: well within it, the body wrinkles as it does without one") {
+    const Solid solid = fine_tube();
+    for (const bool shaped : {false, true}) {
+        fit::Cylinder base = upright();
+        if (shaped) base.radii = {1.1, 1.1, 1, 0.9, 0.9};
+        fit::BindOptions options;
+        options.amplitude = fit::Amplitude::paper;
+        const fit::WrinkleRange middle{0.4, 0.6};
+        const Reach whole(fit::bind(solid.geometry(), base, options), solid, middle);
+        options.wrinkle_range = {0.1, 0.9};
+        const Reach within(fit::bind(solid.geometry(), base, options), solid, middle);
+        CHECK(within.inside == doctest::Approx(whole.inside).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("wrinkle range: amplitude mesh keeps the area of what lies inside, and no more") {
     const Solid solid = fine_tube();
     fit::BindOptions options;

@@ -169,6 +169,16 @@ class Gate(support.Case):
             self.assertEqual(set(parts), {"counts", "ratios"})
             self.assertEqual(len(parts["ratios"]["rows"]), 1)
 
+    def test_update_writes_the_counts(self):
+        file = self.folder / "baseline.json"
+        head = unittest.mock.Mock(**{"compiler.return_value": "GNU 12.2.0"})
+        with unittest.mock.patch.object(command.Gate, "head", return_value=head), \
+                unittest.mock.patch.object(command.counts, "count", return_value={"allocations/run": 0.0}), \
+                contextlib.redirect_stdout(io.StringIO()) as out:
+            self.assertEqual(command.main(["--only", "counts", "--update", "--baseline", str(file)]), 0)
+        self.assertEqual(json.loads(file.read_text()), {"compiler": "GNU 12.2.0", "counts": {"allocations/run": 0.0}})
+        self.assertIn("1 counts of GNU 12.2.0", out.getvalue())
+
     def test_a_report_that_cannot_be_written(self):
         (self.folder / "file").write_text("")
         code = self.gate(self.fake("base", ONE), self.fake("head", ONE), "--json", str(self.folder / "file" / "r.json"))

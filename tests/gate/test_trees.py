@@ -55,6 +55,13 @@ class Trees(support.Case):
         self.repository.base(self.first, ["goffer_bench"])
         self.assertEqual(source.joinpath("CMakeLists.txt").stat().st_mtime_ns, time)
 
+    def test_what_an_interrupted_run_left_is_no_part_of_a_base(self):
+        left = self.repository.folder / "partial" / "left"
+        left.mkdir(parents=True)
+        tree = self.repository.base(self.first, ["goffer_bench"])
+        self.assertEqual([path.name for path in tree.build.parents[1].glob("left")], [])
+        self.assertFalse(left.exists())
+
     def test_the_head_is_the_files_as_they_are(self):
         (self.folder / "CMakeLists.txt").write_text(GOOD.replace("bin-made", "head-made"))
         tree = self.repository.head(["goffer_bench"])

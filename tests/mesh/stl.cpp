@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <limits>
 
@@ -53,6 +54,9 @@ TEST_CASE("stl: text is read facet after facet, solids are parts") {
     CHECK(mesh.faces == std::vector<std::uint32_t>{3, 3});
     CHECK(mesh.parts == std::vector<Part>{{"left part", -1, 0, 1}, {"", -1, 1, 0}, {"right", -1, 1, 1}});
     CHECK(mesh.normals.empty());
+    std::string capitals = text;
+    for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    CHECK(load_text("a.stl", capitals).positions == mesh.positions);
 }
 
 TEST_CASE("stl: binary is read, even if it says solid") {
