@@ -150,6 +150,19 @@ TEST_CASE("a body of which few poses are asked for lies as the whole does") {
     CHECK(bend::poses_along_bezier(body, control, {}).error == 0);
 }
 
+TEST_CASE("a line between two points makes a body straight, and one point is no line") {
+    Random random(96);
+    const bend::Body body = body_of_regions(random, 3);
+    const glm::vec3 ends[] = {{1, 2, 3}, {1, 2 + 2 * static_cast<float>(body.length()), 3}};
+    std::vector<bend::Pose> poses(3, {1, 1});
+    const bend::PathFit fit = bend::poses_along(body, ends, poses);
+    CHECK(fit.error < 1e-4f);
+    for (const bend::Pose& pose : poses) CHECK(std::abs(pose.angle) < 1e-4f);
+    CHECK(glm::distance(glm::normalize(fit.transform * glm::vec4(glm::vec3(body.axes()[2]), 0)), {0, 1, 0}) <
+          1e-4f);
+    CHECK(bend::poses_along(body, std::span(ends).first(1), poses).error > 1);
+}
+
 TEST_CASE("repeated points are passed over") {
     Random random(93);
     const bend::Body body = body_of_regions(random, 4);

@@ -210,6 +210,15 @@ TEST_CASE("arcs: a straight body stays straight, to the bit what RestPose::strai
     }
 }
 
+TEST_CASE("arcs: what sags by less than a twentieth of its radius is straight") {
+    std::mt19937 random(64);
+    for (const double sag : {0.02, 0.1}) {
+        const Recipe recipe{.columns = 24, .rows = 60, .closed = false};
+        const Solid solid = bent_cylinder(recipe, {8 * sag / recipe.length, 1}, random);
+        CHECK((fit_to(solid).rest_angle == 0) == (sag < 0.05));
+    }
+}
+
 TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     std::mt19937 random(64);
     const Recipe recipe{.columns = 32, .rows = 80, .length = 14, .noise = 0.01};

@@ -364,6 +364,7 @@ TEST_CASE("bind tells how far it is, and is not changed by that") {
     CHECK(shares.size() > 100);
     CHECK(shares.front() < 0.2);
     CHECK(shares.back() == 1);
+    CHECK(std::ranges::all_of(shares, [](double share) { return share >= 0 && share <= 1; }));
     CHECK(std::ranges::is_sorted(shares));
     double widest = 0;
     for (std::size_t i = 1; i < shares.size(); ++i) widest = std::max(widest, shares[i] - shares[i - 1]);

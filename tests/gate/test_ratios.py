@@ -65,6 +65,7 @@ class Ratios(support.Case):
     def test_two_programs(self):
         program = self.fake("head", PAIR, spread=0, change_after=(1, 1.6))  # 2.0 alone, 3.2 beside each other
         self.assertAlmostEqual(ratios.two_programs(program, "deform/packed/crowd/avx2/1"), 1.25)
+        self.assertEqual((self.folder / "head.runs").read_text(), "." * 3)
 
     def test_cases_that_are_not_there(self):
         part, verdicts = self.judge({"of_floor": {"deform/positions/cache/avx512/1": 0.1}}, self.fake("head"))

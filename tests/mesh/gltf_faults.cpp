@@ -109,6 +109,8 @@ TEST_CASE("gltf: what is broken is named with its place and the way out") {
         {set("/bufferViews/3/byteOffset", "18446744073709551615"),
          "bufferViews[3].byteOffset: is 18446744073709551615"},
         {set("/buffers", "[{\"byteLength\": 100000}]"), "that byteLength promises"},
+        {set("/buffers", "[{\"byteLength\": 4}, {\"byteLength\": 4}]"),
+         "buffers[1]: has neither a \"uri\" nor a GLB's BIN chunk"},
         {set("/asset/version", "\"1.0\""), "asset.version: is '1.0'; only glTF 2 can be read"},
         {set("/asset", "{}"), "asset: has no \"version\""},
         {set("/extensionsRequired", "[\"KHR_draco_mesh_compression\"]"),

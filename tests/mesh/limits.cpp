@@ -90,6 +90,27 @@ TEST_CASE("limits: faces of a PLY count, however few vertices they share") {
     CHECK(within({.memory = 4 * least}, "a.ply", bytes).empty());
 }
 
+TEST_CASE("limits: faces of an OBJ count, however few vertices they share") {
+    constexpr std::size_t faces = 20000;
+    std::string bytes = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (std::size_t f = 0; f < faces; ++f) bytes += "f 1 2 3\n";
+    // The text; of each face its size, and of each corner a vertex, a uv and a normal, read and kept.
+    const std::size_t least = bytes.size() + faces * (1 + 2 * 3 * 3) * sizeof(std::uint32_t);
+    CHECK(tells(within({.memory = least}, "a.obj", bytes), "Limits::memory"));
+    CHECK(within({.memory = 4 * least}, "a.obj", bytes).empty());
+}
+
+TEST_CASE("limits: what an attribute is read into stays while the others are read") {
+    Mesh mesh = strip(9000);
+    const std::string plain = saved(mesh, "a.glb");
+    mesh.normals.values.assign(mesh.positions.size(), {0, 0, 1});
+    mesh.tangents.values.assign(mesh.positions.size(), {1, 0, 0, 1});
+    const std::string bytes = saved(mesh, "a.glb");
+    CHECK(within({.memory = 1'200'000}, "a.glb", plain).empty());
+    CHECK(tells(within({.memory = 1'700'000}, "a.glb", bytes), "Limits::memory"));
+    CHECK(within({.memory = 2'400'000}, "a.glb", bytes).empty());
+}
+
 TEST_CASE("limits: elements that no bytes are behind count in the scene, not in each accessor") {
     Document document = tetra();
     document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1 << 20}, {"type", "VEC3"}};
@@ -118,13 +139,18 @@ TEST_CASE("limits: a mesh that is repeated, a buffer that is named again and aga
     CHECK(tells(within(small, "d.glb", repeated(document, 50).glb()), "Limits::memory"));
 
     // A node's mesh may be written for it alone: it counts again, though it is shown once.
-    const std::vector<Json> much(4000, {{"a", 0}});
+    for (const Json& much : {Json(std::vector<Json>(4000, {{"a", 0}})),
+                             Json(std::vector<Json>(6500, Json::array())), Json(std::string(300000, 'x'))}) {
+        document = tetra();
+        document.json["extras"] = much;
+        CHECK(within(small, "d.glb", document.glb()).empty());
+        document = tetra();
+        document.json["meshes"][0]["extras"] = much;
+        CHECK(tells(within(small, "d.glb", document.glb()), "Limits::memory"));
+    }
     document = tetra();
-    document.json["extras"] = much;
+    document.json["meshes"][0]["extras"] = std::string(10000, 'x');
     CHECK(within(small, "d.glb", document.glb()).empty());
-    document = tetra();
-    document.json["meshes"][0]["extras"] = much;
-    CHECK(tells(within(small, "d.glb", document.glb()), "Limits::memory"));
 
     document = tetra();
     document.json["extras"] = std::vector<Json>(50000, Json::array());

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Which mutants are tried, and what is said of them."""
 
+import argparse
 import fnmatch
+import json
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 
@@ -70,6 +73,25 @@ class Survivors(unittest.TestCase):
         for file, old, new in survivors.read(ROOT / "tests/mutate/survivors.md"):
             found = mutants(file, (ROOT / file).read_text(encoding="utf-8"))
             self.assertIn((file, old, new), {one.key for one in found})
+
+
+class Again(unittest.TestCase):
+    def test_lines_are_found_where_they_are_now(self):
+        def survived(line, old):
+            return Result("fit", Mutant("a.cpp", line, "return", old, "new"), Outcome("survived"))
+        caught = Result("fit", Mutant("a.cpp", 9, "return", "third", "new"), Outcome("caught"))
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.object(command, "ROOT", pathlib.Path(folder)), \
+                unittest.mock.patch.object(command, "progress") as told:
+            root = pathlib.Path(folder)
+            (root / "a.cpp").write_text("a line more\nfirst\nfirst\n", encoding="utf-8")
+            (root / "r.json").write_text(json.dumps(report.document(
+                [survived(1, "first"), survived(2, "second"), caught], 1)), encoding="utf-8")
+            kept, wanted = command.again(argparse.Namespace(json=root / "r.json"))
+        self.assertEqual(kept, [caught])
+        mutants_there, count = wanted["fit"]
+        self.assertEqual([(one.line, one.old) for one in mutants_there], [(2, "first")])
+        self.assertEqual(count, 1)
+        self.assertIn("no line 'second' any more", told.call_args[0][0])
 
 
 class Reports(unittest.TestCase):

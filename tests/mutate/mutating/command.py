@@ -98,7 +98,7 @@ class Run:
 
 
 def again(given: argparse.Namespace) -> tuple[list[Result], dict[str, tuple[list[Mutant], int]]]:
-    """Last time's results less what survived without a reason, and that: on the lines where it is now."""
+    """Last time's results less what survived without a reason, and that: on the lines where it is now, if it is there."""
     reasons = survivors.read(SURVIVORS)
     kept: list[Result] = []
     wanted: dict[str, tuple[list[Mutant], int]] = {}
@@ -107,10 +107,12 @@ def again(given: argparse.Namespace) -> tuple[list[Result], dict[str, tuple[list
         if one.outcome.verdict != "survived" or reason:
             kept.append(dataclasses.replace(one, reason=reason))
             continue
-        lines = (ROOT / one.mutant.file).read_text(encoding="utf-8").split("\n")
+        file = ROOT / one.mutant.file
+        lines = file.read_text(encoding="utf-8").split("\n") if file.is_file() else []
         places = [i for i, line in enumerate(lines, 1) if line == one.mutant.old]
         if not places:
-            raise Broken(f"{one.mutant.file} has no line '{one.mutant.old.strip()}' any more: run without --again")
+            progress(f"{one.mutant.file} has no line '{one.mutant.old.strip()}' any more: left out")
+            continue
         line = min(places, key=lambda place: abs(place - one.mutant.line))
         mutants, count = wanted.get(one.group, ([], 0))
         wanted[one.group] = ([*mutants, dataclasses.replace(one.mutant, line=line)], count + 1)
