@@ -8,13 +8,13 @@
 
 namespace goffer::bench {
 
-/// deform/<streams>/<cache|crowd|crowd10000x200>/<isa>/<threads>
+/// deform/<streams>/<crowd>/<isa>/<threads>
 void register_deform(Fixture& fixture);
 
 /// sweep/<streams>/<instances>x<vertices>/<isa>/<threads>, for the widest instruction set
 void register_sweep(Fixture& fixture);
 
-/// setup/<instance|batch|bounds|bounds_batch|path>
+/// setup/<what>
 void register_setup(Fixture& fixture);
 
 /// bind/<vertices>

@@ -78,7 +78,7 @@ GOFFER_API int goffer_isa_runs_here(int isa);
 #define GOFFER_MAX_REGIONS 32
 
 typedef struct goffer_pose {
-    float angle;     /* of the region's arc, at most its largest */
+    float angle;     /* of the region's arc; beyond the region's largest it is clamped */
     float direction; /* about the axis, from e1 toward e2 */
 } goffer_pose;
 

@@ -39,8 +39,7 @@ void check_options(const BindOptions& options, const Cylinder& cylinder, double 
         throw Error("onset: " + text(onset) + " is outside 0..1; give a squeeze, such as 0.001");
     check_range(options.wrinkle_range);
     check(options.profile);
-    const int most =
-        options.profile.kind == Profile::Kind::even ? 2 * BindOptions::max_folds : BindOptions::max_folds;
+    const int most = max_folds(options.profile);
     const auto check_folds = [most](std::optional<int> folds) {
         if (folds && (*folds < 0 || *folds > most))
             throw Error("folds: " + std::to_string(*folds) + " is outside 0.." + std::to_string(most));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "profile.hpp"
 #include "rest.hpp"
 
 #include <goffer/paper/shape.hpp>
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double longest = 2.5;  // radii of a fold that is too long for wrinkles
 constexpr double full = 1.5;     // radii of a fold up to which they have their depth
-constexpr int max_even_folds = 2 * BindOptions::max_folds;
 
 std::size_t knots_of(const Cylinder& cylinder, double length, const WrinkleRange& range) {
     constexpr double max_knots = 256;
@@ -98,9 +98,10 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         }
         const paper::Shape counting(length, cylinder.radius, shape);
         const double folds = std::round(counting.folds());
-        plan.folds = static_cast<int>(std::clamp<double>(folds, 1, max_even_folds));
+        const int most = max_folds(Profile::even);
+        plan.folds = static_cast<int>(std::clamp<double>(folds, 1, most));
         // A body that is too long for so many has longer ones.
-        const double longer = std::max(folds / max_even_folds, 1.0);
+        const double longer = std::max(folds / most, 1.0);
         for (std::size_t i = 0; longer > 1 && i < knots; ++i)
             shape.weight[i] =
                 std::min(shape.weight[i], fade_of(longer * shape.fold_length[i] / radii[i], in_radii));

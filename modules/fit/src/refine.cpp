@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "columns.hpp"
+#include "profile.hpp"
 #include "rest.hpp"
 #include "row_scale.hpp"
 #include "text.hpp"
@@ -246,8 +247,7 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
         sum += folds.back();
     }
     // A body has a whole number of them.
-    const double whole =
-        asked ? *asked : std::min(std::max(std::round(sum), 1.0), 2.0 * BindOptions::max_folds);
+    const double whole = asked ? *asked : std::clamp<double>(std::round(sum), 1, max_folds(Profile::even));
     for (std::size_t i = 0; i < pieces; ++i) {
         const double low = (start + static_cast<double>(i) * step) / cylinder.length;
         const double high = low + step / cylinder.length;

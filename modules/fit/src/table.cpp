@@ -34,7 +34,7 @@ void check_shape(paper::Profile profile, FoldRange folds, double length, double 
         throw Error("length: " + text(length) + " is not a positive number");
     if (!(radius > 0) || !std::isfinite(radius))
         throw Error("radius: " + text(radius) + " is not a positive number");
-    const int most = BindOptions::max_folds * 2 / profile.folds_of_length(1);
+    const int most = max_folds(profile);
     if (folds.count < 0 || folds.count > most)
         throw Error("folds: " + std::to_string(folds.count) + " is outside 0.." + std::to_string(most));
     check(profile);

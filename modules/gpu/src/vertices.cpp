@@ -38,7 +38,7 @@ VertexLayout vertex_layout(const bend::Body& body) noexcept {
         attribute = layout.stride;
         layout.stride += 4 * sizeof(float);
     };
-    if (columns.scale != nullptr || columns.rest_scale != nullptr) add(layout.shape);
+    if (columns.scale != nullptr || columns.per_rest_scale != nullptr) add(layout.shape);
     if (columns.tangent_sign != nullptr) add(layout.tangent);
     const auto blends = [](const bend::RegionInput& region) { return region.blend != 0; };
     if (std::ranges::any_of(body.region_inputs(), blends)) add(layout.joint);
@@ -58,7 +58,7 @@ void write_vertices(const bend::Body& body, std::span<std::byte> result) noexcep
             to.write({from.normal[0][i], from.normal[1][i], from.normal[2][i]});
             if (layout.shape != VertexLayout::none)
                 to.write({value_or(from.drift, i, 0), value_or(from.taper, i, 0),
-                          value_or(from.rest_scale, i, 0), value_or(from.scale, i, 1)});
+                          value_or(from.per_rest_scale, i, 0), value_or(from.scale, i, 1)});
             if (layout.tangent != VertexLayout::none)
                 to.write({from.tangent[0][i], from.tangent[1][i], from.tangent[2][i], from.tangent_sign[i]});
             if (layout.joint == VertexLayout::none) continue;

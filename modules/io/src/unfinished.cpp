@@ -39,8 +39,8 @@ struct Slot {
 };
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait");
 
-/// The only mutable state of the process in goffer: a signal handler is given nothing, must not allocate and
-/// must not wait, so that what it needs lies here, at a fixed size.
+/// State of the process, of which goffer has hardly any: a signal handler is given nothing, must not allocate
+/// and must not wait, so that what it needs lies here, at a fixed size.
 std::array<Slot, 128> slots;
 std::atomic<int> made_now{0};  // and not noted yet
 std::atomic<bool> ending{false};

@@ -79,7 +79,7 @@ void write(std::span<float> to, bool non_temporal, const From& from) noexcept {
 /// Calls `part` for all of [0, count): at once, or in ranges of whole lines for the threads to share.
 template <class Part>
 void share(std::size_t count, int threads, const Part& part) {
-    if (threads == 1) {
+    if (threads <= 1) {
         part(0, count);
         return;
     }

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <type_traits>
 
-/// The one place where goffer's libraries meet a scheduler: a loop over ranges, run by oneTBB in the caller's
-/// arena. A build without oneTBB (GOFFER_TBB=OFF) runs it on the calling thread, as one range.
+/// The one place where the engine, bend, fit and measure meet a scheduler: a loop over ranges, run by oneTBB
+/// in the caller's arena. A build without oneTBB (GOFFER_TBB=OFF) runs it on the calling thread, as one
+/// range.
 
 namespace goffer {
 

@@ -27,7 +27,7 @@ RestColumns columns_at(const float* first, std::size_t stride, const ColumnLayou
     columns.sin_beta = at(rest + sin_beta);
     columns.rest_cosine = at(rest + rest_cosine);
     columns.rest_sine = at(rest + rest_sine);
-    columns.rest_scale = at(rest + rest_scale);
+    columns.per_rest_scale = at(rest + per_rest_scale);
     return columns;
 }
 

@@ -26,7 +26,14 @@ enum Column : std::size_t {
     all_columns
 };
 enum ShapeColumn : std::size_t { scale, drift, taper, all_shape_columns };
-enum RestColumn : std::size_t { cos_beta, sin_beta, rest_cosine, rest_sine, rest_scale, all_rest_columns };
+enum RestColumn : std::size_t {
+    cos_beta,
+    sin_beta,
+    rest_cosine,
+    rest_sine,
+    per_rest_scale,
+    all_rest_columns
+};
 
 /// Which columns a body has beside those that all have, and where they begin.
 struct ColumnLayout {

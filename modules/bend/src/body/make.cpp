@@ -81,7 +81,7 @@ void write_rest_columns(Columns& storage, std::size_t column, const Making& maki
         storage[column + sin_beta][i] = static_cast<float>(sine);
         storage[column + rest_cosine][i] = static_cast<float>(cosine * per_scale);
         storage[column + rest_sine][i] = static_cast<float>(sine * per_scale);
-        storage[column + rest_scale][i] = static_cast<float>(per_scale);
+        storage[column + per_rest_scale][i] = static_cast<float>(per_scale);
     }
 }
 

@@ -14,8 +14,8 @@ struct TablePlace {
     float weight;
 };
 
-/// The place of `angle` in a table of `rows` >= 1. Both may hold anything: an angle that is not finite, or a
-/// table without a largest angle, gives the first row.
+/// The place of `angle` in a table of `rows` >= 1. Both may hold anything: an angle that is not finite
+/// gives the first row, and one above 0 the last row of a table without a largest angle.
 TablePlace place_of(float angle, float max_angle, std::size_t rows) noexcept {
     const float fraction = std::isfinite(angle) ? angle / max_angle : 0.0f;
     const float within = fraction > 0 ? std::min(fraction, 1.0f) : 0.0f;

@@ -168,7 +168,7 @@ private:
         const bool compares = compares_with_rest(region_);
         double factor = std::sqrt(low.scale), least_rest_scale = 1;
         if (rest != nullptr) {
-            least_rest_scale = low.scale / static_cast<double>(rest[rest_scale].high());
+            least_rest_scale = low.scale / static_cast<double>(rest[per_rest_scale].high());
             if (compares) factor = least_rest_scale;
         }
         const double offset = plain[radial_offset].largest(), most_taper = Range::max_taper / region_.length;
@@ -198,7 +198,7 @@ private:
         float beyond = 0;  // the largest distance beyond what rounding explains
         for (std::size_t i = first; i < last; ++i) {
             const float s = c.scale != nullptr ? c.scale[i] : 1, cosine = c.cos_beta[i], sine = c.sin_beta[i];
-            const float rest = 1 - s * (outline + toward * cosine + aside * sine), per = c.rest_scale[i];
+            const float rest = 1 - s * (outline + toward * cosine + aside * sine), per = c.per_rest_scale[i];
             const float half = c.cos_half_beta[i];
             const float angle =
                 std::max(std::fabs(half * half - 1 - cosine), std::fabs(half * c.sin_half_beta[i] - sine));
@@ -227,8 +227,9 @@ bool bears_offsets(const RestColumns& columns, const RegionInput& region, const 
     for (std::size_t i = joint.first; i < joint.last; ++i) {
         if (!joint.nears(columns.height[i])) continue;
         const double scale = columns.scale != nullptr ? static_cast<double>(columns.scale[i]) : 1;
-        const double factor = compares_with_rest(region) ? scale / static_cast<double>(columns.rest_scale[i])
-                                                         : std::sqrt(scale);
+        const double factor = compares_with_rest(region)
+                                  ? scale / static_cast<double>(columns.per_rest_scale[i])
+                                  : std::sqrt(scale);
         most = std::max(most, std::fabs(static_cast<double>(columns.radial_offset[i])) / factor);
     }
     return bears_offset(joint.blend, most * (1 - 4 * rounding), depth);

@@ -195,7 +195,8 @@ private:
             const std::int32_t material = records[i].material;
             if (!name) return no_such(FileSection::parts, i);
             if (material < -1 || material >= materials) return no_such(FileSection::parts, i);
-            if (records[i].first_triangle != next) return {FileReason::layout, FileSection::parts};
+            if (records[i].first_triangle != next)
+                return {FileReason::layout, FileSection::parts, BodyFileFault::nowhere, i};
             next += records[i].triangle_count;
             parts.push_back({*name, records[i].first_triangle, records[i].triangle_count, material});
         }

@@ -42,7 +42,7 @@ typename L::Vec first_lanes(typename L::Vec value, std::size_t count) {
 template <class L, Squeeze squeeze, bool directions, class K>
 void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i) {
     if constexpr (squeeze == Squeeze::relative) {
-        set_relative_wrinkle<L, directions>(load_rest_scale<L>(rest, i), k, b);
+        set_relative_wrinkle<L, directions>(load_rest_terms<L>(rest, i), k, b);
     } else {
         set_plain_column<L, squeeze, directions>(rest, k, load_scale<L, squeeze>(rest, i), b, i);
     }
@@ -52,14 +52,14 @@ void set_wrinkle(const RestColumns& rest, const K& k, Bent<L>& b, std::size_t i)
 /// S_0 of the region itself, and so is the amplitude: `ratio` takes one S_0 to the other. Columns that have
 /// no share of it are 0, and have the ratio 1.
 template <class L, bool directions, class K>
-void set_relative_wrinkle_beyond(RestScale<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
+void set_relative_wrinkle_beyond(RestTerms<L> at, const K& k, const JointBlend& joint, Bent<L>& b) {
     using Vec = typename L::Vec;
     const Vec one = L::splat(1.0f);
-    const Vec more =
-        L::madd(L::splat(joint.rest_curl[1]), at.sine,
-                L::madd(L::splat(joint.rest_curl[0]), at.cosine, L::splat(joint.rest_kappa) * at.scale));
+    const Vec more = L::madd(
+        L::splat(joint.rest_curl[1]), at.sine,
+        L::madd(L::splat(joint.rest_curl[0]), at.cosine, L::splat(joint.rest_kappa) * at.per_rest_scale));
     const Vec ratio = one + more, inverse = L::reciprocal(ratio);  // more than 0.01: see Body::check
-    at = {at.cosine * inverse, at.sine * inverse, at.scale * inverse};
+    at = {at.cosine * inverse, at.sine * inverse, at.per_rest_scale * inverse};
     set_relative_wrinkle<L, directions>(at, k, b);
     if constexpr (directions) {
         b.less_by_scale = L::madd(b.amplitude, more, b.less_by_scale);
@@ -78,8 +78,8 @@ void set_neighbor_wrinkle(const RestColumns& rest, const K& k, const JointBlend&
         return L::where_less(zero, share, value, zero);
     };
     if constexpr (squeeze == Squeeze::relative) {
-        const auto [cosine, sine, scale] = load_rest_scale<L>(rest, i);
-        const RestScale<L> at = {if_near(cosine), if_near(sine), if_near(scale)};
+        const auto [cosine, sine, scale] = load_rest_terms<L>(rest, i);
+        const RestTerms<L> at = {if_near(cosine), if_near(sine), if_near(scale)};
         set_relative_wrinkle_beyond<L, directions>(at, k, joint, b);
     } else {
         set_plain_column<L, squeeze, directions>(rest, k, if_near(load_scale<L, squeeze>(rest, i)), b, i);

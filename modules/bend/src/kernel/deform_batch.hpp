@@ -97,26 +97,26 @@ void set_plain_column(const Rest& rest, const K& k, typename L::Vec scale, Bent<
     }
 }
 
-/// The columns rest_cosine, rest_sine and rest_scale.
+/// The columns rest_cosine, rest_sine and per_rest_scale.
 template <class L>
-struct RestScale {
-    typename L::Vec cosine, sine, scale;
+struct RestTerms {
+    typename L::Vec cosine, sine, per_rest_scale;
 };
 
 template <class L, class Rest>
-RestScale<L> load_rest_scale(const Rest& rest, std::size_t i) {
-    return {L::load(rest.rest_cosine + i), L::load(rest.rest_sine + i), L::load(rest.rest_scale + i)};
+RestTerms<L> load_rest_terms(const Rest& rest, std::size_t i) {
+    return {L::load(rest.rest_cosine + i), L::load(rest.rest_sine + i), L::load(rest.per_rest_scale + i)};
 }
 
 /// Sets the wrinkle of columns whose squeeze is relative to that at rest.
 template <class L, bool slope, class K>
-void set_relative_wrinkle(const RestScale<L>& rest, const K& k, Bent<L>& b) {
+void set_relative_wrinkle(const RestTerms<L>& rest, const K& k, Bent<L>& b) {
     using Vec = typename L::Vec;
-    const auto& [rest_cosine, rest_sine, rest_scale] = rest;
+    const auto& [rest_cosine, rest_sine, per_rest_scale] = rest;
     const Vec zero = L::splat(0.0f);
     const Vec q = L::max(
         L::madd(L::splat(k.curl_change[1]), rest_sine,
-                L::madd(L::splat(k.curl_change[0]), rest_cosine, L::splat(k.kappa_change) * rest_scale)),
+                L::madd(L::splat(k.curl_change[0]), rest_cosine, L::splat(k.kappa_change) * per_rest_scale)),
         zero);
     const Vec per_root = L::rsqrt(q + L::splat(k.onset));
     const Vec root = q * per_root;
@@ -142,7 +142,7 @@ void set_relative_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i
                                          k.cos_direction, k.sin_direction);
     b.c = turn.cosine;
     b.s = turn.sine;
-    set_relative_wrinkle<L, slope>(load_rest_scale<L>(rest, i), k, b);
+    set_relative_wrinkle<L, slope>(load_rest_terms<L>(rest, i), k, b);
 }
 
 /// Computes what depends on the column of a vertex. `slope`: normals or tangents are wanted.

@@ -100,7 +100,7 @@ public:
     using RestColumns::cos_beta, RestColumns::sin_beta, RestColumns::cos_half_beta,
         RestColumns::sin_half_beta;
     using RestColumns::height, RestColumns::tangent_sign, RestColumns::scale, RestColumns::drift;
-    using RestColumns::rest_cosine, RestColumns::rest_sine, RestColumns::rest_scale;
+    using RestColumns::rest_cosine, RestColumns::rest_sine, RestColumns::per_rest_scale;
 
     const WrinkledLanes<L>& of;
     LaneColumn<L> rho = {of.rho};

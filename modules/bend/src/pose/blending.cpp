@@ -26,7 +26,7 @@ void Blending::set_columns(const RestColumns& rest, StreamSet streams, std::size
     columns_.sin_beta = behind(rest.sin_beta);
     columns_.rest_cosine = behind(rest.rest_cosine);
     columns_.rest_sine = behind(rest.rest_sine);
-    columns_.rest_scale = behind(rest.rest_scale);
+    columns_.per_rest_scale = behind(rest.per_rest_scale);
     if (streams == StreamSet::positions) return;
     for (std::size_t c = 0; c < 3; ++c) {
         columns_.normal[c] = blended_.normal[c];

@@ -68,7 +68,8 @@ public:
     [[nodiscard]] glm::dvec3 origin() const noexcept;
     /// Columns e1, e2, e3 of the body frame, in model space. Include glm/mat3x3.hpp to call this.
     [[nodiscard]] glm::dmat3 axes() const noexcept;
-    /// Bytes of memory that the body takes, itself included. Columns that lie in a body file do not count.
+    /// Bytes of memory that the body takes, itself included. Columns that lie in a body file do not count,
+    /// nor the bytes of the file that it keeps: see BodyFile.
     [[nodiscard]] std::size_t bytes() const noexcept;
     /// For goffer's own sources; null if the body is empty.
     [[nodiscard]] const BodyData* data() const noexcept { return data_; }

@@ -31,7 +31,7 @@
 
 namespace goffer::bend {
 
-/// The version that save() writes. load() also takes all older ones.
+/// The version that save() writes. load() takes it and version 1.
 inline constexpr std::uint32_t body_file_version = 2;
 
 /// The most levels of detail that a file can have.
@@ -92,7 +92,8 @@ struct BodyFileLevel {
 };
 
 /// What a file holds; move-only. Spans and names refer to its bytes, and are good for as long as this object.
-/// Its bodies may be moved out of it, and outlive it.
+/// Its bodies may be moved out of it, and outlive it; one that was loaded by load_file() or load_copy() keeps
+/// all bytes of the file.
 struct BodyFile {
     std::vector<BodyFileLevel> levels;  ///< from fine to coarse, at least one
     std::vector<DrawMaterial> materials;

@@ -42,14 +42,15 @@ enum class FileReason : std::uint8_t {
     too_long,         ///< has more bytes than it says
     alignment,        ///< lies at no multiple of 64 bytes in memory: load_copy() takes it
     checksum,         ///< some byte is not what was written
-    layout,           ///< a section does not lie where it must, or has bytes that must be 0 and are not
-    count,            ///< a section has too few entries, too many, or not as many as another one
-    number,           ///< a number is not finite, or out of its range
-    index,            ///< an entry refers to what is not there
-    rig,              ///< a level does not have the regions, tables or frame of the first one
-    empty,            ///< a level has no body
-    missing,          ///< load_file() finds no file of that name
-    unreadable,       ///< load_file() cannot open or read it
+    /// A section or a part does not lie where it must, or a flag or a byte has a value that it cannot have.
+    layout,
+    count,       ///< a section has too few entries, too many, or not as many as another one
+    number,      ///< a number is not finite, or out of its range
+    index,       ///< an entry refers to what is not there
+    rig,         ///< a level does not have the regions, tables or frame of the first one
+    empty,       ///< a level has no body
+    missing,     ///< load_file() finds no file of that name
+    unreadable,  ///< load_file() cannot open or read it
 };
 
 /// The first fault of a file. A plain value; a default-made one is none.

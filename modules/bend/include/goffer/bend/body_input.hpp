@@ -17,13 +17,13 @@ namespace goffer::bend {
 /// What a body is made from. Body::make copies what the spans refer to.
 struct BodyInput {
     glm::dvec3 origin{0};  ///< center of the base end, model space
-    glm::dmat3 axes{1};    ///< columns e1, e2, e3 of the body frame, orthonormal, right-handed
+    glm::dmat3 axes{1};    ///< e1, e2, e3 of the body frame, orthonormal to 1e-6, right-handed
     double radius = 0;     ///< r > 0, model units
     std::span<const RegionInput> regions;  ///< from base to tip, 1..max_regions
     /// At least one; all of a region's, then all of the next one's. See RegionInput::blend.
     std::span<const RestVertex> vertices;
-    std::span<const RestVector> normals;   ///< one per vertex, of unit length
-    std::span<const RestVector> tangents;  ///< none, or one per vertex, of unit length
+    std::span<const RestVector> normals;   ///< one per vertex, of unit length: squares within 1e-3 of 1
+    std::span<const RestVector> tangents;  ///< none, or one per vertex, likewise
     std::span<const float> tangent_signs;  ///< as many as tangents: w, the bitangent's sign
 };
 

@@ -131,8 +131,8 @@ enum class Stores : std::uint8_t {
     non_temporal,
 };
 
-/// Bytes of output from which on Stores::automatic means non_temporal. A fixed number: the size of the caches
-/// is not looked up.
+/// Bytes of streams, gaps not counted, from which on Stores::automatic means non_temporal. A fixed number:
+/// the size of the caches is not looked up.
 inline constexpr std::size_t non_temporal_threshold = std::size_t{16} << 20;
 
 /// A crowd. A plain value; everything that it points to is the caller's and must outlive the run.
@@ -146,8 +146,8 @@ struct CrowdJob {
 /// Finds the first fault of `job`. Looks at every instance, whatever its masks say, and at every index and
 /// vertex offset: a job that validated once stays in bounds in later frames, whatever their masks, frame
 /// numbers, weights, transforms and poses. Does not find out whether instances overlap that vertex_offsets
-/// place, whether two batches write to the same memory, or whether an input shares bytes with an output; nor
-/// does it look at where the pages of a column lie. Does not allocate. Thread-safe.
+/// place, whether two batches write to the same memory, or whether an input shares bytes with an output.
+/// Of the pages of a column it finds only those that are null or not aligned. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const CrowdJob& job) noexcept;
 
 /// What a run did.
@@ -168,7 +168,8 @@ struct CrowdResult {
 
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
-/// taken as at rest, and transforms that are not give positions that are not. Does not allocate or log,
+/// taken as at rest, weights beyond 0..1 as the nearer of these and NaN as 0, and transforms that are not
+/// finite give positions that are not. Does not allocate or log,
 /// nor lock but in the first run of a process; takes up to 64 KB of stack. Thread-safe where outputs do not
 /// overlap.
 ///

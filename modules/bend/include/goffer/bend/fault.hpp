@@ -37,15 +37,17 @@ enum class Field : std::uint8_t {
 /// What is wrong with it. Shared with BodyFault.
 enum class Reason : std::uint8_t {
     none,
-    null,           ///< a body or poses not given; a component of a stream null, though others are not
-    empty,          ///< a body moved from or never made; nothing to write; no vertices; no regions
-    not_finite,     ///< a NaN or an infinity
-    too_large,      ///< a transform with a number beyond 1e18
-    out_of_range,   ///< outside 0..1 (a weight), WorkingRange (a body's number) or its column (an index)
+    null,        ///< a body or poses not given; a component of a stream null, though others are not; a page
+    empty,       ///< a body moved from or never made; nothing to write; no vertices; no regions
+    not_finite,  ///< a NaN or an infinity
+    too_large,   ///< a transform with a number beyond 1e18
+    /// Outside 0..1 (a weight), WorkingRange (a body's number), its column (an index) or a stream (a vertex
+    /// offset), or a value that a layout or a page's size does not have.
+    out_of_range,
     count,          ///< not as many as there are regions, instances or vertices
     too_short,      ///< a stream that ends before the last vertex
     stride,         ///< no multiple of 4, or less than one vertex takes; of a column, less than is read
-    alignment,      ///< not aligned to its type
+    alignment,      ///< not aligned to its type, or a stride that is no multiple of that
     overlap,        ///< two streams or instances may write to the same bytes
     not_supported,  ///< tangents of a body without any; an instruction set that cannot run here
 };

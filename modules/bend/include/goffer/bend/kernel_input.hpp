@@ -9,25 +9,25 @@
 
 /// What the kernels read: the columns of a body, and the coefficients of an instance. For those who evaluate
 /// the map elsewhere, as goffer/gpu does in shaders: what a vertex becomes is a function of these numbers.
-/// Their meaning may change with any minor version, and that of a body file's columns with it.
+/// Their meaning may change with any minor version, and the version of body files with it.
 
 namespace goffer::bend {
 
 class Body;
 struct Batch;
 
-/// The columns of a body, one value per vertex, as plain pointers. S is the scale of a vertex's column at
+/// The columns of a body, one value per vertex, as plain pointers. S_0 is the scale of a vertex's column at
 /// rest, s the radius about the vertex over that of its region. In regions with neither a rest arc nor an
-/// onset, sqrt(s) stands for S in the first columns, and 1 in the last three. For g and w see
+/// onset, sqrt(s) stands for S_0 in the first columns, and 1 in the last three. For g and w see
 /// modules/paper/README.md, "Wrinkle", for s and D "Shaped bodies".
 struct RestColumns {
     const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
     const float* sin_half_beta = nullptr;  ///< sqrt(2) sin(beta / 2)
     const float* rho = nullptr;
-    const float* radial_offset = nullptr;  ///< g w S: rho' = rho + amplitude * radial_offset
+    const float* radial_offset = nullptr;  ///< g w S_0: rho' = rho + amplitude * radial_offset
     const float* height = nullptr;         ///< z / L - 1/2, of its region
-    const float* wrinkle = nullptr;        ///< g w S / rho
-    const float* slope = nullptr;          ///< d(g w S) / dz; without relative squeezes sqrt(s) d(g w) / dz
+    const float* wrinkle = nullptr;        ///< g w S_0 / rho
+    const float* slope = nullptr;          ///< d(g w S_0) / dz; without relative squeezes sqrt(s) d(g w) / dz
     const float* normal[3] = {};           ///< along e_rho, e_beta, e_z
     const float* tangent[3] = {};          ///< likewise; null if the body has no tangents, as is tangent_sign
     const float* tangent_sign = nullptr;
@@ -39,9 +39,9 @@ struct RestColumns {
     /// These five are null unless a region of the body has a rest arc or an onset.
     const float* cos_beta = nullptr;
     const float* sin_beta = nullptr;
-    const float* rest_cosine = nullptr;  ///< s cos(beta) / S
-    const float* rest_sine = nullptr;    ///< s sin(beta) / S
-    const float* rest_scale = nullptr;   ///< s / S
+    const float* rest_cosine = nullptr;     ///< s cos(beta) / S_0
+    const float* rest_sine = nullptr;       ///< s sin(beta) / S_0
+    const float* per_rest_scale = nullptr;  ///< s / S_0
 };
 
 inline constexpr std::size_t amplitude_terms = wrinkle_degree + 1;

@@ -31,21 +31,23 @@ struct RegionInput {
     /// How far on both sides of the joint with the next region the wrinkles of both pass into each other,
     /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
     /// table; their radii are within a factor of 1000; either both or neither have an onset or a rest arc;
-    /// they share a rest arc, or each of them is bent at rest by WorkingRange::max_joint_rest at most; and
-    /// the blend is from 1e-5 of the longer region to what both have room for. Among a region's vertices,
+    /// they share a rest arc, or each of them is bent at rest by WorkingRange::max_joint_rest at most; the
+    /// blend is from 1e-5 of the longer region to what both have room for; and wrinkles pass into each other
+    /// no more steeply, and with the gain are no deeper, than WorkingRange allows. Among a region's vertices,
     /// those within that distance of the joint below come before those of the joint above, and none is
     /// thicker than the region beyond may be: scale times the own radius over that one's is at most 1.01
     /// times its max_scale. Kernels are fastest if the former come first of all and the latter last.
     double blend = 0;
-    /// The wave g of the next region over that of this one at the joint. Used with a blend.
+    /// The wave g of the next region over that of this one at the joint. Used with a blend, and finite
+    /// without.
     double blend_gain = 1;
 
     [[nodiscard]] bool operator==(const RegionInput&) const = default;
 };
 
-/// Whether two regions of a body are straight at rest, or bent along one arc: with curvatures and directions
-/// that differ by 1e-6 at most, and of one radius. `radius`: of the body, model units. Does not allocate.
-/// Thread-safe.
+/// Whether two regions of a body are straight at rest, or bent along one arc: with curvatures that differ by
+/// 1e-6 of the first one's at most, directions that differ by 1e-6 radians, and the same radius. `radius`: of
+/// the body, model units. Does not allocate. Thread-safe.
 [[nodiscard]] bool share_rest_arc(const RegionInput& a, const RegionInput& b, double radius) noexcept;
 
 /// A region of a body. A plain value.

@@ -71,12 +71,13 @@ struct Binding {
 /// Normals and tangents are taken from the geometry, at unit length. Normals that it does not have, or that
 /// have no length, are made (make_normals); a tangent without length becomes a direction orthogonal to the
 /// normal. A vertex that no triangle uses is bound at the nearer end where it lies beyond one, and 1000
-/// radii from the axis where it is farther away: at rest it is not where it was.
+/// radii from the axis where it is farther away; on a chain of arcs, one that lies beyond an end by more than
+/// 5e-4 of the length of the arc there is bound so far beyond it. At rest these are not where they were.
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside
-/// bend::WorkingRange, regions are given beside a cylinder's arcs, or Amplitude::area is asked for a body
-/// that is bent at rest or has an onset or a wrinkle_range (use Amplitude::mesh).
+/// bend::WorkingRange, regions are given beside a cylinder's arcs, but not one for each, or Amplitude::area
+/// is asked for a body that is bent at rest or has an onset or a wrinkle_range (use Amplitude::mesh).
 ///
 /// Takes time for each vertex and, independently of these, for each region's table. Amplitude::mesh deforms
 /// each vertex some 500 times, in parallel in the caller's oneTBB arena; all else runs on the calling thread.

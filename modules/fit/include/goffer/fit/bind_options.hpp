@@ -51,8 +51,8 @@ struct BindOptions {
     /// than the mesh has vertices for are allowed. Unset: folds of fold_length. With Profile::even folds are
     /// longer where the mesh has fewer rows than 8 for one, or where the region is too long for so many. They
     /// fade where that makes them 1.5 to 2.5 radii long, or up to a radius longer than a fold_length
-    /// above 1.5. Otherwise sensible_folds() of each region, with a capacity of at most max_folds: with the
-    /// default fold_length none where a region is longer than 2048 radii.
+    /// above 1.5. With other profiles, sensible_folds() of each region, with a capacity of at most max_folds:
+    /// with the default fold_length none where a region is longer than 2048 radii.
     std::optional<int> folds = {};
     /// Length of a fold, in radii of the body where it stands, 1e-40..1e40. Depth goes with it: half as long,
     /// half as deep. Has no effect where folds are given. Unset: default_fold_length(); with Profile::even a

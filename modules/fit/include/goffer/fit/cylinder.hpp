@@ -54,7 +54,8 @@ enum class RestPose {
     chain       ///< as automatic, or a chain of arcs where that fits clearly better
 };
 
-/// The most arcs that a chain is fitted of. One that turns by more than half a turn counts as two.
+/// The most arcs that a chain is fitted of. One that turns by more than half a turn is then cut in two, so
+/// that a chain may have more.
 inline constexpr std::size_t max_arcs = 12;
 
 /// An Error of fit_cylinder() that another axis mends, or one at all where none is given.
@@ -93,10 +94,11 @@ public:
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
-/// Throws Error as check(geometry) does, and if an axis is zero or not finite, no triangle has an area, or
-/// the body does not follow a chain of `arcs`. Throws AxisError if no axis is given and the mesh has no long
-/// one, nor a chain if it may have one; if it has no surface around the axis or no extent along it; or if the
-/// body is too thin for float at its coordinates. Thread-safe.
+/// Throws Error as check(geometry) does, and if an axis is zero or not finite, no triangle has an area,
+/// `arcs` is given without RestPose::chain or is outside 2..bend::max_regions, or the body does not follow a
+/// chain of `arcs`. Throws AxisError if no axis is given and the mesh has no long one, nor a chain if it may
+/// have one; if it has no surface around the axis or no extent along it; or if the body is too thin for float
+/// at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     RestPose rest = RestPose::automatic, std::size_t arcs = 0);
 

@@ -85,7 +85,8 @@ public:
 
 /// Limits of a refinement, and who hears how far it is.
 struct RefineOptions {
-    /// Limit for the refined mesh. Rows beyond it are a SizeError; columns beyond it are left out.
+    /// Limit for the refined mesh. Rows beyond it are a SizeError; if columns would exceed it, there are
+    /// none.
     std::size_t max_triangles = 50'000'000;
     /// Called with the share that is done, from about 0 to nearly 1, ascending, a few hundred times at most,
     /// from the calling thread; it must not throw. Empty: nobody is told.

@@ -14,8 +14,9 @@ namespace goffer::fit {
 /// Returns the socket at height `z` above the base (0..the cylinder's length, model units, along the rest arc
 /// where there is one), direction `beta` (radians about the axis, from e1 toward e2) and distance `rho` from
 /// the axis (model units). In its frame at rest the third axis points outward, the first one along the body
-/// toward the tip. It follows the wrinkle in full, as where a mesh has no mask. Throws Error if z is beyond
-/// the ends, rho is negative, or one of the three is not finite. Thread-safe.
+/// toward the tip. It follows the wrinkle as the part of the body there does (Binding::parts), without a
+/// mask. Throws Error if z is beyond the ends, rho is negative, or one of the three is not finite.
+/// Thread-safe.
 [[nodiscard]] bend::Socket socket_at(const Binding& binding, double z, double beta, double rho);
 
 /// Returns the socket at the point of the mesh's surface that is nearest to `point` (model space, at rest).

@@ -35,13 +35,15 @@ struct Suitability {
 
 /// Why a region has fewer folds than were asked for or, where no number was, than suit it.
 enum class FoldShortage {
-    /// It has enough: a half of those that suit it keep their depth.
+    /// It has enough: a half of those that suit it keep their depth. Or none suit it: with other profiles
+    /// than
+    /// even, where it is longer than 2048 radii.
     none,
     /// The mesh's rows of vertices are too far apart; folds that were asked for are made all the same.
     rows,
     /// What BindOptions::wrinkle_range leaves of it is too short for folds, or its rows are too far apart.
     range,
-    /// It is so long that the most folds there may be are too long to wrinkle.
+    /// With Profile::even: it is so long that the most folds there may be are too long to wrinkle.
     length,
 };
 

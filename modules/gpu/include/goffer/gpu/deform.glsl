@@ -68,10 +68,10 @@ GofferWrinkle goffer_wrinkle(GofferVertex vertex, int row, float radius_ratio, f
     vec4 change = goffer_row(row + 16);
     if (change.z > 0.0f) {  // relative to the rest arc
         vec4 rest = goffer_row(row + 15);
-        float rest_scale = vertex.shape.z / rest_ratio;
-        float rest_cosine = rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
-        float rest_sine = rest_scale * vertex.column.x * vertex.column.y;
-        float q = radius_ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * rest_scale, 0.0f);
+        float per_rest_scale = vertex.shape.z / rest_ratio;
+        float rest_cosine = per_rest_scale * (vertex.column.x * vertex.column.x - 1.0f);
+        float rest_sine = per_rest_scale * vertex.column.x * vertex.column.y;
+        float q = radius_ratio * max(change.x * rest_cosine + change.y * rest_sine + change.w * per_rest_scale, 0.0f);
         float per_root = inversesqrt(q + change.z);
         float root = q * per_root;
         float x = root * root;

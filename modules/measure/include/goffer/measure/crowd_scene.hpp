@@ -26,7 +26,7 @@ struct CrowdGroup {
 /// Move-only; for one thread at a time.
 class CrowdScene {
 public:
-    /// `memory` has layout.memory_floats(vertex_count(groups)) floats, or more, and outlives the scene, as
+    /// `memory` has layout.memory_floats(vertex_count(groups)) floats, no more, and outlives the scene, as
     /// what batches() are given later does.
     CrowdScene(const std::vector<CrowdGroup>& groups, const StreamLayout& layout, std::span<float> memory);
     CrowdScene(CrowdScene&&) = default;
@@ -56,7 +56,7 @@ public:
     [[nodiscard]] bend::DeformJob instance(std::size_t index) const noexcept;
 
     [[nodiscard]] std::size_t vertices() const noexcept { return vertices_; }
-    /// Bytes that a frame writes, where instances have no vertices between them.
+    /// Bytes of the streams that a frame writes, without gaps, where instances have no vertices between them.
     [[nodiscard]] std::size_t bytes() const noexcept { return vertices_ * layout_.floats * sizeof(float); }
     /// 64 bits of all vertices, plane after plane or record after record.
     [[nodiscard]] std::uint64_t hash() const noexcept;

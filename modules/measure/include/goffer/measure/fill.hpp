@@ -21,7 +21,8 @@ void fill(std::span<float> to, float seed, bool non_temporal) noexcept;
 /// allocate. Thread-safe where ranges that are written overlap no others.
 void copy(std::span<const float> from, std::span<float> to, bool non_temporal) noexcept;
 
-/// The same, with oneTBB where `threads` > 1: in the caller's arena, which should be of so many.
+/// The same, with oneTBB where `threads` > 1: in the caller's arena, which should be of so many. On the
+/// calling thread where it is less.
 void fill(std::span<float> to, float seed, bool non_temporal, int threads);
 void copy(std::span<const float> from, std::span<float> to, bool non_temporal, int threads);
 
