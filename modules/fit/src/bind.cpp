@@ -213,11 +213,42 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
     }
 }
 
+/// The parts of the body, with what they bear of its wrinkles; null where all bear all.
+std::shared_ptr<Parts> parts_of(const Geometry& geometry, const Cylinder& cylinder,
+                                const BindOptions& options, std::span<const RestRegion> places) {
+    const bool wrinkles =
+        std::ranges::any_of(places, [](const RestRegion& region) { return region.folds.count > 0; });
+    if (!wrinkles || options.profile.kind != Profile::Kind::even || options.shape != ShapeMode::automatic ||
+        options.amplitude == Amplitude::area || !chooses_folds(options))
+        return nullptr;
+    auto parts = std::make_shared<Parts>(geometry, cylinder);
+    weigh(*parts, cylinder, places, options.profile);
+    return parts;
+}
+
+/// Solves the factors with which `body`, made from `draft`, keeps the area of what may wrinkle, and lowers
+/// the largest angles where wrinkles become deeper by them.
+void keep_area(const bend::Body& body, const Geometry& geometry, const Cylinder& cylinder,
+               const WrinkleRange& range, Draft& draft, const Share& share) {
+    Geometry wrinkled = geometry;
+    wrinkled.wrinkle_mask = {};  // wrinkles are those that there would be without it
+    std::vector<std::uint32_t> triangles;
+    if (!range.whole()) {
+        triangles = triangles_within(wrinkled, cylinder, range);
+        wrinkled.triangles = triangles;
+    }
+    auto& [mesh, plans, regions] = draft;
+    solve_factors(body, wrinkled, mesh.order, regions, share);
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        regions[i].max_angle =
+            std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
+}
+
 /// What bind() tells BindOptions::progress: its parts, and how much of the time each takes of a large mesh.
-struct BindParts {
+struct BindShares {
     Share draft, weights, weighted_draft, factors;
 
-    BindParts(const std::function<void(double)>& listener, Amplitude amplitude)
+    BindShares(const std::function<void(double)>& listener, Amplitude amplitude)
         : draft(listener, 0, amplitude == Amplitude::mesh ? 0.15 : 1),
           weights(listener, 0.15, 0.35),
           weighted_draft(listener, 0.35, 0.45),
@@ -261,47 +292,24 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
 
     std::vector<RestRegion> places;
     std::vector<RegionBinding> found = plan(geometry, cylinder, options, onset, places);
-    const bool even = options.profile.kind == Profile::Kind::even;
-    std::shared_ptr<Parts> parts_found;
-    const bool wrinkles =
-        std::ranges::any_of(places, [](const RestRegion& region) { return region.folds.count > 0; });
-    if (even && wrinkles && options.shape == ShapeMode::automatic && options.amplitude != Amplitude::area &&
-        chooses_folds(options)) {
-        parts_found = std::make_shared<Parts>(geometry, cylinder);
-        weigh(*parts_found, cylinder, places, options.profile);
-    }
-    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places, parts_found.get());
+    std::shared_ptr<Parts> parts = parts_of(geometry, cylinder, options, places);
+    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places, parts.get());
     bend::Body body = make(cylinder, draft->regions, draft->mesh);
-    const BindParts parts(options.progress, options.amplitude);
-    parts.draft.tell(1, 1);
-    if (options.amplitude == paper::Amplitude::mesh) {
-        if (even) {
-            weigh_slices(body, geometry, options, draft->mesh, places, found, parts.weights);
-            if (parts_found) weigh(*parts_found, cylinder, places, options.profile);
-            draft.emplace(geometry, cylinder, options, onset, places, parts_found.get());
-            body = make(cylinder, draft->regions, draft->mesh);
-            parts.weighted_draft.tell(1, 1);
-        }
-        auto& [mesh, plans, regions] = *draft;
-        Geometry wrinkled = geometry;  // what is to keep its area
-        wrinkled.wrinkle_mask = {};
-        std::vector<std::uint32_t> triangles;
-        if (!options.wrinkle_range.whole()) {
-            triangles = triangles_within(wrinkled, cylinder, options.wrinkle_range);
-            wrinkled.triangles = triangles;
-        }
-        solve_factors(body, wrinkled, mesh.order, regions, parts.factors);
-        for (std::size_t i = 0; i < regions.size(); ++i)
-            regions[i].max_angle =
-                std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
-        body = make(cylinder, regions, mesh);
-    }
-    if (!geometry.wrinkle_mask.empty()) {  // of the wrinkles that there are without it
-        apply_mask(geometry, cylinder, draft->mesh);
+    const BindShares shares(options.progress, options.amplitude);
+    shares.draft.tell(1, 1);
+    const bool keeps_area = options.amplitude == Amplitude::mesh;
+    if (keeps_area && options.profile.kind == Profile::Kind::even) {
+        weigh_slices(body, geometry, options, draft->mesh, places, found, shares.weights);
+        if (parts) weigh(*parts, cylinder, places, options.profile);
+        draft.emplace(geometry, cylinder, options, onset, places, parts.get());
         body = make(cylinder, draft->regions, draft->mesh);
+        shares.weighted_draft.tell(1, 1);
     }
-    return {std::move(body), std::move(found),  std::move(draft->mesh.order), cylinder,
-            options.profile, options.amplitude, std::move(parts_found),       milliseconds_since(start)};
+    if (keeps_area) keep_area(body, geometry, cylinder, options.wrinkle_range, *draft, shares.factors);
+    apply_mask(geometry, cylinder, draft->mesh);
+    if (keeps_area || !geometry.wrinkle_mask.empty()) body = make(cylinder, draft->regions, draft->mesh);
+    return {std::move(body),   std::move(found), std::move(draft->mesh.order), cylinder, options.profile,
+            options.amplitude, std::move(parts), milliseconds_since(start)};
 }
 
 std::vector<std::uint32_t> Binding::vertices_in_body() const {

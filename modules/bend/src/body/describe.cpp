@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <goffer/bend/body.hpp>
+#include <goffer/bend/body_input.hpp>
 
 #include <cstdio>
 
@@ -12,6 +13,14 @@ struct Words {
     const char* member;  ///< behind the index
     const char* wanted;
 };
+
+// The words below say these numbers.
+using Range = WorkingRange;
+static_assert(Range::min_length == 1e-12 && Range::max_length == 1e12 && Range::max_origin == 1e15 &&
+              Range::min_angle == 1e-12 && Range::max_angle == 1000 && Range::max_rest == 1 - 1e-5 &&
+              Range::max_joint_rest == 0.98 && Range::max_wrinkle == 1e18 && Range::max_scale == 1e3 &&
+              Range::max_taper == 1e3 && Range::max_blend_gain == 1e3 && Range::max_depth == 1e15 &&
+              Range::max_growth == 1e6 && Range::max_radius_ratio == 1e4);
 
 Words words_of(BodyField field) noexcept {
     switch (field) {
