@@ -54,6 +54,12 @@ TEST_CASE("P7: validate names the field of a job at fault") {
     CHECK(told_after(good, [](DeformJob& j) { j.positions.stride = 0; }) == "positions stride");
     CHECK(told_after(good, [](DeformJob& j) { j.normals.stride = 6; }) == "normals stride");
     CHECK(told_after(good, [](DeformJob& j) { j.tangents.stride = 3; }) == "tangents stride");
+    for (const std::size_t stride : {~std::size_t{0} - 3, ~std::size_t{0} / 2 - 3})
+        CHECK(told_after(good, [&](DeformJob& j) { j.positions.stride = stride; }) ==
+              "positions out_of_range");
+    CHECK(told_after(good, [](DeformJob& j) {
+              j.positions.component[0] = reinterpret_cast<float*>(~std::uintptr_t{0} - 3);
+          }) == "positions out_of_range");
     CHECK(told_after(good, [&](DeformJob& j) {
               j.positions = interleaved<3>(out.columns[0].data(), count, 8);
           }) == "positions stride");

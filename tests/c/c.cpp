@@ -273,6 +273,10 @@ TEST_CASE("C: a chain of arcs is that of C++") {
     options.shares = &whole;
     CHECK(goffer_body_bind(&from, &options, &error) == nullptr);
     CHECK(std::string(error.text).starts_with("arcs: "));
+    options.arcs = 0;
+    options.region_count = ~std::size_t{0};
+    CHECK(goffer_body_bind(&from, &options, &error) == nullptr);
+    CHECK(std::string(error.text).starts_with("regions: "));
     options.region_count = 0;
     options.arcs = 33;
     CHECK(goffer_body_bind(&from, &options, &error) == nullptr);

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
+#include <fstream>
 
 /// Outputs that cannot be written and fits that cannot be used: exit code 1, one line, nothing written.
 
@@ -103,6 +104,7 @@ TEST_CASE("bad files: where the report cannot be written, no output is") {
     for (const std::string words :
          {"bend base.ply --angle 10 -o out.ply --png out.png --json out.json >/dev/full 2>/dev/null",
           "bend base.ply --angle 10 -o out.ply --png out.png --json - >/dev/full 2>/dev/null",
+          "bend base.ply --angle 10 -o out.ply --json - >&- 2>/dev/null",
           "refine base.ply --folds 8 -o out.ply >/dev/full 2>/dev/null",
           "base -o out.ply >/dev/full 2>/dev/null",
           "crowd base.ply --frames 1 --instances 2 --png out.png >/dev/full 2>/dev/null"}) {
@@ -111,6 +113,15 @@ TEST_CASE("bad files: where the report cannot be written, no output is") {
         CHECK(std::system((go + words).c_str()) != 0);
         CHECK(snapshot(place.folder) == before);
     }
+}
+
+TEST_CASE("bad files: numbers that no body can have are refused before vertices are added") {
+    const Place place;
+    std::ofstream(place.folder / "far.obj")
+        << "v 1e20 0 0\nv 1e20 1e19 0\nv 1e20 0 1e21\nv 1.1e20 1e19 1e21\n"
+           "f 1 2 3\nf 2 4 3\nf 1 3 4\nf 1 4 2\n";
+    refused(place.folder, 1, {"bend", "far.obj", "-o", "new.obj", "--axis", "0,0,1"},
+            {"far.obj: cannot bind: origin: out of range", "scale or move the model"});
 }
 
 TEST_CASE("bad files: a pipe as a fit is refused, standard input and a shell's pipe are read") {

@@ -106,6 +106,12 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
     refused(place.folder, 2, bend + Words{"--fold=3"}, {"no option --fold; did you mean --folds?"});
     refused(place.folder, 2, {"bend", "base.ply", "--angle"},
             {"--angle needs a value; see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"-o", "other.ply"},
+            {"--output is given more than once; give it once; see goffer bend --help"});
+    refused(place.folder, 2, bend + Words{"--json", ""}, {"--json: give the name of a file"});
+    refused(place.folder, 2, bend + Words{"--png", ""}, {"--png: give the name of a file"});
+    refused(place.folder, 2, {"animate", "base.ply", "-o", "out.glb", "--swing", "1e30"},
+            {"--swing: 1e+30 is not an angle in degrees, within 1e+06, or max"});
     refused(place.folder, 2, bend + Words{"--xyzzy"}, {"no option --xyzzy; see goffer bend --help"});
     refused(place.folder, 2, bend + Words{"other.ply"},
             {"'other.ply' is a word too many; see goffer bend --help"});

@@ -54,6 +54,8 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
             "arcs: are regions that are bent at rest; give no shares, and not straight");
     if (given.region_count > 0 && given.shares == nullptr)
         throw std::invalid_argument("shares: null; give one for each region");
+    if (given.region_count > bend::max_regions)  // before any is read
+        throw std::invalid_argument("regions: there are more than GOFFER_MAX_REGIONS; give 32 at most");
     for (std::size_t i = 0; i < given.region_count; ++i)
         options.regions.push_back({given.shares[i], std::nullopt});
     return options;

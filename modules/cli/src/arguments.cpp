@@ -80,8 +80,9 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
 /// Where a file is or would be, links and dots resolved.
 std::filesystem::path place_of(const std::filesystem::path& file) {
     std::error_code error;
-    const std::filesystem::path place =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    const std::filesystem::path absolute = std::filesystem::absolute(file, error);
+    if (error) throw InputError("the working folder is not there any more; change to one that is");
+    const std::filesystem::path place = std::filesystem::weakly_canonical(absolute, error);
     return error ? file : place;
 }
 
@@ -146,6 +147,13 @@ std::vector<double> read_numbers(const std::string& option, const std::string& t
         return value && std::isfinite(*value) ? value : std::nullopt;
     };
     return read_list(option, text, "", finite);
+}
+
+CLI::Validator file_word() {
+    return {[](std::string& text) {
+                return text.empty() ? std::string("give the name of a file") : std::string();
+            },
+            ""};
 }
 
 CLI::Validator angle_word(bool or_max) {
@@ -301,7 +309,7 @@ void add_threads_word(CLI::App& command, int& threads) {
 }
 
 void add_json_word(CLI::App& command, std::filesystem::path& file) {
-    command.add_option("--json", file, "Write a report as JSON (- for standard output)");
+    command.add_option("--json", file, "Write a report as JSON (- for standard output)")->check(file_word());
 }
 
 }  // namespace goffer::cli

@@ -51,6 +51,9 @@ using Action = std::function<void()>;
 /// Accepts an angle in degrees, any finite number, and with `or_max` also "max" and "-max".
 [[nodiscard]] CLI::Validator angle_word(bool or_max);
 
+/// The name of a file: not empty, as a variable that a script has not set.
+[[nodiscard]] CLI::Validator file_word();
+
 /// Angles as angle_word(true) accepts them, with commas between them: degrees, and infinities for "max" and
 /// "-max". `option` begins the error.
 [[nodiscard]] std::vector<double> read_angles(const std::string& option, const std::string& text);

@@ -51,12 +51,12 @@ void end_by(int signal) {
 }
 
 /// Standard streams that the caller has closed lead nowhere: a file that is opened in the place of one would
-/// get what is printed.
+/// get what is printed. What is printed to standard output then fails, as a report may not get lost.
 void hold_standard_streams() {
 #ifndef _WIN32
     for (int descriptor = 0; descriptor <= 2; ++descriptor) {
         if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
-            (void)open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);  // takes the lowest that is free
+            (void)open("/dev/null", descriptor == 2 ? O_WRONLY : O_RDONLY);  // takes the lowest that is free
     }
 #endif
 }

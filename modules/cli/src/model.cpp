@@ -296,6 +296,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
             given ? read_fit(fit)
                   : fit::fit_cylinder(geometry, request.axis, request.rest, request.words.fit.arcs);
         const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
+        fit::check_bindable(found);  // before vertices are added
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
     const std::size_t arcs = cylinder.arcs.size(), said = request.words.fit.arcs;

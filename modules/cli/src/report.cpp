@@ -7,6 +7,7 @@
 #include <goffer/io/atomic_file.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 
@@ -93,8 +94,10 @@ void Report::finish(io::AtomicFiles& outputs) {
     for (const std::string& warning : warnings_)
         std::fprintf(stderr, "goffer: warning: %s\n", io::escaped(warning).c_str());
     if (to_output) std::fwrite(text.data(), 1, text.size(), stdout);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw InputError("standard output: cannot be written; is its disk full?");
+    // Lines for people may go nowhere, where standard output is closed; a report may not.
+    const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (!written && (to_output || errno != EBADF))
+        throw InputError("standard output: cannot be written; is it closed, or its disk full?");
     outputs.commit();
 }
 

@@ -77,6 +77,13 @@ std::string fault_of_rest(const CLI::App& command, const std::vector<std::string
     return "there is no option " + name + suggestion(name, names_of_options(command));
 }
 
+/// What is wrong with how often an option is given, or how many values it has.
+std::string fault_of_count(const CLI::App& command, const std::string& fault) {
+    const CLI::Option* const option = command.get_option_no_throw(fault.substr(0, fault.find(':')));
+    return option != nullptr && option->count() > 1 ? " is given more than once; give it once"
+                                                    : " needs a value";
+}
+
 }  // namespace
 
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
@@ -94,7 +101,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     std::string fault = error.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&error) && !rest.empty()) fault = fault_of_rest(command, rest);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-        fault = fault.substr(0, fault.find(':')) + " needs a value";
+        fault = fault.substr(0, fault.find(':')) + fault_of_count(command, fault);
     return fault + "; see goffer " + command.get_name() + " --help";
 }
 

@@ -284,6 +284,7 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     check(geometry);
     check(given);
     check_fold_length(given_options.fold_length.value_or(1));
+    check_bindable(given);
     const Cylinder cylinder = base_of(geometry, given, given_options);
     const BindOptions options = with_regions_of(cylinder, given_options);
     const double gentle = cylinder.bent() ? BindOptions::gentle_onset : 0;

@@ -5,6 +5,8 @@
 #include "sections.hpp"
 #include "surface.hpp"
 
+#include <goffer/bend/body.hpp>
+#include <goffer/bend/body_input.hpp>
 #include <goffer/bend/region.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/paper/shape.hpp>
@@ -276,6 +278,20 @@ void check(const Cylinder& cylinder) {
         throw Error("cylinder: zero " + text(eigen(cylinder.zero)) + " is not orthogonal to axis " +
                     text(eigen(cylinder.axis)) + "; subtract its part along the axis");
     }
+}
+
+void check_bindable(const Cylinder& cylinder) {
+    using Range = bend::WorkingRange;
+    const auto require = [](bool within, bend::BodyField field) {
+        if (within) return;
+        throw Error(std::string("cannot bind: ") +
+                    bend::describe(bend::BodyFault{field, bend::Reason::out_of_range}).c_str() +
+                    "; scale or move the model");
+    };
+    require(eigen(cylinder.origin).cwiseAbs().maxCoeff() <= Range::max_origin, bend::BodyField::origin);
+    require(cylinder.radius >= Range::min_length && cylinder.radius <= Range::max_length,
+            bend::BodyField::radius);
+    require(cylinder.length <= Range::max_length, bend::BodyField::length);
 }
 
 }  // namespace goffer::fit

@@ -17,6 +17,7 @@ constexpr const char* unreadable = "cannot be read; check its permissions";
 std::uint64_t size_of_file(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
+    if (error == std::errc::permission_denied) throw Error(about(file, unreadable));
     if (!fs::exists(status)) throw Error(about(file, "there is no such file; check the name"));
     if (fs::is_directory(status)) throw Error(about(file, "is a folder; give the name of a file"));
     if (!fs::is_regular_file(status))

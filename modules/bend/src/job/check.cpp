@@ -59,6 +59,14 @@ Fault fault_of(Field field, Reason reason) noexcept {
     return {.field = field, .reason = reason};
 }
 
+/// Whether a component's last element, by its count and stride, lies at an address that there is.
+bool ends_in_memory(const StreamMemory& stream, std::size_t component) noexcept {
+    const auto first = reinterpret_cast<std::uintptr_t>(stream.component[component]);
+    const std::uintptr_t room = std::numeric_limits<std::uintptr_t>::max() - first;
+    return room >= sizeof(float) &&
+           (stream.count == 0 || stream.count - 1 <= (room - sizeof(float)) / stream.stride);
+}
+
 /// Checks a stream by itself, except for its length.
 Reason check(const StreamMemory& stream) noexcept {
     for (std::size_t c = 0; c < stream.components; ++c) {
@@ -67,6 +75,8 @@ Reason check(const StreamMemory& stream) noexcept {
             return Reason::alignment;
     }
     if (stream.stride < sizeof(float) || stream.stride % sizeof(float) != 0) return Reason::stride;
+    for (std::size_t c = 0; c < stream.components; ++c)
+        if (!ends_in_memory(stream, c)) return Reason::out_of_range;
     return Reason::none;
 }
 
@@ -76,8 +86,7 @@ struct Bytes {
 
 Bytes bytes_of(const StreamMemory& stream, std::size_t component) noexcept {
     const auto first = reinterpret_cast<std::uintptr_t>(stream.component[component]);
-    const std::uintptr_t room = std::numeric_limits<std::uintptr_t>::max() - sizeof(float) - first;
-    return {first, first + std::min(stream.count - 1, room / stream.stride) * stream.stride + sizeof(float)};
+    return {first, first + (stream.count - 1) * stream.stride + sizeof(float)};
 }
 
 /// Whether two components write to the same bytes. Exact if their strides are equal; otherwise true if their
@@ -140,7 +149,8 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
     std::size_t room = std::numeric_limits<std::size_t>::max();
     Field shortest = Field::none;
     for (const StreamMemory& stream : streams) {
-        if (stream.wanted() && stream.count < room) room = stream.count, shortest = stream.field;
+        if (stream.wanted() && (shortest == Field::none || stream.count < room))
+            room = stream.count, shortest = stream.field;
     }
     const std::size_t vertices = batch.body->vertex_count();
     if (room < vertices) return fault_of(shortest, Reason::too_short);

@@ -61,6 +61,19 @@ std::string_view reason_of_empty(Field field) noexcept {
                                   "previous_positions";
 }
 
+bool is_stream(Field field) noexcept {
+    switch (field) {
+        case Field::positions:
+        case Field::normals:
+        case Field::tangents:
+        case Field::packed:
+        case Field::previous_positions:
+            return true;
+        default:
+            return false;
+    }
+}
+
 std::string_view reason_of_count(Field field) noexcept {
     return field == Field::poses || field == Field::previous_poses
                ? "not one per region of the body, for every instance (a single pose is for a body of one "
@@ -107,6 +120,7 @@ std::string_view words(Field field, Reason reason) noexcept {
             return field == Field::vertex_offsets   ? "the instance would end behind the end of a stream"
                    : field == Field::wrinkle_weight ? "not in 0..1"
                    : field == Field::indices        ? "beyond the end of poses"
+                   : is_stream(field)               ? "its count times its stride ends beyond all addresses"
                                                     : "a layout or a page_shift that there is not";
         case Reason::count:
             return reason_of_count(field);

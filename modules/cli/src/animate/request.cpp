@@ -2,6 +2,7 @@
 #include "animate/request.hpp"
 
 #include "motion/document.hpp"
+#include "motion/fields.hpp"
 #include "picture.hpp"
 
 #include <goffer/clip/vertex_texture.hpp>
@@ -27,6 +28,10 @@ json swing_document(const AnimateOptions& options) {
     const std::vector<double> ends = read_angles("--swing", *options.swing);
     if (ends.size() > 2)
         throw UsageError("--swing: '" + *options.swing + "' is more than two angles; give one, or two ends");
+    for (const double end : ends)
+        if (std::isfinite(end) && std::fabs(end) > most_degrees)
+            throw UsageError("--swing: " + number(end) + " is not an angle in degrees, within " +
+                             number(most_degrees) + ", or max");
     json document{
         {"swing",
          {{"from", ends.size() == 2 ? angle_as_json(ends[0]) : json(0)}, {"to", angle_as_json(ends.back())}}},

@@ -42,7 +42,8 @@ enum class Reason : std::uint8_t {
     not_finite,  ///< a NaN or an infinity
     too_large,   ///< a transform with a number beyond 1e18
     /// Outside 0..1 (a weight), WorkingRange (a body's number), its column (an index) or a stream (a vertex
-    /// offset), or a value that a layout or a page's size does not have.
+    /// offset); memory that would end beyond all addresses (a stream); or a value that a layout or a page's
+    /// size does not have.
     out_of_range,
     count,          ///< not as many as there are regions, instances or vertices
     too_short,      ///< a stream that ends before the last vertex

@@ -122,6 +122,11 @@ public:
 /// or rest_angle is not 0 beside them. Thread-safe.
 void check(const Cylinder& cylinder);
 
+/// Throws Error if no mesh can be bound to `cylinder`, since its origin or radius is outside
+/// bend::WorkingRange, or its length beyond it: as bind() does, before there is work for each vertex.
+/// Thread-safe.
+void check_bindable(const Cylinder& cylinder);
+
 /// Returns the radius of the arc that the center line is bent along at rest, infinite for a straight one and
 /// for a chain; model units. `cylinder` must pass check(). Thread-safe.
 [[nodiscard]] inline double rest_radius(const Cylinder& cylinder) {
