@@ -77,15 +77,6 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
     return cylinder;
 }
 
-/// Where a file is or would be, links and dots resolved.
-std::filesystem::path place_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::filesystem::path absolute = std::filesystem::absolute(file, error);
-    if (error) throw InputError("the working folder is not there any more; change to one that is");
-    const std::filesystem::path place = std::filesystem::weakly_canonical(absolute, error);
-    return error ? file : place;
-}
-
 /// Degrees, or an infinity for the largest angle of a body.
 std::optional<double> one_angle(const std::string& text) {
     constexpr double largest = std::numeric_limits<double>::infinity();
@@ -147,6 +138,14 @@ std::vector<double> read_numbers(const std::string& option, const std::string& t
         return value && std::isfinite(*value) ? value : std::nullopt;
     };
     return read_list(option, text, "", finite);
+}
+
+std::filesystem::path resolved(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::absolute(file, error);
+    if (error) throw InputError("the working folder is not there any more; change to one that is");
+    const std::filesystem::path place = std::filesystem::weakly_canonical(absolute, error);
+    return error ? file : place;
 }
 
 CLI::Validator file_word() {
@@ -265,7 +264,7 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
     }
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {
-            if (!is_file(output) || !is_file(other) || place_of(output.file) != place_of(other.file))
+            if (!is_file(output) || !is_file(other) || resolved(output.file) != resolved(other.file))
                 continue;
             throw UsageError(std::string(output.option) + ": " + output.file.string() +
                              " would replace the file of " + std::string(other.option) +
@@ -279,10 +278,10 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
 }
 
 void check_outside(const std::filesystem::path& folder, const std::vector<NamedFile>& outputs) {
-    const std::filesystem::path place = place_of(folder / "");
+    const std::filesystem::path place = resolved(folder / "");
     for (const NamedFile& output : outputs) {
         if (output.file.empty() || output.file == "-") continue;
-        const std::filesystem::path relative = place_of(output.file).lexically_relative(place);
+        const std::filesystem::path relative = resolved(output.file).lexically_relative(place);
         if (relative.empty() || *relative.begin() == "..") continue;
         throw UsageError(std::string(output.option) + ": " + output.file.string() +
                          " would lie in the folder of the cache; put it elsewhere");

@@ -51,6 +51,9 @@ using Action = std::function<void()>;
 /// Accepts an angle in degrees, any finite number, and with `or_max` also "max" and "-max".
 [[nodiscard]] CLI::Validator angle_word(bool or_max);
 
+/// Where a file is or would be, links and dots resolved. Throws InputError where the working folder is gone.
+[[nodiscard]] std::filesystem::path resolved(const std::filesystem::path& file);
+
 /// The name of a file: not empty, as a variable that a script has not set.
 [[nodiscard]] CLI::Validator file_word();
 

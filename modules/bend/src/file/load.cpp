@@ -8,7 +8,6 @@
 #include <goffer/bend/body_input.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>

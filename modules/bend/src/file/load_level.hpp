@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 /// The parts of load_held() that read levels, and what they share with those that read what all levels share.
 

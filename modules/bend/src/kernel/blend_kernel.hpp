@@ -78,8 +78,8 @@ void set_neighbor_wrinkle(const RestColumns& rest, const K& k, const JointBlend&
         return L::where_less(zero, share, value, zero);
     };
     if constexpr (squeeze == Squeeze::relative) {
-        const auto [cosine, sine, scale] = load_rest_terms<L>(rest, i);
-        const RestTerms<L> at = {if_near(cosine), if_near(sine), if_near(scale)};
+        const auto [cosine, sine, per_rest_scale] = load_rest_terms<L>(rest, i);
+        const RestTerms<L> at = {if_near(cosine), if_near(sine), if_near(per_rest_scale)};
         set_relative_wrinkle_beyond<L, directions>(at, k, joint, b);
     } else {
         set_plain_column<L, squeeze, directions>(rest, k, if_near(load_scale<L, squeeze>(rest, i)), b, i);

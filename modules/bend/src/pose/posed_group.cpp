@@ -17,20 +17,17 @@ float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
 }
 
-/// What poses amount to that are looked at one after the other.
-struct PoseSum {
-    float zero = 0;  ///< x * 0 is 0 if x is finite, else NaN
+/// The state of `poses`; `regions` are those of the body. Inline, since a call for each instance takes time.
+inline PoseState state_in(const Region* regions, std::span<const Pose> poses) noexcept {
+    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
     bool clamped = false;
-
-    void add(const Pose& pose, const Region& region) noexcept {
-        zero += pose.angle * 0.0f + pose.direction * 0.0f;
-        clamped |= std::fabs(pose.angle) > region.max_angle;
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        sum += poses[r].angle * 0.0f + poses[r].direction * 0.0f;
+        clamped |= std::fabs(poses[r].angle) > regions[r].max_angle;
     }
-    [[nodiscard]] PoseState state() const noexcept {
-        const bool finite = zero == 0;
-        return {.clamped = clamped && finite, .at_rest = !finite};
-    }
-};
+    const bool finite = sum == 0;
+    return {.clamped = clamped && finite, .at_rest = !finite};
+}
 
 /// Sets a vector, which a 0 follows, in all lanes.
 void set_vector(float (*columns)[setup_width], const float (&vector)[4]) noexcept {
@@ -50,20 +47,14 @@ void read_transform(const TransformColumn& transforms, std::size_t element, floa
 }  // namespace
 
 PoseState state_of(const BodyData& body, std::span<const Pose> poses) noexcept {
-    PoseSum sum;
-    for (std::size_t r = 0; r < poses.size(); ++r) sum.add(poses[r], body.regions[r]);
-    return sum.state();
+    return state_in(body.regions.data(), poses);
 }
 
 PosedGroup::PosedGroup(const BodyData& body, std::size_t most) noexcept
-    : body_(body),
-      regions_(body.regions.data()),
-      details_(body.details.data()),
-      region_count_(body.regions.size()),
-      most_(most) {
-    assert(most >= 1 && most <= capacity(body.regions.size()));
+    : body_(body), region_count_(body.regions.size()), most_(most) {
+    assert(most >= 1 && most <= capacity(region_count_));
     // Set-up computes with unused lanes, too.
-    const std::size_t read = (body.regions.size() - 1) * most + setup_width;
+    const std::size_t read = (region_count_ - 1) * most + setup_width;
     for (float* values : {angle_, direction_, factor_}) std::fill_n(values, read, 0.0f);
     set_frames();
     set_identities();
@@ -84,7 +75,7 @@ void PosedGroup::set_identities() noexcept {
 
 inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Pose& pose,
                                  float weight) noexcept {
-    const RegionData& details = details_[region];
+    const RegionData& details = body_.details[region];
     const bool wrinkled = details.setup.rows != nullptr && weight > 0;
     angle_[place] = pose.angle;
     direction_[place] = wrapped_direction(pose.direction);
@@ -100,9 +91,7 @@ inline PoseState PosedGroup::add(std::span<const Pose> poses, const TransformCol
     if (i == 0 && region_count_ > 1) set_frames();  // set-up replaced them
     const float usable = usable_weight(weight);
     poses = poses.first(std::min(poses.size(), region_count_));
-    PoseSum sum;
-    for (std::size_t r = 0; r < poses.size(); ++r) sum.add(poses[r], regions_[r]);
-    const PoseState state = sum.state();
+    const PoseState state = state_in(body_.regions.data(), poses);
     if (region_count_ == 1 && !poses.empty() && !state.at_rest) {  // the usual case, without a loop
         set_pose(0, i, poses[0], usable);
     } else {
@@ -120,7 +109,7 @@ inline PoseState PosedGroup::add(std::span<const Pose> poses, const TransformCol
 /// Sets poses in lane `i`: those of regions beyond `poses` are their rest poses.
 void PosedGroup::set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept {
     for (std::size_t r = 0; r < region_count_; ++r)
-        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : regions_[r].rest, weight);
+        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : body_.regions[r].rest, weight);
 }
 
 PoseState PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {

@@ -102,9 +102,7 @@ private:
     static constexpr std::size_t places = max_poses + setup_width;  // set-up reads whole registers
 
     const BodyData& body_;
-    const Region* regions_;
-    const RegionData* details_;
-    std::size_t region_count_;
+    std::size_t region_count_;  // of the body; kept, since a vector has to compute its size
     std::size_t most_;
     std::size_t count_ = 0;
     std::size_t place_ = 0;                                   // of the region that was set up last, as are

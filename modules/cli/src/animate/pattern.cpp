@@ -49,10 +49,8 @@ std::optional<std::size_t> Pattern::number_of(const std::string& name) const {
 }
 
 bool Pattern::holds(const std::filesystem::path& file) const {
-    std::error_code error;
-    const auto folder_of = [&](const std::filesystem::path& folder) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder),
-                                                 error);
+    const auto folder_of = [](const std::filesystem::path& folder) {
+        return resolved(folder.empty() ? "." : folder);
     };
     return number_of(file.filename().string()) && folder_of(file.parent_path()) == folder_of(folder_);
 }

@@ -34,6 +34,9 @@ private:
     [[nodiscard]] Block begin_block(const PlacedNode& placed) const;
     std::size_t read_block(const PlacedNode& placed, const Value& attributes, std::size_t uv_sets);
     void read_positions(Block& block, const Value& attributes);
+    template <class T, class Place>
+    void gather(Gathered<T>& gathered, Stream which, Block& block, const Value& attributes,
+                const Place& place);
     void read_streams(Block& block, const Value& attributes);
     void read_colors(const Block& block, const Value& attributes);
     void read_uvs(const Block& block, const Value& attributes, std::size_t uv_sets);
@@ -222,27 +225,29 @@ void SceneReader::read_positions(Block& block, const Value& attributes) {
     done_ += block.count;
 }
 
+/// Gathers a stream that a block may have; place(value) is what the node makes of a value of the file.
+template <class T, class Place>
+void SceneReader::gather(Gathered<T>& gathered, Stream which, Block& block, const Value& attributes,
+                         const Place& place) {
+    if (attributes.has(stream_name[which])) {
+        const std::size_t width = stream_width[which];
+        block.first[which] = gathered.values.size();
+        const std::vector<float> values = stream(attributes, stream_name[which], width, block.count);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            gathered.values.push_back(place(&values[width * i]));
+            share_.at(done_ + i);
+        }
+        done_ += block.count;
+    }
+    gathered.first.push_back(block.first[which]);
+}
+
 void SceneReader::read_streams(Block& block, const Value& attributes) {
-    if (attributes.has(stream_name[normal])) {
-        block.first[normal] = normals_.values.size();
-        const std::vector<float> values = stream(attributes, stream_name[normal], 3, block.count);
-        for (std::size_t i = 0; i < block.count; ++i) {
-            normals_.values.push_back(block.placement.normal(glm::make_vec3(&values[3 * i])));
-            share_.at(done_ + i);
-        }
-        done_ += block.count;
-    }
-    if (attributes.has(stream_name[tangent])) {
-        block.first[tangent] = tangents_.values.size();
-        const std::vector<float> values = stream(attributes, stream_name[tangent], 4, block.count);
-        for (std::size_t i = 0; i < block.count; ++i) {
-            tangents_.values.push_back(block.placement.tangent(glm::make_vec4(&values[4 * i])));
-            share_.at(done_ + i);
-        }
-        done_ += block.count;
-    }
-    normals_.first.push_back(block.first[normal]);
-    tangents_.first.push_back(block.first[tangent]);
+    const Placement& placement = block.placement;
+    gather(normals_, normal, block, attributes,
+           [&](const float* value) { return placement.normal(glm::make_vec3(value)); });
+    gather(tangents_, tangent, block, attributes,
+           [&](const float* value) { return placement.tangent(glm::make_vec4(value)); });
 }
 
 /// A vertex without a color is white, which in glTF changes nothing.
