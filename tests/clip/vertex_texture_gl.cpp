@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "support/gl_program.hpp"
+#include "support/gl_buffer.hpp"
 #include "support/models.hpp"
 #include "textures.hpp"
 #include "wide_image.hpp"
 
 #include <goffer/draw/offscreen.hpp>
+#include <goffer/draw/shader.hpp>
 
 #include <doctest/doctest.h>
 
@@ -49,12 +50,13 @@ void main() {
 
 GLuint program_for(Api api, const std::string& text) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_VERTEX_SHADER, text));
+    glAttachShader(program, draw::compile_shader(GL_VERTEX_SHADER, text));
     if (api == Api::es30)  // which has no program without one
-        glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
+        glAttachShader(program,
+                       draw::compile_shader(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
     const char* const outputs[] = {"played_position", "played_normal"};
     glTransformFeedbackVaryings(program, 2, outputs, GL_INTERLEAVED_ATTRIBS);
-    link_program(program);
+    draw::link_program(program);
     return program;
 }
 

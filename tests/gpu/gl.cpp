@@ -5,6 +5,7 @@
 
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/draw/offscreen.hpp>
+#include <goffer/draw/shader.hpp>
 #include <goffer/gpu/source.hpp>
 
 #include <epoxy/gl.h>
@@ -96,8 +97,8 @@ GLuint linked(GlApi api) {
         return vertex_program(text_of(api), api == GlApi::embedded,
                               {"bent_position", "bent_normal", "bent_tangent"});
     const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_COMPUTE_SHADER, text_of(api)));
-    link_program(program);
+    glAttachShader(program, draw::compile_shader(GL_COMPUTE_SHADER, text_of(api)));
+    draw::link_program(program);
     return program;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "support/gl_program.hpp"
+#include "support/gl_buffer.hpp"
 
 #include <goffer/draw/offscreen.hpp>
+#include <goffer/draw/shader.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,12 +20,13 @@ namespace goffer::test {
 inline GLuint vertex_program(const std::string& text, bool embedded,
                              std::initializer_list<const char*> outputs) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_VERTEX_SHADER, text));
+    glAttachShader(program, draw::compile_shader(GL_VERTEX_SHADER, text));
     if (embedded)  // which has no program without one
-        glAttachShader(program, compiled(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
+        glAttachShader(program,
+                       draw::compile_shader(GL_FRAGMENT_SHADER, "#version 300 es\nvoid main() {}\n"));
     glTransformFeedbackVaryings(program, static_cast<GLsizei>(outputs.size()), outputs.begin(),
                                 GL_INTERLEAVED_ATTRIBS);
-    link_program(program);
+    draw::link_program(program);
     return program;
 }
 

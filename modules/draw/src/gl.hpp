@@ -50,6 +50,8 @@ public:
         if (name_ != 0) Delete(name_);
     }
     operator GLuint() const { return name_; }
+    /// Returns the name, which is the caller's from then on.
+    [[nodiscard]] GLuint release() { return std::exchange(name_, 0); }
 
 private:
     GLuint name_ = 0;

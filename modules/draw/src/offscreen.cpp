@@ -23,14 +23,47 @@ struct OffscreenContext::Current {
     }
 };
 
+namespace {
+
+bool has(const char* extension) {
+    return epoxy_has_egl_extension(EGL_NO_DISPLAY, extension);
+}
+
+/// Returns the display, where there is one that can be used, or none.
+EGLDisplay usable(EGLenum platform, void* native) {
+    const EGLDisplay display = eglGetPlatformDisplayEXT(platform, native, nullptr);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
+        return EGL_NO_DISPLAY;
+    return display;
+}
+
+/// Mesa's, which chooses a device, or none but the processor.
+EGLDisplay surfaceless() {
+    if (!has("EGL_EXT_platform_base") || !has("EGL_MESA_platform_surfaceless")) return EGL_NO_DISPLAY;
+    return usable(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY);
+}
+
+/// That of the first device that has one: what drivers other than Mesa's have on machines without a screen.
+EGLDisplay of_a_device() {
+    if (!has("EGL_EXT_platform_base") || !has("EGL_EXT_platform_device") ||
+        !(has("EGL_EXT_device_base") || has("EGL_EXT_device_enumeration")))
+        return EGL_NO_DISPLAY;
+    EGLDeviceEXT devices[16];
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(16, &devices[0], &count) == EGL_FALSE) return EGL_NO_DISPLAY;
+    for (EGLint i = 0; i < count; ++i)
+        if (const EGLDisplay display = usable(EGL_PLATFORM_DEVICE_EXT, devices[i]); display != EGL_NO_DISPLAY)
+            return display;
+    return EGL_NO_DISPLAY;
+}
+
+}  // namespace
+
 std::string OffscreenContext::Current::make(Api api) {
     if (!epoxy_has_egl()) return "there is no EGL here";
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base") ||
-        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-        return "EGL cannot go without a surface";
-    display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
-        return "EGL has no display without a surface";
+    display = surfaceless();
+    if (display == EGL_NO_DISPLAY) display = of_a_device();
+    if (display == EGL_NO_DISPLAY) return "EGL has no display without a window, of Mesa or of a device";
     const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION,
                            api == Api::core43 ? 4 : 3,
                            EGL_CONTEXT_MINOR_VERSION,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "program.hpp"
 
-#include <goffer/draw/mesh.hpp>
+#include <goffer/draw/shader.hpp>
 #include <goffer/gpu/source.hpp>
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <algorithm>
 #include <string_view>
 
 namespace goffer::draw {
@@ -38,27 +37,11 @@ vec3 encoded(vec3 light) {
 }
 )";
 
-[[noreturn]] void refuse(const std::string& what, std::string log) {
-    std::ranges::replace(log, '\n', ' ');
-    throw Error("OpenGL's driver refuses " + what + ": " + log);
-}
-
 GLuint compiled(GLenum stage, const std::string& text) {
     const std::string version = is_desktop()
                                     ? "#version 330 core\n"
                                     : "#version 300 es\nprecision highp float;\nprecision highp sampler2D;\n";
-    const std::string whole = version + text;
-    const GLuint shader = glCreateShader(stage);
-    const char* const source = whole.c_str();
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    GLint good = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    if (good != 0) return shader;
-    char log[2048] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    glDeleteShader(shader);
-    refuse("a shader", log);
+    return compile_shader(stage, version + text);
 }
 
 }  // namespace
@@ -192,21 +175,15 @@ Program::Program(const std::string& vertex, const std::string& fragment) : name_
     const Shader first(compiled(GL_VERTEX_SHADER, vertex)), second(compiled(GL_FRAGMENT_SHADER, fragment));
     glAttachShader(name_, first);
     glAttachShader(name_, second);
-    glLinkProgram(name_);
-    GLint good = 0;
-    glGetProgramiv(name_, GL_LINK_STATUS, &good);
-    char log[2048] = "";
-    if (good == 0) {
-        glGetProgramInfoLog(name_, sizeof log, nullptr, log);
-        refuse("a program", log);
-    }
+    link_program(name_);
     GLint uniforms = 0;
     glGetProgramiv(name_, GL_ACTIVE_UNIFORMS, &uniforms);
     for (GLuint i = 0; i < static_cast<GLuint>(uniforms); ++i) {
+        char uniform[256] = "";
         GLint size = 0;
         GLenum type = 0;
-        glGetActiveUniform(name_, i, sizeof log, nullptr, &size, &type, log);
-        locations_.emplace(log, glGetUniformLocation(name_, log));
+        glGetActiveUniform(name_, i, sizeof uniform, nullptr, &size, &type, uniform);
+        locations_.emplace(uniform, glGetUniformLocation(name_, uniform));
     }
 }
 

@@ -13,7 +13,8 @@
 namespace goffer::draw {
 
 /// A context without a surface, current in the thread that made it for as long as it lives. One at a time in
-/// a thread. Needs EGL with the platform `surfaceless`, which Mesa has, also in software.
+/// a thread. Needs EGL with the platform `surfaceless`, which Mesa has, also in software, or `device`, which
+/// drivers of graphics cards have on machines without a screen.
 class OffscreenContext {
 public:
     enum class Api : std::uint8_t {
