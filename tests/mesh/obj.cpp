@@ -219,7 +219,7 @@ TEST_CASE("obj: faces of two corners are left out with a warning, and stay in th
     Mesh mesh = load_text("a.obj", text);
     CHECK(mesh.faces.size() == 2);
     REQUIRE(mesh.warnings.size() == 1);
-    CHECK(mesh.warnings[0].find("1 faces have fewer than 3 corners") == 0);
+    CHECK(mesh.warnings[0].find("1 face has fewer than 3 corners") == 0);
     mesh.positions[0].x = 8;
     CHECK(saved(mesh, "b.obj") == replaced(text, "v 0 0 0", "v 8 0 0"));
 }

@@ -109,6 +109,14 @@ TEST_CASE("ply: everything is read, in text and in both byte orders") {
     check_rich(load_text("a.ply", replaced(rich_ply, "\n", "\r\n")));
 }
 
+TEST_CASE("ply: a byte order mark before text is passed over, and kept") {
+    const std::string marked = "\xEF\xBB\xBF" + rich_ply;
+    const Mesh mesh = load_text("a.dat", marked);
+    check_rich(mesh);
+    CHECK(saved(mesh, "b.ply") == marked);
+    CHECK(tells(load_error("a.dat", replaced(marked, "end_header", "end")), "line "));
+}
+
 TEST_CASE("ply: an unchanged mesh is written to the byte") {
     for (const std::string& text :
          {rich_ply, rich_binary(false), rich_binary(true), replaced(rich_ply, "\n", "\r\n")}) {

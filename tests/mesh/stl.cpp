@@ -74,6 +74,15 @@ TEST_CASE("stl: an unchanged mesh is written to the byte") {
         CHECK(saved(load_text("a.stl", bytes), "b.stl") == bytes);
 }
 
+TEST_CASE("stl: a byte order mark before text is passed over, and kept") {
+    const std::string marked = "\xEF\xBB\xBF" + text;
+    Mesh mesh = load_text("a.dat", marked);
+    CHECK(mesh.positions == load_text("a.stl", text).positions);
+    CHECK(saved(mesh, "b.stl") == marked);
+    mesh.positions[3] = {0, 0, 3};
+    CHECK(saved(mesh, "b.stl").starts_with("\xEF\xBB\xBFsolid  left part\n"));
+}
+
 TEST_CASE("stl: a facet that moves gets its new normal, the others stay as they are") {
     Mesh mesh = load_text("a.stl", text);
     mesh.positions[0] = {0, 0, 1};

@@ -46,12 +46,12 @@ bool is_obj(std::string_view bytes) {
 }
 
 Format format_of_content(std::string_view bytes) {
-    std::string_view rest = without_bom(bytes);
     if (bytes.starts_with("glTF")) return Format::glb;
-    if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return Format::ply;
+    std::string_view text = without_bom(bytes);
+    if (text.starts_with("ply\n") || text.starts_with("ply\r")) return Format::ply;
     if (is_stl(bytes)) return Format::stl;
-    if (is_obj(without_bom(bytes))) return Format::obj;
-    if (next_token(rest).starts_with('{')) return Format::gltf;
+    if (is_obj(text)) return Format::obj;
+    if (next_token(text).starts_with('{')) return Format::gltf;
     return Format::unknown;
 }
 

@@ -77,7 +77,9 @@ Mesh ObjReader::read() {
     each_statement(share_.part(counted, parsed, text_.size()), [&](const Statement& s) { take(s); });
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
     if (short_faces_ > 0)
-        mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
+        mesh_.warnings.push_back(std::to_string(short_faces_) +
+                                 (short_faces_ == 1 ? " face has" : " faces have") +
+                                 " fewer than 3 corners: left out");
     if (not_finite_ > 0)
         mesh_.warnings.push_back(std::to_string(not_finite_) +
                                  " uv or color values are not finite: taken as 0");

@@ -66,7 +66,7 @@ Role role_of(const Element& element, const Property& property) {
 /// Takes the header line by line.
 class HeaderReader {
 public:
-    HeaderReader(const std::filesystem::path& file, std::string_view bytes) : rest_(bytes) {
+    HeaderReader(const std::filesystem::path& file, std::string_view bytes) : rest_(without_bom(bytes)) {
         header_.file = file;
         header_.bytes = bytes;
     }

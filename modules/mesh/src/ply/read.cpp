@@ -71,7 +71,9 @@ Mesh PlyReader::read() {
     mesh_.parts.push_back({.name = {}, .face_count = static_cast<std::uint32_t>(mesh_.faces.size())});
     if (has_texcoords_ && mesh_.uvs[0].values.empty()) mesh_.uvs.clear();
     if (short_faces_ > 0)
-        mesh_.warnings.push_back(std::to_string(short_faces_) + " faces have fewer than 3 corners: left out");
+        mesh_.warnings.push_back(std::to_string(short_faces_) +
+                                 (short_faces_ == 1 ? " face has" : " faces have") +
+                                 " fewer than 3 corners: left out");
     if (not_finite_ > 0)
         mesh_.warnings.push_back(std::to_string(not_finite_) +
                                  " uv or color values are not finite: taken as 0");

@@ -40,6 +40,7 @@ bool is_binary(std::string_view bytes) {
 }
 
 bool says_solid(std::string_view bytes) {
+    bytes = without_bom(bytes);
     return lower(next_token(bytes)) == "solid";
 }
 
@@ -51,7 +52,7 @@ bool is_text(std::string_view bytes) {
 class TextFacets {
 public:
     TextFacets(const std::filesystem::path& file, std::string_view text)
-        : file_(file), text_(text), rest_(text) {}
+        : file_(file), text_(text), rest_(without_bom(text)) {}
 
     /// Finds the next facet; false at the end.
     bool next();
@@ -318,6 +319,7 @@ std::string write_anew(const Mesh& mesh) {
 bool is_stl(std::string_view bytes) {
     if (is_binary(bytes)) return true;
     if (!is_text(bytes)) return false;
+    bytes = without_bom(bytes);
     next_token(bytes);
     next_line(bytes);
     const std::string word = lower(next_token(bytes));
