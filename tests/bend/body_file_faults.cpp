@@ -212,7 +212,8 @@ TEST_CASE("body file: whatever a signed file holds, what is loaded stays within 
 TEST_CASE("body file: without verification a changed file still runs within its memory") {
     Random random(60);
     int loaded = 0;
-    for (int round = 0; round < rounds(4000, 400); ++round) {
+    const int trials = rounds(4000, 400);
+    for (int trial = 0; trial < trials; ++trial) {
         const AlignedBytes file(saved(random_body(random)));
         const std::span<std::byte> bytes = file.bytes();
         for (std::size_t n = 1 + random() % 8; n-- > 0;)
@@ -220,7 +221,7 @@ TEST_CASE("body file: without verification a changed file still runs within its 
         const auto made = bend::load(bytes, nullptr, bend::Verify::layout);
         if (made) ++loaded, run_of(made->levels[0].body, 1);
     }
-    CHECK(loaded > 100);
+    CHECK(loaded > trials / 4);
 }
 
 TEST_CASE("body file: what cannot be read as a file is said to be") {

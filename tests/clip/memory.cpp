@@ -62,10 +62,10 @@ TEST_CASE("clip: the bound of memory is kept") {
         MESSAGE("skipped: what the process takes cannot be told here");
         return;
     }
-    constexpr std::uint64_t bound = 64u << 20;
-    const mesh::Mesh mesh = bar(5001);
+    constexpr std::uint64_t bound = 32u << 20;
+    const mesh::Mesh mesh = bar(2501);
     const Folder folder;
-    MadeFrames few(mesh, 2, bending), many(mesh, 400, bending);  // which are 384 MB as floats
+    MadeFrames few(mesh, 2, bending), many(mesh, 400, bending);  // which are 192 MB as floats
     (void)peak();
     const clip::GltfReport small = saved_clip(mesh, few, folder / "few.glb", {.memory = bound});
     const std::uint64_t before = peak();

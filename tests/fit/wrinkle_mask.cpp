@@ -52,9 +52,13 @@ Bent bent_with_normals(const fit::Binding& binding, float wrinkle_weight, double
     return sorted;
 }
 
-Solid very_fine_tube() {
+Solid tube_of(int columns, int rows) {
     std::mt19937 random(1);
-    return cylinder({.columns = 64, .rows = 481, .closed = false}, random);
+    return cylinder({.columns = columns, .rows = rows, .closed = false}, random);
+}
+
+Solid very_fine_tube() {
+    return tube_of(64, 481);
 }
 
 fit::Geometry masked(const Solid& solid, const std::vector<float>& mask) {
@@ -100,7 +104,7 @@ std::string mask_error(const std::vector<float>& mask) {
 }  // namespace
 
 TEST_CASE("wrinkle mask: a vertex follows so much of its wrinkle, with any profile, amplitude and regions") {
-    const Solid solid = very_fine_tube();
+    const Solid solid = tube_of(32, 121);
     const std::vector<float> mask =
         mask_of(solid, [](double z, double beta) { return 0.5 + 0.5 * std::sin(7 * z + 2 * beta); });
     for (const fit::Profile profile : {fit::Profile::even, fit::Profile::damped, fit::Profile::smooth}) {

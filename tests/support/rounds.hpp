@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <string_view>
+#include <type_traits>
 
 namespace goffer::test {
 
@@ -15,10 +16,19 @@ inline bool all_rounds() {
     return wanted ? std::string_view(wanted) == "all" : !sanitized;
 }
 
-/// How many of them that is.
+/// Whether an emulator runs the tests, which makes each take ten times as long, too.
+#ifdef GOFFER_EMULATED
+inline constexpr bool emulated = true;
+#else
+inline constexpr bool emulated = false;
+#endif
+
+/// How many of them that is: on an emulator, a third of a few.
 template <class T>
 T rounds(T all, T few) {
-    return all_rounds() ? all : few;
+    if (all_rounds()) return all;
+    if constexpr (emulated && std::is_integral_v<T>) return few > 3 ? few / 3 : 1;
+    return few;
 }
 
 }  // namespace goffer::test

@@ -121,6 +121,9 @@ class Page {
   }
 }
 
+/// With a window in which pictures take less time.
+function small(options) { return { ...options, width: 500, height: 350 }; }
+
 async function with_page(options, work) {
   const page = await Page.open(options, options.url);
   let failed = true;
@@ -230,7 +233,7 @@ const checks = {
 
   /// A crowd of 200 is drawn, moves, and is the same from the shader.
   async crowd(options) {
-    await with_page(options, async (page) => {
+    await with_page(small(options), async (page) => {
       await page.drop([options.hose]);
       await page.set("instances", 200);
       assert.equal((await page.state()).instances, 200);
@@ -280,10 +283,10 @@ const checks = {
   /// and a buffer of the device does not, and with a lost context.
   async limits(options) {
     const large = join(options.work, "large.glb");
-    execFileSync(options.goffer, ["base", "--length", "20", "--radius", "1", "--columns", "400", "--rows", "1000", "--caps", "-o", large]);
-    await with_page(options, async (page) => {
+    execFileSync(options.goffer, ["base", "--length", "20", "--radius", "1", "--columns", "200", "--rows", "500", "--caps", "-o", large]);
+    await with_page(small(options), async (page) => {
       await page.drop([options.hose]);
-      await page.value("attempt(() => { state = ask('crowd', ['number'], [500]); })");
+      await page.value("attempt(() => { state = ask('crowd', ['number'], [2000]); })");
       await page.drop([large]);
       assert.match(await page.value("at('message').textContent"), /GB of memory/);
       assert.equal((await page.state()).name, "hose.glb");
@@ -291,7 +294,7 @@ const checks = {
       await page.set("instances", 0);
       await page.drop([large]);
       assert.equal((await page.state()).name, "large.glb");
-      await page.value("attempt(() => { state = ask('crowd', ['number'], [500]); })");
+      await page.value("attempt(() => { state = ask('crowd', ['number'], [2000]); })");
       assert.match(await page.value("at('message').textContent"), /GB of memory/);
       assert.equal((await page.state()).instances, 0);
       const medium = join(options.work, "medium.glb");
