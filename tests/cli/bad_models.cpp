@@ -191,8 +191,9 @@ TEST_CASE("bad models: what would take more memory than is allowed") {
             {"base.ply: takes more than the 10 KiB"});
     refused(place.folder, 2, {"base", "-o", "out.ply", "--max-memory", "1M"},
             {"--columns, --rows", "--max-memory"});
-    for (const std::string word : {"much", "-1", "18446744073709551616", "", "M"})
-        refused(place.folder, 2, {"inspect", "base.ply", "--max-memory", word}, {"--max-memory"});
+    for (const std::string word : {"much", "-1", "18446744073709551616", "", "M", "8X", "8.5.G"})
+        refused(place.folder, 2, {"inspect", "base.ply", "--max-memory", word},
+                {"--max-memory: '" + word + "' is not a size, such as 500M or 8G"});
 }
 
 TEST_CASE("bad models: many vertices without a triangle are no reason to wait") {

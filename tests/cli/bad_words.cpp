@@ -43,6 +43,8 @@ TEST_CASE("bad words: axes") {
         place.refuse_bend({"--axis", word}, {"--axis", word, "three finite numbers"});
         refused(place.folder, 2, {"inspect", "base.ply", "--axis", word}, {"--axis", word});
     }
+    for (const std::string word : {"0,0,1e-300", "0,1e-200,1e300"})  // whose squares are beyond double
+        CHECK(run(place.folder, {"inspect", "base.ply", "--axis", word}).code == 0);
     for (const std::string word : {"1,2", "1,2,3,4", "1,,2", "foo", "", "xy", "--", "1 2 3"}) {
         place.refuse_bend({std::string("--axis=") + word}, {"--axis"});
         refused(place.folder, 2, {"inspect", "base.ply", std::string("--axis=") + word}, {"--axis"});
@@ -63,7 +65,7 @@ TEST_CASE("bad words: numbers and names out of range") {
     for (const std::string word :
          {"0.8,0.1", "0.5", "0,0.5,1", "-0.1,1", "0,1.1", "0.5,0.5", "nan,1", "", "a,b"})
         place.refuse_bend({"--wrinkle-range", word}, {"--wrinkle-range"});
-    for (const std::string word : {"r", "COLOR_0", "COLOR_0.x", "COLOR_0.rg", "COLOR_1.r", "color_0.r", ""})
+    for (const std::string word : {"r", "COLOR_0", "COLOR_0.x", "COLOR_0.rg", "COLOR_1.r", "color_0.r"})
         place.refuse_bend({"--wrinkle-mask", word}, {"--wrinkle-mask", "COLOR_0.r"});
     place.refuse_bend({"--shape", "round"}, {"--shape", "round", "auto", "cylinder"});
     place.refuse_bend({"--refine", "maybe"}, {"--refine", "maybe", "auto", "on", "off"});
@@ -79,10 +81,10 @@ TEST_CASE("bad words: what does not go together") {
     place.refuse_bend({"--size", "100x100"}, {"--size", "--png"});
     place.refuse_bend({"--camera", "side"}, {"--camera", "--png"});
     for (const char* const size :
-         {"", "100", "x", "100x", "x100", "0x100", "100x16385", "1e2x100", "100x100x3", "-1x5"})
+         {"100", "x", "100x", "x100", "0x100", "100x16385", "1e2x100", "100x100x3", "-1x5"})
         place.refuse_bend({"--png", "out.png", "--size", size},
                           {"--size: '" + std::string(size) + "' is no size", "WIDTHxHEIGHT"});
-    for (const char* const camera : {"", "above", "10", "0,91", "0,-90.5", "1,2,3", "a,b", "0,nan"})
+    for (const char* const camera : {"above", "10", "0,91", "0,-90.5", "1,2,3", "a,b", "0,nan"})
         place.refuse_bend({"--png", "out.png", "--camera", camera}, {"--camera: '"});
     place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
     place.refuse_bend({"--paper", "--profile", "even"}, {"--profile", "--paper"});
@@ -108,8 +110,11 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
             {"--angle needs a value; see goffer bend --help"});
     refused(place.folder, 2, bend + Words{"-o", "other.ply"},
             {"--output is given more than once; give it once; see goffer bend --help"});
-    refused(place.folder, 2, bend + Words{"--json", ""}, {"--json: give the name of a file"});
-    refused(place.folder, 2, bend + Words{"--png", ""}, {"--png: give the name of a file"});
+    for (const std::string option : {"--json", "--png", "--fit", "--path"})
+        refused(place.folder, 2, bend + Words{option, ""},
+                {option + " is empty; give it a value; see goffer bend --help"});
+    refused(place.folder, 2, {"inspect", ""}, {"model is empty"});
+    refused(place.folder, 2, {"bend", "base.ply", "-o", ""}, {"--output is empty"});
     refused(place.folder, 2, {"animate", "base.ply", "-o", "out.glb", "--swing", "1e30"},
             {"--swing: 1e+30 is not an angle in degrees, within 1e+06, or max"});
     refused(place.folder, 2, bend + Words{"--xyzzy"}, {"no option --xyzzy; see goffer bend --help"});
@@ -136,7 +141,7 @@ TEST_CASE("bad words: of a viewer, before it looks for a display") {
 
 TEST_CASE("bad words: endings") {
     const KeptOutputs place;
-    for (const std::string name : {"out", "out.xyz", ".ply.", "out.fbx", ""}) {
+    for (const std::string name : {"out", "out.xyz", ".ply.", "out.fbx"}) {
         refused(place.folder, 2, {"bend", "base.ply", "-o", name}, {"-o: ", name, ".glb"});
     }
     place.refuse_bend({"--png", "out.jpg"}, {"--png", "out.jpg", ".png"});

@@ -114,12 +114,15 @@ std::optional<glm::dvec3> parse_axis(const std::string& text) {
     const auto axis = three_numbers(text);
     if (!axis)
         throw UsageError("--axis: '" + text + "' is not auto, x, y, z (or -x, ..) or three numbers X,Y,Z");
-    const double length = glm::length(*axis);
+    double largest = 0;  // squares of the numbers may be beyond double
+    for (int i = 0; i < 3; ++i) largest = std::fmax(largest, std::fabs((*axis)[i]));
+    const glm::dvec3 scaled = *axis / largest;
+    const double length = glm::length(scaled);
     if (!(length > 0) || !std::isfinite(length)) {
         throw UsageError("--axis: " + text +
                          " has no direction; give three finite numbers that are not all 0");
     }
-    return axis;
+    return scaled;
 }
 
 CLI::Validator number_within(double low, double high, const std::string& what) {
@@ -146,13 +149,6 @@ std::filesystem::path resolved(const std::filesystem::path& file) {
     if (error) throw InputError("the working folder is not there any more; change to one that is");
     const std::filesystem::path place = std::filesystem::weakly_canonical(absolute, error);
     return error ? file : place;
-}
-
-CLI::Validator file_word() {
-    return {[](std::string& text) {
-                return text.empty() ? std::string("give the name of a file") : std::string();
-            },
-            ""};
 }
 
 CLI::Validator angle_word(bool or_max) {
@@ -308,7 +304,9 @@ void add_threads_word(CLI::App& command, int& threads) {
 }
 
 void add_json_word(CLI::App& command, std::filesystem::path& file) {
-    command.add_option("--json", file, "Write a report as JSON (- for standard output)")->check(file_word());
+    const auto standard_output = [](const std::string& text) { return text == "/dev/stdout" ? "-" : text; };
+    command.add_option("--json", file, "Write a report as JSON (- for standard output)")
+        ->transform(standard_output);
 }
 
 }  // namespace goffer::cli

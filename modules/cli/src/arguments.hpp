@@ -54,9 +54,6 @@ using Action = std::function<void()>;
 /// Where a file is or would be, links and dots resolved. Throws InputError where the working folder is gone.
 [[nodiscard]] std::filesystem::path resolved(const std::filesystem::path& file);
 
-/// The name of a file: not empty, as a variable that a script has not set.
-[[nodiscard]] CLI::Validator file_word();
-
 /// Angles as angle_word(true) accepts them, with commas between them: degrees, and infinities for "max" and
 /// "-max". `option` begins the error.
 [[nodiscard]] std::vector<double> read_angles(const std::string& option, const std::string& text);

@@ -35,7 +35,7 @@ int read_side(const std::string& side, const std::string& text) {
 }  // namespace
 
 void add_picture_words(CLI::App& command, PictureWords& words, const std::string& of) {
-    command.add_option("--png", words.file, "Write a picture" + of)->check(file_word());
+    command.add_option("--png", words.file, "Write a picture" + of);
     command.add_option("--size", words.size, "Make the picture WIDTHxHEIGHT pixels [1280x960]");
 }
 

@@ -84,6 +84,17 @@ std::string fault_of_count(const CLI::App& command, const std::string& fault) {
                                                     : " needs a value";
 }
 
+/// The subcommand that was given, or null.
+const CLI::App* command_of(const CLI::App& app) {
+    const std::vector<const CLI::App*> commands =
+        app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+    return commands.empty() ? nullptr : commands.front();
+}
+
+std::string see_help(const CLI::App& command) {
+    return "; see goffer " + command.get_name() + " --help";
+}
+
 }  // namespace
 
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
@@ -94,15 +105,24 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
         if (word.starts_with("-")) return "there is no option " + word + " before a command" + help;
         return "there is no command " + word + suggestion(word, names_of_commands(app)) + help;
     }
-    const std::vector<const CLI::App*> commands =
-        app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
-    if (commands.empty()) return "give a command: " + CLI::detail::join(names_of_commands(app), ", ") + help;
-    const CLI::App& command = *commands.front();
+    const CLI::App* const given = command_of(app);
+    if (given == nullptr) return "give a command: " + CLI::detail::join(names_of_commands(app), ", ") + help;
+    const CLI::App& command = *given;
     std::string fault = error.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&error) && !rest.empty()) fault = fault_of_rest(command, rest);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         fault = fault.substr(0, fault.find(':')) + fault_of_count(command, fault);
-    return fault + "; see goffer " + command.get_name() + " --help";
+    return fault + see_help(command);
+}
+
+std::string fault_of_empty(const CLI::App& app) {
+    const CLI::App* const command = command_of(app);
+    if (command == nullptr) return "";
+    for (const CLI::Option* option : command->get_options()) {
+        if (std::ranges::count(option->results(), "") != 0)
+            return option->get_name() + " is empty; give it a value" + see_help(*command);
+    }
+    return "";
 }
 
 }  // namespace goffer::cli
