@@ -147,6 +147,17 @@ TEST_CASE("gltf: sparse indices and counts are checked") {
                 "accessors[0].sparse.indices: entry 0 is 4, but the accessor has 4 elements"));
     document.json["accessors"][0]["sparse"]["count"] = 2;
     CHECK(tells(load_error("d.glb", document.glb()), "do not fit"));
+    document.json["accessors"][0]["sparse"]["count"] = 5;
+    CHECK(tells(load_error("d.glb", document.glb()),
+                "accessors[0].sparse.count: is 5, but the accessor has 4 elements"));
+}
+
+TEST_CASE("gltf: a node that is drawn many times is bent once, and that is said") {
+    const Document document =
+        tetra_with_nodes(R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}])");
+    const goffer::mesh::Mesh mesh = load_text("d.glb", document.glb());
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0] == "nodes[0] is drawn many times: it is bent once, at the node's own place");
 }
 
 TEST_CASE("gltf: a cycle without a scene, and a node with two parents, are named") {

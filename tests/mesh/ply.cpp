@@ -221,6 +221,10 @@ TEST_CASE("ply: what cannot be read is told with its line, element and row") {
     CHECK(
         error("3 0 2 3", "3 0 2 4", "line 36: element 'face', row 1 of 2 (counted from 0): vertex index 4"));
     CHECK(error("3 0 2 3", "3 0 2 -1", "element 'face', row 1 of 2 (counted from 0): vertex index -1"));
+    CHECK(
+        tells(load_error("a.ply", replaced(replaced(rich_ply, "list uint8 int32", "list int8 int32"),
+                                           "9 4 0 1 2 3", "9 -4 0 1 2 3")),
+              "line 35: element 'face', row 0 of 2 (counted from 0): list 'vertex_indices' has a negative"));
     CHECK(error("element vertex 4", "element vertex 40", "row 4 of 40"));
     CHECK(error("element vertex 4", "element vertex 3", "element 'camera', row 0 of 1"));
     CHECK(error("element vertex 4", "element vertex -4", "line 5: element count '-4'"));
@@ -254,6 +258,13 @@ TEST_CASE("ply: faces of two corners are left out with a warning") {
     const Mesh mesh = load_text("a.ply", replaced(rich_ply, "9 3 0 2 3 0", "9 2 0 2 0"));
     CHECK(mesh.faces.size() == 1);
     CHECK(mesh.warnings.size() == 1);
+}
+
+TEST_CASE("ply: texture coordinates that are no numbers are 0, with a warning") {
+    const Mesh mesh = load_text("a.ply", replaced(rich_ply, "8 0 0 1 0 1 1 0 1", "8 0 0 nan 0 1 inf 0 1"));
+    CHECK(mesh.uvs[0].values == std::vector<glm::vec2>{{0, 0}, {0, 0}, {1, 0}, {0, 1}});
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0] == "2 uv or color values are not finite: taken as 0");
 }
 
 TEST_CASE("ply: an index that is no number, or too large for one, is told as it is") {

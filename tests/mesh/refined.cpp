@@ -8,9 +8,17 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace goffer::mesh;
 using namespace goffer::test;
@@ -74,6 +82,55 @@ void check_refined_model(const char* name, int axis) {
         size = std::max(size, glm::length(back.positions[i]));
     }
     CHECK(worst <= 1.2e-7f * size);
+}
+
+template <class T>
+void put(std::string& bytes, double value, bool big) {
+    const auto number = static_cast<T>(value);
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), &number, sizeof(T));
+    if (big != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
+    bytes.append(raw.data(), raw.size());
+}
+
+void put(std::string& bytes, const std::string& type, double value, bool big) {
+    if (type == "char") put<std::int8_t>(bytes, value, big);
+    if (type == "uchar") put<std::uint8_t>(bytes, value, big);
+    if (type == "short") put<std::int16_t>(bytes, value, big);
+    if (type == "ushort") put<std::uint16_t>(bytes, value, big);
+    if (type == "int") put<std::int32_t>(bytes, value, big);
+    if (type == "uint") put<std::uint32_t>(bytes, value, big);
+    if (type == "float") put<float>(bytes, value, big);
+    if (type == "double") put<double>(bytes, value, big);
+}
+
+/// A PLY file in text, whose faces are triangles, as bytes.
+std::string binary_ply(const std::string& text, bool big) {
+    std::vector<std::pair<int, std::vector<std::string>>> elements;  // how many rows of which types
+    std::istringstream lines(text);
+    std::string bytes, line;
+    while (std::getline(lines, line) && line != "end_header") {
+        std::istringstream words(line);
+        std::string word, name, type;
+        words >> word >> name;
+        if (word == "element") words >> elements.emplace_back().first;
+        if (word == "property" && name != "list") elements.back().second.push_back(name);
+        if (name == "list") elements.back().second = {"uchar", "int", "int", "int"};
+        bytes += (word == "format" ? big ? "format binary_big_endian 1.0" : "format binary_little_endian 1.0"
+                                   : line) +
+                 "\n";
+    }
+    bytes += "end_header\n";
+    for (const auto& [rows, types] : elements) {
+        for (int row = 0; row < rows; ++row) {
+            for (const std::string& type : types) {
+                double value = 0;
+                lines >> value;
+                put(bytes, type, value, big);
+            }
+        }
+    }
+    return bytes;
 }
 
 }  // namespace
@@ -200,6 +257,26 @@ TEST_CASE("refined: PLY keeps all elements and properties, names from the nearer
     CHECK(bytes.corners == alone.corners);
     for (std::size_t i = 4; i < 49; ++i)  // of 0 to 255, as far as bytes go
         CHECK(bytes.colors[i].b == std::round(alone.colors[i].b * 255) / 255);
+}
+
+TEST_CASE("refined: a binary PLY gets the numbers that its text gets, in every type and byte order") {
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty double y\nproperty float z\n"
+        "property char a\nproperty uchar b\nproperty short c\nproperty ushort d\nproperty int e\n"
+        "property uint f\nproperty float g\nproperty double h\n"
+        "property float nx\nproperty float ny\nproperty float nz\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 -100 200 -30000 60000 -2000000 4000000000 0.5 0.25 0 0 -1\n"
+        "1 0 0 -100 200 -30000 60000 -2000000 4000000000 0.5 0.25 1 0 0\n"
+        "0 1 0 -100 200 -30000 60000 -2000000 4000000000 0.5 0.25 0 1 0\n"
+        "0 0 16 100 10 30000 10 2000000 1 16.5 32.25 0 0 1\n"
+        "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    const std::string expected = saved(refined_along(load_text("t.ply", text), 2), "out.ply");
+    REQUIRE(expected.find("\n0 0 1 -100 200 -30000 60000 -2000000 4000000000 1.5 2.25 ") != expected.npos);
+    for (const bool big : {false, true}) {
+        const std::string bytes = saved(refined_along(load_text("b.ply", binary_ply(text, big)), 2), "b.ply");
+        CHECK(bytes == binary_ply(expected, big));
+    }
 }
 
 TEST_CASE("refined: a PLY whose types are too small for the new vertices is written anew") {
