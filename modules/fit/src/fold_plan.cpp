@@ -57,6 +57,52 @@ std::vector<double> widened(const std::vector<double>& values) {
     return wide;
 }
 
+/// How long a fold is at least, knot by knot, for the mesh's rows to carry it.
+std::vector<double> row_limits(const Rows& rows, double start, double length, std::size_t knots) {
+    std::vector<double> limits;
+    for (std::size_t i = 0; i < knots; ++i) {
+        const double z = start + length * static_cast<double>(i) / static_cast<double>(knots - 1);
+        limits.push_back(rows_of_fold * rows.reach_at(z));
+    }
+    return widened(limits);
+}
+
+/// Sets the folds' lengths, as wanted or as rows limit them, and weights, which fade the longer folds are.
+void lengthen_folds(const std::vector<double>& radii, const std::vector<double>& wanted,
+                    const std::vector<double>& limits, double in_radii, paper::Shape::Knots& shape) {
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        shape.fold_length.push_back(
+            std::clamp(limits[i], wanted[i], std::max(longest, in_radii + longest - full) * radii[i]));
+        shape.weight.push_back(fade_of(std::max(limits[i], wanted[i]) / radii[i], in_radii));
+    }
+}
+
+/// Whether folds are the same all along.
+bool alike(const paper::Shape::Knots& shape) {
+    const auto like_first = [&](double length) {
+        return std::fabs(length / shape.fold_length[0] - 1) < 1e-3;
+    };
+    return std::ranges::all_of(shape.fold_length, like_first) &&
+           std::ranges::count(shape.weight, shape.weight[0]) == std::ssize(shape.weight);
+}
+
+bool nothing_left(const paper::Shape::Knots& shape) {
+    return std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; });
+}
+
+/// Returns how many folds of such lengths fit; 0 where all have faded. A body that is too long for so many
+/// has longer ones, which fade.
+int count_folds(double length, double radius, const std::vector<double>& radii, double in_radii,
+                paper::Shape::Knots& shape) {
+    const double folds = std::round(paper::Shape(length, radius, shape).folds());
+    const int most = max_folds(Profile::even);
+    const double longer = std::max(folds / most, 1.0);
+    for (std::size_t i = 0; longer > 1 && i < radii.size(); ++i)
+        shape.weight[i] =
+            std::min(shape.weight[i], fade_of(longer * shape.fold_length[i] / radii[i], in_radii));
+    return nothing_left(shape) ? 0 : static_cast<int>(std::clamp<double>(folds, 1, most));
+}
+
 }  // namespace
 
 double fold_length_at(const Cylinder& cylinder, const BindOptions& options, double radius) {
@@ -70,42 +116,19 @@ double fold_length_at(const Cylinder& cylinder, const BindOptions& options, doub
 
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
-    const bool even = options.profile.kind == Profile::Kind::even;
     const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
     const std::vector<double> radii = radii_at(cylinder, start, length, knots);
-    paper::Shape::Knots shape;
-    shape.radius = radii_of(cylinder, start, length);  // as Straightening has them
-    FoldPlan plan{asked.value_or(0)};
-    const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
     std::vector<double> wanted(knots);  // lengths of folds
     std::ranges::transform(radii, wanted.begin(),
                            [&](double radius) { return fold_length_at(cylinder, options, radius); });
-    if (even && !asked) {
-        std::vector<double> row_limit;
-        for (std::size_t i = 0; i < knots; ++i) {
-            const double z = start + length * static_cast<double>(i) / static_cast<double>(knots - 1);
-            row_limit.push_back(rows_of_fold * rows.reach_at(z));
-        }
-        row_limit = widened(row_limit);
-        bool same = cylinder.radii.empty();
-        for (std::size_t i = 0; i < knots; ++i) {
-            shape.fold_length.push_back(
-                std::clamp(row_limit[i], wanted[i], std::max(longest, in_radii + longest - full) * radii[i]));
-            const double excess = std::max(row_limit[i], wanted[i]) / radii[i];
-            shape.weight.push_back(fade_of(excess, in_radii));
-            same = same && std::fabs(shape.fold_length[i] / shape.fold_length[0] - 1) < 1e-3 &&
-                   shape.weight[i] == shape.weight[0];
-        }
-        const paper::Shape counting(length, cylinder.radius, shape);
-        const double folds = std::round(counting.folds());
-        const int most = max_folds(Profile::even);
-        plan.folds = static_cast<int>(std::clamp<double>(folds, 1, most));
-        // A body that is too long for so many has longer ones.
-        const double longer = std::max(folds / most, 1.0);
-        for (std::size_t i = 0; longer > 1 && i < knots; ++i)
-            shape.weight[i] =
-                std::min(shape.weight[i], fade_of(longer * shape.fold_length[i] / radii[i], in_radii));
-        if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
+    paper::Shape::Knots shape;
+    shape.radius = radii_of(cylinder, start, length);  // as Straightening has them
+    FoldPlan plan{asked.value_or(0)};
+    if (options.profile.kind == Profile::Kind::even && !asked) {
+        const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
+        lengthen_folds(radii, wanted, row_limits(rows, start, length, knots), in_radii, shape);
+        const bool same = cylinder.radii.empty() && alike(shape);
+        plan.folds = count_folds(length, cylinder.radius, radii, in_radii, shape);
         if (same && shape.weight[0] == 1) shape.fold_length.clear(), shape.weight.clear();
     }
     if (!options.wrinkle_range.whole() && plan.folds > 0) {
@@ -113,7 +136,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
             weights_inside(options.wrinkle_range, cylinder, start, length, wanted);
         shape.weight.resize(knots, 1);
         std::ranges::transform(shape.weight, inside, shape.weight.begin(), std::multiplies());
-        if (std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; })) plan.folds = 0;
+        if (nothing_left(shape)) plan.folds = 0;
     }
     if (shape.radius.empty() && shape.fold_length.empty() && shape.weight.empty()) return plan;
     plan.shape = std::make_shared<const paper::Shape>(length, cylinder.radius, shape);
