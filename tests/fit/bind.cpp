@@ -56,6 +56,18 @@ TEST_CASE("the table's amplitudes are eq 7's, at every angle between the rows") 
     CHECK(worst < 3e-7);
 }
 
+TEST_CASE("no table is made of a cylinder without length or radius") {
+    const auto error = [](double length, double radius) {
+        return error_of(
+            [=] { (void)fit::make_wrinkle_table(Profile::damped, Amplitude::paper, 5, length, radius, 1); });
+    };
+    CHECK(error(10, 1).empty());
+    for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+        CHECK(error(wrong, 1).starts_with("length: "));
+        CHECK(error(10, wrong).starts_with("radius: "));
+    }
+}
+
 TEST_CASE("with amplitude `area` the table holds the base's lateral area") {
     constexpr double length = 10, radius = 1;
     for (const int folds : {3, 6, 10}) {

@@ -59,6 +59,14 @@ class Profile(unittest.TestCase):
             counts.output_of("ls", "/nowhere")
 
 
+class Memory(support.Case):
+    def test_what_cannot_be_counted_is_left_out(self):
+        program = self.folder / "goffer_count"
+        program.write_text("#!/bin/sh\necho allocations/run 0\necho sizes/body 120\necho allocations/load -1\n")
+        program.chmod(0o755)
+        self.assertEqual(counts.memory_counts(str(program)), {"allocations/run": 0.0, "sizes/body": 120.0})
+
+
 class Baseline(support.Case):
     def verdict(self, was, now):
         return baseline.compare("x", was, now).verdict

@@ -169,6 +169,21 @@ class Gate(support.Case):
             self.assertEqual(set(parts), {"counts", "ratios"})
             self.assertEqual(len(parts["ratios"]["rows"]), 1)
 
+    def test_pairs_are_built_where_no_programs_are_given(self):
+        def tree(label, program):
+            return unittest.mock.Mock(label=label, **{"compiler.return_value": "GNU", "program.return_value": program})
+
+        repository = unittest.mock.Mock(**{"default_base.return_value": "abc", "base.return_value": tree("abc", self.fake("base")),
+                                           "head.return_value": tree("head", self.fake("head"))})
+        with unittest.mock.patch.object(command, "Repository", return_value=repository), \
+                contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            self.assertEqual(command.main(["--only", "pairs", "--json", str(self.folder / "r.json"),
+                                           "--markdown", str(self.folder / "r.md")]), 0)
+        repository.base.assert_called_once_with("abc", ["goffer_bench"])
+        document = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual((document["base"], document["head"]), ("abc", "head"))
+        self.assertEqual(len(document["parts"][0]["rows"]), 2)
+
     def test_update_writes_the_counts(self):
         file = self.folder / "baseline.json"
         head = unittest.mock.Mock(**{"compiler.return_value": "GNU 12.2.0"})

@@ -82,6 +82,15 @@ TEST_CASE("gltf: a matrix is column-major and equals its translation, rotation a
     }
 }
 
+TEST_CASE("gltf: a matrix is taken as affine, whatever its last row says") {
+    const Mesh affine =
+        nodes(R"([{"mesh": 0, "matrix": [0, 3, 0, 0, -2, 0, 0, 0, 0, 0, 4, 0, 7, 8, 9, 1]}])");
+    const Mesh other =
+        nodes(R"([{"mesh": 0, "matrix": [0, 3, 0, 0.5, -2, 0, 0, 0.25, 0, 0, 4, -0.5, 7, 8, 9, 2]}])");
+    CHECK(other.positions == affine.positions);
+    CHECK(other.normals == affine.normals);
+}
+
 TEST_CASE("gltf: uneven scale takes normals by the inverse transpose and tangents by the matrix") {
     const Mesh mesh = nodes(R"([{"mesh": 0, "scale": [2, 1, 1]}])");
     CHECK(close(mesh.normals.values[1], glm::normalize(glm::vec3(0.5f, 1, 0))));

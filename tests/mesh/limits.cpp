@@ -138,6 +138,16 @@ TEST_CASE("limits: a mesh that is repeated, a buffer that is named again and aga
     CHECK(within(small, "d.glb", repeated(document, 10).glb()).empty());
     CHECK(tells(within(small, "d.glb", repeated(document, 50).glb()), "Limits::memory"));
 
+    // Each part keeps its name, which may be that of the node.
+    document = tetra();
+    document.json["nodes"][0]["name"] = std::string(20000, 'n');
+    CHECK(within(small, "d.glb", document.glb()).empty());
+    const Json primitive = primitive_of(document);
+    document.json["meshes"][0]["primitives"] = std::vector<Json>(30, primitive);
+    CHECK(tells(within(small, "d.glb", document.glb()), "Limits::memory"));
+    document.json["nodes"][0]["name"] = "n";
+    CHECK(within(small, "d.glb", document.glb()).empty());
+
     // A node's mesh may be written for it alone: it counts again, though it is shown once.
     for (const Json& much : {Json(std::vector<Json>(4000, {{"a", 0}})),
                              Json(std::vector<Json>(6500, Json::array())), Json(std::string(300000, 'x'))}) {

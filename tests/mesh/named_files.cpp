@@ -65,6 +65,35 @@ std::string uri_to(const fs::path& file, const char* slash) {
 
 }  // namespace
 
+TEST_CASE("files: the buffers that a glTF names are told, there or not, without those outside") {
+    const Place place;
+    Document document = tetra();
+    const auto name = [&](const Json& buffer) { document.json["buffers"].push_back(buffer); };
+    const auto named = [&](const LoadOptions& options = {}) {
+        std::vector<std::string> names;
+        const fs::path file = place.folder.write("in/d.gltf", document.gltf());
+        for (const fs::path& buffer : named_buffers(file, options)) {
+            names.push_back(fs::weakly_canonical(buffer)
+                                .lexically_relative(fs::weakly_canonical(place.folder / "in"))
+                                .string());
+        }
+        return names;
+    };
+    CHECK(named().empty());  // a data URI
+    name({{"byteLength", 4}});
+    name({{"byteLength", 4}, {"uri", 5}});
+    name({{"byteLength", 4}, {"uri", ""}});
+    name({{"byteLength", 4}, {"uri", "https://example.com/a.bin"}});
+    name({{"byteLength", 4}, {"uri", "sub/own.bin"}});
+    name({{"byteLength", 4}, {"uri", "none.bin"}});
+    name({{"byteLength", 4}, {"uri", "../secret.bin"}});
+    CHECK(named() == std::vector<std::string>{"sub/own.bin", "none.bin"});
+    CHECK(named({.allow_outside = true}) ==
+          std::vector<std::string>{"sub/own.bin", "none.bin", "../secret.bin"});
+    CHECK(named_buffers(place.folder.write("in/a.obj", "v 0 0 0\n")).empty());
+    CHECK(named_buffers(place.folder.write("in/broken.gltf", "{")).empty());
+}
+
 TEST_CASE("named files: a glTF reads and copies nothing from outside its folder, however it is spelled") {
     const Place place;
     const LoadOptions allowed{.allow_outside = true};
