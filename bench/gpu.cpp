@@ -48,7 +48,11 @@ constexpr std::size_t floats_of(Outputs outputs) {
     return outputs == Outputs::positions ? 3 : outputs == Outputs::tangents ? 10 : 6;
 }
 
-/// What both stages do with a vertex. Of the crowd at rest, the floor, positions and normals are passed on.
+std::size_t result_bytes(const GpuCase& what) {
+    return what.instances * what.vertices * floats_of(what.outputs) * sizeof(float);
+}
+
+/// What both stages do with a vertex. `rest`, the floor, passes on as many floats as they are.
 constexpr const char* deform_vertex = R"(
 layout(std430, binding = 1) readonly buffer Rows { vec4 rows[]; };
 uniform int rows_per_instance;
@@ -170,7 +174,7 @@ public:
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers_[1]);
         glUseProgram(program_);
         set("rows_per_instance", body.region_count() * bend::coefficient_rows);
-        what.stage == Stage::draw ? set_attributes() : set_storage();
+        what.stage == Stage::draw ? draw::read_vertices(layout_) : set_storage();
     }
     GpuCrowd(const GpuCrowd&) = delete;
     GpuCrowd& operator=(const GpuCrowd&) = delete;
@@ -217,22 +221,6 @@ private:
         glUniform1i(glGetUniformLocation(program_, uniform), static_cast<GLint>(value));
     }
 
-    void attribute(GLuint location, GLint floats, std::size_t offset) const {
-        if (offset == gpu::VertexLayout::none) return;
-        glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(layout_.stride),
-                              reinterpret_cast<const void*>(offset));
-    }
-
-    void set_attributes() const {
-        attribute(0, 4, layout_.column);
-        attribute(1, 4, layout_.wrinkle);
-        attribute(2, 3, layout_.normal);
-        attribute(3, 4, layout_.shape);
-        attribute(4, 4, layout_.tangent);
-        attribute(5, 4, layout_.joint);
-    }
-
     void set_storage() const {
         const auto floats = [](std::size_t offset) {
             return offset == gpu::VertexLayout::none ? offset : offset / sizeof(float);
@@ -242,9 +230,9 @@ private:
         set("shape_at", floats(layout_.shape));
         set("tangent_at", floats(layout_.tangent));
         set("joint_at", floats(layout_.joint));
-        const std::size_t bytes = what_.instances * what_.vertices * floats_of(what_.outputs) * sizeof(float);
         glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[2]);
-        glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_COPY);
+        glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(result_bytes(what_)), nullptr,
+                     GL_STREAM_COPY);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers_[0]);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, buffers_[2]);
     }
@@ -255,17 +243,30 @@ private:
     std::array<GLuint, 3> buffers_{};
 };
 
+/// What keeps a case, of which a frame has run, from being timed; empty: nothing. A shader may leave out what
+/// lies beyond the largest block.
+std::string fault_of(const GpuCase& what) {
+    GLenum error = GL_NO_ERROR;
+    for (GLenum next = glGetError(); next != GL_NO_ERROR; next = glGetError()) error = next;
+    if (error == GL_OUT_OF_MEMORY) return "the GPU has no room for it";
+    if (error != GL_NO_ERROR) return "OpenGL reports error " + std::to_string(error);
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    const bool fits = what.stage == Stage::draw || result_bytes(what) <= static_cast<std::size_t>(largest);
+    return fits ? "" : "its results are more than a storage block holds";
+}
+
 /// Times frames, several in a row, from an idle GPU to an idle one.
 void time_frames(benchmark::State& state, Fixture& fixture, const GpuCase& what) {
     using Clock = std::chrono::steady_clock;
     constexpr int frames = 10;
     const GpuCrowd crowd(fixture.body(what.vertices, what.shape), what);
     crowd.frame();
-    if (glGetError() != GL_NO_ERROR) {
-        state.SkipWithError("OpenGL has no room for it");
+    glFinish();
+    if (const std::string fault = fault_of(what); !fault.empty()) {
+        state.SkipWithError(fault.c_str());
         return;
     }
-    glFinish();
     std::chrono::duration<double> time{};
     std::size_t iterations = 0;
     for (auto _ : state) {

@@ -112,9 +112,9 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
             {"--output is given more than once; give it once; see goffer bend --help"});
     for (const std::string option : {"--json", "--png", "--fit", "--path"})
         refused(place.folder, 2, bend + Words{option, ""},
-                {option + " is empty; give it a value; see goffer bend --help"});
-    refused(place.folder, 2, {"inspect", ""}, {"model is empty"});
-    refused(place.folder, 2, {"bend", "base.ply", "-o", ""}, {"--output is empty"});
+                {"the value of " + option + " is empty; see goffer bend --help"});
+    refused(place.folder, 2, {"inspect", ""}, {"the value of model is empty"});
+    refused(place.folder, 2, {"bend", "base.ply", "-o", ""}, {"the value of --output is empty"});
     refused(place.folder, 2, {"animate", "base.ply", "-o", "out.glb", "--swing", "1e30"},
             {"--swing: 1e+30 is not an angle in degrees, within 1e+06, or max"});
     refused(place.folder, 2, bend + Words{"--xyzzy"}, {"no option --xyzzy; see goffer bend --help"});

@@ -102,22 +102,6 @@ GLuint linked(GlApi api) {
     return program;
 }
 
-void attribute(GLuint location, GLint floats, const gpu::VertexLayout& layout, std::size_t offset) {
-    if (offset == gpu::VertexLayout::none) return;
-    glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(layout.stride),
-                          reinterpret_cast<const void*>(offset));
-}
-
-void set_vertex_attributes(const gpu::VertexLayout& layout) {
-    attribute(0, 4, layout, layout.column);
-    attribute(1, 4, layout, layout.wrinkle);
-    attribute(2, 3, layout, layout.normal);
-    attribute(3, 4, layout, layout.shape);
-    attribute(4, 4, layout, layout.tangent);
-    attribute(5, 4, layout, layout.joint);
-}
-
 /// Binds the coefficients as a texture buffer, or as a texture of whole lines.
 void set_texture(GlApi api, std::span<const float> rows) {
     GLuint texture = 0;
@@ -182,7 +166,7 @@ public:
             glGenVertexArrays(1, &array);
             glBindVertexArray(array);
             buffer(GL_ARRAY_BUFFER, vertices.size(), vertices.data());
-            set_vertex_attributes(layout);
+            draw::read_vertices(layout);
             set_texture(api_, rows);
             capture(bytes, count, instances);
         }

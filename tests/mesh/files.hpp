@@ -5,6 +5,10 @@
 
 #include <goffer/mesh/mesh.hpp>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 #include <string>
 
 /// Meshes in small files, and what loading and saving makes of them.
@@ -48,6 +52,15 @@ inline std::string replaced(std::string bytes, const std::string& from, const st
     for (auto at = bytes.find(from); at != bytes.npos; at = bytes.find(from, at + to.size()))
         bytes.replace(at, from.size(), to);
     return bytes;
+}
+
+/// Appends the bytes of a number, the most significant first if `big`.
+template <class T>
+void append_number(std::string& bytes, T value, bool big) {
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if (big != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
+    bytes.append(raw.data(), raw.size());
 }
 
 }  // namespace goffer::test

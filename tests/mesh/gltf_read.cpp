@@ -85,10 +85,13 @@ TEST_CASE("gltf: a matrix is column-major and equals its translation, rotation a
 TEST_CASE("gltf: a matrix is taken as affine, whatever its last row says") {
     const Mesh affine =
         nodes(R"([{"mesh": 0, "matrix": [0, 3, 0, 0, -2, 0, 0, 0, 0, 0, 4, 0, 7, 8, 9, 1]}])");
-    const Mesh other =
+    Mesh other =
         nodes(R"([{"mesh": 0, "matrix": [0, 3, 0, 0.5, -2, 0, 0, 0.25, 0, 0, 4, -0.5, 7, 8, 9, 2]}])");
     CHECK(other.positions == affine.positions);
     CHECK(other.normals == affine.normals);
+    for (glm::vec3& position : other.positions) position += glm::vec3(1, 2, 3);
+    const Mesh again = reloaded(other, "moved.glb");  // by the inverse, and the matrix
+    for (std::size_t i = 0; i < 4; ++i) CHECK(close(again.positions[i], other.positions[i]));
 }
 
 TEST_CASE("gltf: uneven scale takes normals by the inverse transpose and tangents by the matrix") {

@@ -3,11 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-
 using namespace goffer::mesh;
 using namespace goffer::test;
 
@@ -44,10 +39,7 @@ struct Binary {
     std::string bytes;
     template <class T>
     Binary& put(T value) {
-        std::array<char, sizeof(T)> raw;
-        std::memcpy(raw.data(), &value, sizeof(T));
-        if (big != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
-        bytes.append(raw.data(), raw.size());
+        append_number(bytes, value, big);
         return *this;
     }
     template <class T, class... Values>
@@ -114,7 +106,11 @@ TEST_CASE("ply: a byte order mark before text is passed over, and kept") {
     const Mesh mesh = load_text("a.dat", marked);
     check_rich(mesh);
     CHECK(saved(mesh, "b.ply") == marked);
-    CHECK(tells(load_error("a.dat", replaced(marked, "end_header", "end")), "line "));
+    CHECK(tells(load_error("a.ply", replaced(marked, "property uint8 label", "property long label")),
+                "line 6: type 'long'"));
+    Mesh moved = mesh;
+    moved.positions[1] = {4, 5, 6};
+    CHECK(saved(moved, "b.ply") == replaced(marked, "2 1.50 0 0 2", "2 4 5 6 2"));
 }
 
 TEST_CASE("ply: an unchanged mesh is written to the byte") {

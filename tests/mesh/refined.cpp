@@ -8,9 +8,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -84,24 +81,15 @@ void check_refined_model(const char* name, int axis) {
     CHECK(worst <= 1.2e-7f * size);
 }
 
-template <class T>
-void put(std::string& bytes, double value, bool big) {
-    const auto number = static_cast<T>(value);
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), &number, sizeof(T));
-    if (big != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
-    bytes.append(raw.data(), raw.size());
-}
-
-void put(std::string& bytes, const std::string& type, double value, bool big) {
-    if (type == "char") put<std::int8_t>(bytes, value, big);
-    if (type == "uchar") put<std::uint8_t>(bytes, value, big);
-    if (type == "short") put<std::int16_t>(bytes, value, big);
-    if (type == "ushort") put<std::uint16_t>(bytes, value, big);
-    if (type == "int") put<std::int32_t>(bytes, value, big);
-    if (type == "uint") put<std::uint32_t>(bytes, value, big);
-    if (type == "float") put<float>(bytes, value, big);
-    if (type == "double") put<double>(bytes, value, big);
+void append_typed(std::string& bytes, const std::string& type, double value, bool big) {
+    if (type == "char") append_number(bytes, static_cast<std::int8_t>(value), big);
+    if (type == "uchar") append_number(bytes, static_cast<std::uint8_t>(value), big);
+    if (type == "short") append_number(bytes, static_cast<std::int16_t>(value), big);
+    if (type == "ushort") append_number(bytes, static_cast<std::uint16_t>(value), big);
+    if (type == "int") append_number(bytes, static_cast<std::int32_t>(value), big);
+    if (type == "uint") append_number(bytes, static_cast<std::uint32_t>(value), big);
+    if (type == "float") append_number(bytes, static_cast<float>(value), big);
+    if (type == "double") append_number(bytes, static_cast<double>(value), big);
 }
 
 /// A PLY file in text, whose faces are triangles, as bytes.
@@ -126,7 +114,7 @@ std::string binary_ply(const std::string& text, bool big) {
             for (const std::string& type : types) {
                 double value = 0;
                 lines >> value;
-                put(bytes, type, value, big);
+                append_typed(bytes, type, value, big);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 #include "support/sanitized.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 #include <type_traits>
@@ -16,18 +17,18 @@ inline bool all_rounds() {
     return wanted ? std::string_view(wanted) == "all" : !sanitized;
 }
 
-/// Whether an emulator runs the tests, which makes each take ten times as long, too.
+/// Whether an emulator runs the tests, which then take ten times as long as well.
 #ifdef GOFFER_EMULATED
 inline constexpr bool emulated = true;
 #else
 inline constexpr bool emulated = false;
 #endif
 
-/// How many of them that is: on an emulator, a third of a few.
+/// How many rounds that is: on an emulator, a third of `few`. What is no number stays.
 template <class T>
 T rounds(T all, T few) {
     if (all_rounds()) return all;
-    if constexpr (emulated && std::is_integral_v<T>) return few > 3 ? few / 3 : 1;
+    if constexpr (emulated && std::is_integral_v<T>) return std::max<T>(few / 3, 1);
     return few;
 }
 

@@ -10,12 +10,7 @@ inline constexpr bool sanitized = true;
 inline constexpr bool sanitized = false;
 #endif
 
-/// Whether the thread sanitizer does.
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define GOFFER_THREAD_SANITIZED
-#endif
-#endif
+/// Whether the thread sanitizer is among them.
 #ifdef GOFFER_THREAD_SANITIZED
 inline constexpr bool thread_sanitized = true;
 #else

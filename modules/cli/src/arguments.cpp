@@ -9,7 +9,6 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <CLI/CLI.hpp>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -111,18 +110,22 @@ std::vector<double> read_list(const std::string& option, const std::string& text
 std::optional<glm::dvec3> parse_axis(const std::string& text) {
     if (text == "auto") return std::nullopt;
     if (const auto axis = named_axis(text)) return axis;
-    const auto axis = three_numbers(text);
+    std::optional<glm::dvec3> axis = three_numbers(text);
     if (!axis)
         throw UsageError("--axis: '" + text + "' is not auto, x, y, z (or -x, ..) or three numbers X,Y,Z");
-    double largest = 0;  // squares of the numbers may be beyond double
-    for (int i = 0; i < 3; ++i) largest = std::fmax(largest, std::fabs((*axis)[i]));
-    const glm::dvec3 scaled = *axis / largest;
-    const double length = glm::length(scaled);
-    if (!(length > 0) || !std::isfinite(length)) {
+    double largest = 0;
+    bool finite = true;
+    for (int i = 0; i < 3; ++i) {
+        finite = finite && std::isfinite((*axis)[i]);
+        largest = std::fmax(largest, std::fabs((*axis)[i]));
+    }
+    if (!finite || largest == 0) {
         throw UsageError("--axis: " + text +
                          " has no direction; give three finite numbers that are not all 0");
     }
-    return scaled;
+    // Squares may be beyond double. A power of two changes no bit of the direction.
+    for (int i = 0; i < 3; ++i) (*axis)[i] = std::scalbn((*axis)[i], -std::ilogb(largest));
+    return axis;
 }
 
 CLI::Validator number_within(double low, double high, const std::string& what) {
@@ -304,6 +307,7 @@ void add_threads_word(CLI::App& command, int& threads) {
 }
 
 void add_json_word(CLI::App& command, std::filesystem::path& file) {
+    // As a file, what standard output leads to would be replaced.
     const auto standard_output = [](const std::string& text) { return text == "/dev/stdout" ? "-" : text; };
     command.add_option("--json", file, "Write a report as JSON (- for standard output)")
         ->transform(standard_output);

@@ -119,8 +119,9 @@ std::string fault_of_empty(const CLI::App& app) {
     const CLI::App* const command = command_of(app);
     if (command == nullptr) return "";
     for (const CLI::Option* option : command->get_options()) {
+        if (option->get_expected_min() == 0) continue;  // it goes without a value, too
         if (std::ranges::count(option->results(), "") != 0)
-            return option->get_name() + " is empty; give it a value" + see_help(*command);
+            return "the value of " + option->get_name() + " is empty" + see_help(*command);
     }
     return "";
 }

@@ -39,4 +39,18 @@ void link_program(std::uint32_t program) {
     refuse("a program", log);
 }
 
+void read_vertices(const gpu::VertexLayout& layout) {
+    GLuint location = 0;
+    const auto read = [&](GLint floats, std::size_t offset) {
+        if (offset != gpu::VertexLayout::none) read_attribute(location, floats, layout.stride, offset);
+        ++location;
+    };
+    read(4, layout.column);
+    read(4, layout.wrinkle);
+    read(3, layout.normal);
+    read(4, layout.shape);
+    read(4, layout.tangent);
+    read(4, layout.joint);
+}
+
 }  // namespace goffer::draw

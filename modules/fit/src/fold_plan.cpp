@@ -90,10 +90,10 @@ bool nothing_left(const paper::Shape::Knots& shape) {
     return std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; });
 }
 
-/// Returns how many folds of such lengths fit; 0 where all have faded. A body that is too long for so many
-/// has longer ones, which fade.
-int count_folds(double length, double radius, const std::vector<double>& radii, double in_radii,
-                paper::Shape::Knots& shape) {
+/// Returns how many folds of such lengths fit, at most max_folds(); 0 where all have faded. Where more would
+/// fit, folds are longer, and their weights in `shape` fade by that.
+int count_and_fade(double length, double radius, const std::vector<double>& radii, double in_radii,
+                   paper::Shape::Knots& shape) {
     const double folds = std::round(paper::Shape(length, radius, shape).folds());
     const int most = max_folds(Profile::even);
     const double longer = std::max(folds / most, 1.0);
@@ -128,7 +128,7 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
         const double in_radii = options.fold_length.value_or(default_fold_length(options.profile));
         lengthen_folds(radii, wanted, row_limits(rows, start, length, knots), in_radii, shape);
         const bool same = cylinder.radii.empty() && alike(shape);
-        plan.folds = count_folds(length, cylinder.radius, radii, in_radii, shape);
+        plan.folds = count_and_fade(length, cylinder.radius, radii, in_radii, shape);
         if (same && shape.weight[0] == 1) shape.fold_length.clear(), shape.weight.clear();
     }
     if (!options.wrinkle_range.whole() && plan.folds > 0) {

@@ -64,6 +64,18 @@ std::string line_of(std::string_view text, const char* place) {
     return "line " + std::to_string(1 + (feeds > 0 ? feeds : std::ranges::count(before, '\r')));
 }
 
+std::string number_of(std::uint64_t count, std::string_view one, std::string_view several) {
+    return std::to_string(count) + " " + std::string(count == 1 ? one : several);
+}
+
+std::string short_faces_warning(std::uint64_t faces) {
+    return number_of(faces, "face has", "faces have") + " fewer than 3 corners: left out";
+}
+
+std::string not_finite_warning(std::uint64_t values) {
+    return number_of(values, "uv or color value is", "uv or color values are") + " not finite: taken as 0";
+}
+
 std::string_view next_token(std::string_view& rest) {
     while (!rest.empty() && (is_blank(rest.front()) || continues_line(rest))) rest.remove_prefix(1);
     std::size_t length = 0;

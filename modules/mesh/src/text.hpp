@@ -22,6 +22,11 @@ namespace goffer::mesh {
 /// "line N", where `place` points into `text`; lines count from 1.
 [[nodiscard]] std::string line_of(std::string_view text, const char* place);
 
+/// `count` and the word for so many: "1 face", "2 faces". Warnings that formats share.
+[[nodiscard]] std::string number_of(std::uint64_t count, std::string_view one, std::string_view several);
+[[nodiscard]] std::string short_faces_warning(std::uint64_t faces);
+[[nodiscard]] std::string not_finite_warning(std::uint64_t values);
+
 /// Takes the next token off the front of `rest`; empty at its end. A backslash before the end of a line
 /// counts as a blank.
 std::string_view next_token(std::string_view& rest);

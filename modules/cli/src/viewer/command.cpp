@@ -107,8 +107,9 @@ void add_view(CLI::App& app, Action& action) {
     add_refine_word(*command, options->bind, "auto");
     add_level_word(*command, options->bind.level);
     options->bind.choices.push_back(command->get_option("--regions"));
-    command->add_option("--json", options->json,
-                        "With --frames, write a report as JSON (- for standard output)");
+    add_json_word(*command, options->json);
+    command->get_option("--json")->description(
+        "With --frames, write a report as JSON (- for standard output)");
     command->footer(
         "A body that is bent in its file is shown as it is there, unless an angle is given.\n"
         "Drag: turn; with the right button: shift; wheel: zoom. Drag an orange end to bend. Files that are\n"

@@ -76,16 +76,11 @@ Mesh ObjReader::read() {
                  kept_copies * (total_.vt * sizeof(glm::vec2) + total_.vn * sizeof(glm::vec3)));
     each_statement(share_.part(counted, parsed, text_.size()), [&](const Statement& s) { take(s); });
     if (mesh_.faces.empty()) fail(file_, "has no faces (f lines of 3 corners or more); export it with faces");
-    if (short_faces_ > 0)
-        mesh_.warnings.push_back(std::to_string(short_faces_) +
-                                 (short_faces_ == 1 ? " face has" : " faces have") +
-                                 " fewer than 3 corners: left out");
-    if (not_finite_ > 0)
-        mesh_.warnings.push_back(std::to_string(not_finite_) +
-                                 " uv or color values are not finite: taken as 0");
+    if (short_faces_ > 0) mesh_.warnings.push_back(short_faces_warning(short_faces_));
+    if (not_finite_ > 0) mesh_.warnings.push_back(not_finite_warning(not_finite_));
     if (stray_exponents_ > 0)
-        mesh_.warnings.push_back(std::to_string(stray_exponents_) +
-                                 " numbers are written like 3.1+e2: read as 3.1, as other programs do");
+        mesh_.warnings.push_back(number_of(stray_exponents_, "number is", "numbers are") +
+                                 " written like 3.1+e2: read as 3.1, as other programs do");
     drop_unused_attributes();
     read_materials(file_, text_, materials_, options_, budget_, mesh_);
     return std::move(mesh_);

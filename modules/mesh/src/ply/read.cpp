@@ -70,13 +70,8 @@ Mesh PlyReader::read() {
         fail(header_.file, "there are no faces of 3 corners or more; export it with faces");
     mesh_.parts.push_back({.name = {}, .face_count = static_cast<std::uint32_t>(mesh_.faces.size())});
     if (has_texcoords_ && mesh_.uvs[0].values.empty()) mesh_.uvs.clear();
-    if (short_faces_ > 0)
-        mesh_.warnings.push_back(std::to_string(short_faces_) +
-                                 (short_faces_ == 1 ? " face has" : " faces have") +
-                                 " fewer than 3 corners: left out");
-    if (not_finite_ > 0)
-        mesh_.warnings.push_back(std::to_string(not_finite_) +
-                                 " uv or color values are not finite: taken as 0");
+    if (short_faces_ > 0) mesh_.warnings.push_back(short_faces_warning(short_faces_));
+    if (not_finite_ > 0) mesh_.warnings.push_back(not_finite_warning(not_finite_));
     return std::move(mesh_);
 }
 
@@ -103,7 +98,8 @@ void PlyReader::end_row(const Cursor& cursor, const Element& element) {
 
 void PlyReader::end(const Cursor& cursor) {
     if (const std::string_view rest = trimmed(cursor.rest()); !rest.empty())
-        mesh_.warnings.push_back(std::to_string(rest.size()) + " bytes behind the last element: not read");
+        mesh_.warnings.push_back(number_of(rest.size(), "byte", "bytes") +
+                                 " behind the last element: not read");
 }
 
 void PlyReader::end_vertex(const Cursor& cursor) {

@@ -191,8 +191,8 @@ Mesh read_binary(const std::filesystem::path& file, std::string_view bytes, Budg
     mesh.faces.assign(facets, 3);
     mesh.parts.push_back({.name = {}, .face_count = static_cast<std::uint32_t>(facets)});
     if (declared_size(bytes) < bytes.size())
-        mesh.warnings.push_back(std::to_string(bytes.size() - declared_size(bytes)) +
-                                " bytes behind the last facet: not read");
+        mesh.warnings.push_back(number_of(bytes.size() - declared_size(bytes), "byte", "bytes") +
+                                " behind the last facet: not read");
     return mesh;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <goffer/draw/mesh.hpp>
+#include <goffer/gpu/vertices.hpp>
+
 #include <cstdint>
 #include <string>
 
-/// Shaders and programs of OpenGL, in the context that is current. Names are OpenGL's.
+/// Shaders and programs of OpenGL, in the context that is current. They are given by OpenGL's names of them.
 
 namespace goffer::draw {
 
@@ -15,5 +18,9 @@ namespace goffer::draw {
 
 /// Links what is attached to `program`. Throws Error, as compile_shader() does, where it does not link.
 void link_program(std::uint32_t program);
+
+/// Has the vertex array that is bound read a body's records from the buffer that is bound: `column` at
+/// location 0, then `wrinkle`, `normal`, `shape`, `tangent` and `joint`. Leaves out what the layout lacks.
+void read_vertices(const gpu::VertexLayout& layout);
 
 }  // namespace goffer::draw
