@@ -43,7 +43,7 @@ CLI::Validator size_word() {
     constexpr std::size_t most_digits = 15;
     const auto read = [](std::string& word) {
         const std::size_t digits = word.find_first_not_of("0123456789.");
-        const std::string refused = "'" + word + "' is not a size, such as 500M or 8G";
+        std::string refused = "'" + word + "' is not a size, such as 500M or 8G";
         if (word.empty() || digits == 0 || std::min(digits, word.size()) > most_digits) return refused;
         try {
             return CLI::AsSizeValue(false)(word).empty() ? std::string() : refused;
