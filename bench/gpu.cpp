@@ -67,12 +67,6 @@ GofferBent deformed(GofferVertex vertex, int instance) {
 )";
 
 constexpr const char* draw_main = R"(
-layout(location = 0) in vec4 column;
-layout(location = 1) in vec4 wrinkle;
-layout(location = 2) in vec3 normal;
-layout(location = 3) in vec4 shape;
-layout(location = 4) in vec4 tangent;
-layout(location = 5) in vec4 joint;
 #if OUTPUTS != 1
 out vec3 bent_normal;
 #endif
@@ -151,7 +145,7 @@ GLuint make_program(Stage stage, Outputs outputs) {
     if (stage == Stage::compute) {
         attach(program, GL_COMPUTE_SHADER, outputs, deform + compute_main);
     } else {
-        attach(program, GL_VERTEX_SHADER, outputs, deform + draw_main);
+        attach(program, GL_VERTEX_SHADER, outputs, deform + draw::vertex_inputs + draw_main);
         attach(program, GL_FRAGMENT_SHADER, outputs, pixel_main);
     }
     draw::link_program(program);

@@ -70,6 +70,7 @@ TEST_CASE("inspect: the largest angle is in degrees") {
 TEST_CASE("inspect: --json - keeps standard output pure, the lines go to standard error") {
     const Folder folder;
     const Result result = run(folder, {"inspect", base(folder), "--json", "-"});
+    CHECK(run(folder, {"inspect", base(folder), "--json", "/dev/stdout"}).out == result.out);
     CHECK(result.code == 0);
     CHECK(json::accept(result.out));
     CHECK(result.err.find("largest angle") != result.err.npos);

@@ -21,12 +21,6 @@ namespace {
 constexpr std::size_t texture_width = 1024;
 
 const std::string vertex_main = R"(
-layout(location = 0) in vec4 column;
-layout(location = 1) in vec4 wrinkle;
-layout(location = 2) in vec3 normal;
-layout(location = 3) in vec4 shape;
-layout(location = 4) in vec4 tangent;
-layout(location = 5) in vec4 joint;
 uniform int rows_per_instance;
 out vec3 bent_position;
 out vec3 bent_normal;
@@ -83,9 +77,9 @@ std::string text_of(GlApi api) {
     const std::string deform(gpu::deform_glsl());
     switch (api) {
         case GlApi::core:
-            return "#version 330 core\n" + deform + core_rows + vertex_main;
+            return "#version 330 core\n" + deform + core_rows + draw::vertex_inputs + vertex_main;
         case GlApi::embedded:
-            return "#version 300 es\n" + deform + embedded_rows + vertex_main;
+            return "#version 300 es\n" + deform + embedded_rows + draw::vertex_inputs + vertex_main;
         case GlApi::compute:
             return "#version 430 core\n" + deform + compute_main;
     }

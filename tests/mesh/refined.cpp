@@ -89,7 +89,7 @@ void append_typed(std::string& bytes, const std::string& type, double value, boo
     if (type == "int") append_number(bytes, static_cast<std::int32_t>(value), big);
     if (type == "uint") append_number(bytes, static_cast<std::uint32_t>(value), big);
     if (type == "float") append_number(bytes, static_cast<float>(value), big);
-    if (type == "double") append_number(bytes, static_cast<double>(value), big);
+    if (type == "double") append_number(bytes, value, big);
 }
 
 /// A PLY file in text, whose faces are triangles, as bytes.
@@ -99,7 +99,7 @@ std::string binary_ply(const std::string& text, bool big) {
     std::string bytes, line;
     while (std::getline(lines, line) && line != "end_header") {
         std::istringstream words(line);
-        std::string word, name, type;
+        std::string word, name;
         words >> word >> name;
         if (word == "element") words >> elements.emplace_back().first;
         if (word == "property" && name != "list") elements.back().second.push_back(name);

@@ -24,21 +24,14 @@ const std::string text =
     "facet normal 0 0 1 outer loop vertex 0 0 1 vertex 1 0 1 vertex 0 1 1 endloop endfacet\n"
     "endsolid right\n";
 
-template <class T>
-void put(std::string& bytes, T value) {
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), &value, sizeof(T));
-    bytes.append(raw.data(), raw.size());
-}
-
 /// Two facets, with odd normals and attribute bytes; the header may say "solid".
 std::string binary(const std::string& name) {
     std::string bytes = name;
     bytes.resize(80, '#');
-    put(bytes, std::uint32_t{2});
+    append_number(bytes, std::uint32_t{2}, false);
     for (const float z : {0.0f, 1.0f}) {
         for (const float value : {0.0f, 0.0f, 9.0f, 0.0f, 0.0f, z, 1.5f, 0.0f, z, 0.0f, 1.0f, z})
-            put(bytes, value);
+            append_number(bytes, value, false);
         bytes += z == 0 ? "ab" : "cd";
     }
     return bytes;
