@@ -54,6 +54,8 @@ TEST_CASE("each layout is written on its way") {
     // Some sets have no kernels that write records.
     const bool weaves = kernels.weaving_kernel(bend::Squeeze::none, bend::StreamSet::positions) != nullptr;
     const Mode records = weaves ? Mode::records : Mode::staged;
+    const bool pairs_up = kernels.pair_kernel(bend::Squeeze::none, bend::StreamSet::positions) != nullptr;
+    const Mode pairs = pairs_up ? Mode::pairs : Mode::staged;
     Random random(47);
     LayoutCase test_mesh(random, loose_body(random, 40));
     for (const Case& one : {Case{"x y z", Mode::planes},
@@ -75,11 +77,16 @@ TEST_CASE("each layout is written on its way") {
                             {"xyz..", Mode::staged, true},
                             {"xyz.pqr.", Mode::staged, true},
                             {"xyz.uvw.abcd", Mode::staged, true},
-                            {"xyzpqr", Mode::staged},
-                            {"xyzuvwpqr", Mode::staged},
+                            {"xyzpqr", pairs},
+                            {"xyzuvwpqr", pairs},
+                            {"pqruvwxyz", pairs},
+                            {"uvwpqr", Mode::staged},
+                            {"xyzuvwabcdpqr", Mode::staged},
+                            {"xyzpqr 123", Mode::staged},
+                            {"xyz pqr", records},
                             {"123pqr", Mode::staged},
-                            {"pqrxyz", Mode::staged},
-                            {"uvwxyzpqr", Mode::staged},
+                            {"pqrxyz", pairs},
+                            {"uvwxyzpqr", pairs},
                             {"xzypqr", Mode::staged},
                             {"xyzpqr.", Mode::staged},
                             {"uvwxyz", Mode::staged},
@@ -90,6 +97,63 @@ TEST_CASE("each layout is written on its way") {
         batch.scratch_gaps = one.scratch_gaps;
         const bend::OutputPlan plan(batch, kernels, false);
         for (const bend::PassPlan& pass : plan.passes()) CHECK(pass.mode == one.mode);
+    }
+}
+
+TEST_CASE("planes that compete for the same places of the cache are not written side by side") {
+    Random random(48);
+    LayoutCase test_mesh(random, loose_body(random, 40));
+    OutputBuffer out("x y z", test_mesh.count());
+    bend::Batch batch = bend::batch_of(test_mesh.job(out));
+    alignas(64) static float memory[8192];
+    // Bytes from one plane to the next. Those of the cache's places repeat every 1024.
+    struct Case {
+        std::size_t apart;
+        bend::WriteMode past_cache;
+    };
+    for (const Case& one : {Case{896, bend::WriteMode::planes},
+                            {960, bend::WriteMode::staged},
+                            {1024, bend::WriteMode::staged},
+                            {1088, bend::WriteMode::staged},
+                            {1152, bend::WriteMode::planes},
+                            {1156, bend::WriteMode::staged},
+                            {4096 + 960, bend::WriteMode::staged},
+                            {4096 + 256, bend::WriteMode::planes}}) {
+        CAPTURE(one.apart);
+        for (std::size_t c = 0; c < 3; ++c)
+            batch.positions.component[c] = memory + c * one.apart / sizeof(float);
+        const bend::KernelSet& kernels = bend::kernels(Isa::automatic);
+        CHECK(bend::OutputPlan(batch, kernels, true).passes()[0].mode == one.past_cache);
+        CHECK(bend::OutputPlan(batch, kernels, false).passes()[0].mode == bend::WriteMode::planes);
+    }
+}
+
+TEST_CASE("what lies side by side in a record is written as rows, as long as there is a kernel for") {
+    static std::vector<std::size_t> rows;
+    bend::KernelSet kernels = bend::kernels(Isa::automatic);
+    const auto counting = []<std::size_t n>() -> bend::WriteRows {
+        return [](const float* const*, std::size_t, float*, std::size_t) { rows.push_back(n); };
+    };
+    kernels.write_rows[3] = counting.operator()<3>();
+    kernels.write_rows[4] = counting.operator()<4>();
+    kernels.write_rows[6] = counting.operator()<6>();
+    Random random(49);
+    LayoutCase test_mesh(random, loose_body(random, 40));
+    struct Case {
+        std::string_view picture;
+        std::vector<std::size_t> rows;
+    };
+    for (const Case& one : {Case{"xyz..", {3}},
+                            {"xyzuvw...", {6}},
+                            {"xyzuvwabcd.", {6, 4}},
+                            {"xyz.abcd..", {3, 4}},
+                            {"pqr.uvw..", {3, 3}}}) {
+        CAPTURE(one.picture);
+        OutputBuffer out(one.picture, test_mesh.count());
+        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), kernels, false);
+        rows.clear();
+        bend::StagingBuffer(plan).planes().write(plan, kernels, bend::WriteMode::staged, 0, 40, true);
+        CHECK(rows == one.rows);
     }
 }
 

@@ -131,6 +131,33 @@ TEST_CASE("wide records hold the bits of planes: any records, every vertex count
     }
 }
 
+TEST_CASE("records of two poses hold the bits of planes: every order, whatever the poses squeeze") {
+    Random random(145);
+    const auto bodies = [&](std::size_t count) {
+        std::vector<bend::Body> made;
+        made.push_back(loose_body(random, count));
+        made.push_back(loose_shaped_body(random, count));
+        made.push_back(loose_chain(random, std::vector<std::size_t>{count}));
+        made.push_back(loose_chain(random, std::vector<std::size_t>{count / 2, count / 4, count / 3}));
+        return made;
+    };
+    for (const std::size_t count : {50u, 333u, 700u}) {
+        for (bend::Body& body : bodies(count)) {
+            LayoutCase test_mesh(random, std::move(body));
+            for (int trial = 0; trial < rounds(12, 3); ++trial) {
+                test_mesh.set_wrinkles(trial % 3 != 2);
+                for (const Isa isa : isas_here()) {
+                    test_mesh.make_planes(isa);
+                    for (const std::string_view picture :
+                         {"xyzpqr", "pqrxyz", "xyzuvwpqr", "xyzpqruvw", "uvwxyzpqr", "uvwpqrxyz", "pqrxyzuvw",
+                          "pqruvwxyz"})
+                        check_any_stores(test_mesh, picture, random() % 16, random() % 16, isa);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("a range of wide records writes its own vertices alone, and its own gaps at most") {
     Random random(143);
     for (const std::size_t count : {35u, 300u}) {

@@ -26,6 +26,9 @@ public:
         job_.previous_transform = random_transform(random, 3);
     }
 
+    /// Leaves the wrinkles out, or puts them in again.
+    void set_wrinkles(bool wanted) { job_.wrinkle_weight = wanted ? 1.0f : 0.0f; }
+
     void make_planes(Isa isa) {
         planes_.clear();
         job_.isa = isa;

@@ -28,6 +28,7 @@ constexpr StreamLayout all[] = {
     {.name = "paged-positions+normals", .floats = 6, .normals = true, .paged = true},
     {.name = "packed", .record = 3, .packed = true},
     {.name = "previous", .floats = 6, .previous = true},
+    {.name = "previous+normals", .floats = 9, .normals = true, .previous = true},
 };
 
 /// Hands out the streams of an instance, one after the other: planes, or places in a record.

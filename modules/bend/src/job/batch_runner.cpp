@@ -196,18 +196,24 @@ void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size
     deform(KernelInput{&body_.columns, &coefficients(member, set)[region], squeeze, first}, first, last);
 }
 
-/// The same where some of the vertices are near joints: a few at a time. That begins and ends where lines do,
-/// if there is room between two joints, since vertices that are not near have the same bits either way.
+/// Those of the vertices [first, last) that are not near joints. They begin and end where lines do, if there
+/// is room between two joints, since vertices that are not near have the same bits either way.
+BatchRunner::Span BatchRunner::between_joints(std::size_t member, std::size_t region, std::size_t first,
+                                              std::size_t last) const noexcept {
+    const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
+    const std::size_t begin =
+        below.last > first ? std::min({line_behind(member, below.last), above.first, last}) : first;
+    return {begin, above.first < last ? std::max(line_before(member, above.first), begin) : last};
+}
+
+/// The same where some of the vertices are near joints: a few at a time.
 template <class Deform>
 void BatchRunner::each_blended(std::size_t member, const PassPlan& pass, std::size_t region,
                                std::size_t first, std::size_t last, const Deform& deform) noexcept {
     const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
     const Coefficients* const k = coefficients(member, set_of(pass.pass));
     const Squeeze* const squeeze = squeezes(member, set_of(pass.pass));
-    const std::size_t below_end =
-        below.last > first ? std::min({line_behind(member, below.last), above.first, last}) : first;
-    const std::size_t above_begin =
-        above.first < last ? std::max(line_before(member, above.first), below_end) : last;
+    const auto [below_end, above_begin] = between_joints(member, region, first, last);
     const auto blend = [&](const Joint& joint, std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t next = block_end(member, begin, end, BlendColumns::vertices);
@@ -247,40 +253,68 @@ std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::s
 void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last) noexcept {
     if (first >= last) return;
     if (plan_.has(WriteMode::staged)) return deform_staged(member, WriteMode::staged, first, last);
+    if (plan_.has(WriteMode::pairs)) return deform_pairs(member, first, last);
     if (plan_.has(WriteMode::records)) deform_records(member, first, last);
     if (plan_.has(WriteMode::planes)) deform_planes(member, first, last);
 }
 
 /// Kernels write the caller's planes. Past the cache, lines that regions share go through the stage.
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
-    each_stretch(member, WriteMode::planes, first, last,
-                 [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
-                     kernels_.plane_kernel(input.squeeze, pass.streams)(
-                         *input.columns, *input.k, behind(pass.planes, members_[member].vertex + begin),
-                         input.first, end - begin,
-                         plan_.non_temporal() ? Write::non_temporal : Write::cached);
-                 });
+    each_call(member, WriteMode::planes, first, last,
+              [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
+                  kernels_.plane_kernel(input.squeeze, pass.streams)(
+                      *input.columns, *input.k, behind(pass.planes, members_[member].vertex + begin),
+                      input.first, end - begin, plan_.non_temporal() ? Write::non_temporal : Write::cached);
+              });
 }
 
 /// Kernels write the caller's records, likewise.
 void BatchRunner::deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept {
-    each_stretch(member, WriteMode::records, first, last,
-                 [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
-                     const Record& record = *pass.record;
-                     const std::size_t vertex = members_[member].vertex + begin;
-                     const std::size_t stride = record.stride_floats();
-                     const RecordOutput out = {record.first + vertex * stride, stride, pass.gaps,
-                                               pass.gaps != RecordGaps::none && end == body_.vertex_count,
-                                               record.in_lines ? record.to_line(vertex) : 0};
-                     kernels_.weaving_kernel(input.squeeze, pass.streams)(
-                         *input.columns, *input.k, out, input.first, end - begin,
-                         record.in_lines ? Write::non_temporal : Write::cached);
-                 });
+    each_call(member, WriteMode::records, first, last,
+              [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
+                  const Record& record = *pass.record;
+                  const std::size_t vertex = members_[member].vertex + begin;
+                  const std::size_t stride = record.stride_floats();
+                  const RecordOutput out = {record.first + vertex * stride, stride, pass.gaps,
+                                            pass.gaps != RecordGaps::none && end == body_.vertex_count,
+                                            record.in_lines ? record.to_line(vertex) : 0};
+                  kernels_.weaving_kernel(input.squeeze, pass.streams)(
+                      *input.columns, *input.k, out, input.first, end - begin,
+                      record.in_lines ? Write::non_temporal : Write::cached);
+              });
 }
 
-/// Calls deform(pass, input, begin, end) for each pass in the mode `mode`, and for each stretch of
-/// vertices of one region. Into the cache, a stretch is all of the region. Past the cache it is whole lines,
-/// except at `first` and `last`, and lines that regions share go through the stage.
+/// Kernels of both poses write the caller's records, likewise. Vertices near joints go through the stage,
+/// since blended columns are those of one pose.
+void BatchRunner::deform_pairs(std::size_t member, std::size_t first, std::size_t last) noexcept {
+    each_stretch(
+        member, WriteMode::pairs, first, last, [&](std::size_t region, std::size_t begin, std::size_t end) {
+            const Squeeze squeeze = squeezes(member, set_of(Pass::current))[region];
+            assert(squeeze == squeezes(member, set_of(Pass::previous))[region]);  // it depends on no pose
+            const Span plain =
+                squeeze == Squeeze::none ? Span{begin, end} : between_joints(member, region, begin, end);
+            deform_staged(member, WriteMode::pairs, begin, plain.first);
+            if (plain.first < plain.last) deform_pair(member, region, plain);
+            deform_staged(member, WriteMode::pairs, plain.last, end);
+        });
+}
+
+void BatchRunner::deform_pair(std::size_t member, std::size_t region, Span vertices) noexcept {
+    const std::size_t current = set_of(Pass::current), previous = set_of(Pass::previous);
+    const PassPlan& pass = plan_.passes().back();
+    const Record& record = *pass.record;
+    const std::size_t vertex = members_[member].vertex + vertices.first;
+    const PairOutput out = {record.first + vertex * record.stride_floats(), plan_.pair_order(),
+                            record.in_lines ? record.to_line(vertex) : 0};
+    kernels_.pair_kernel(squeezes(member, current)[region], pass.streams)(
+        body_.columns, coefficients(member, current)[region], coefficients(member, previous)[region], out,
+        vertices.first, vertices.last - vertices.first,
+        record.in_lines ? Write::non_temporal : Write::cached);
+}
+
+/// Calls deform(region, begin, end) for each stretch of vertices of one region. Into the cache, a stretch is
+/// all of the region. Past the cache it is whole lines, except at `first` and `last`, and lines that regions
+/// share go through the stage.
 template <class Deform>
 void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {
@@ -297,15 +331,32 @@ void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t f
             first = joints;
             continue;
         }
-        for (const PassPlan& pass : plan_.passes()) {
-            if (pass.mode != mode) continue;
-            each_input(member, pass, region, first, end,
-                       [&](const KernelInput& input, std::size_t begin, std::size_t to) {
-                           deform(pass, input, begin, to);
-                       });
-        }
+        deform(region, first, end);
         first = end;
     }
+}
+
+/// Calls deform(pass, input, begin, end) for each pass in the mode `mode`, and for what each_input makes of
+/// [first, last).
+template <class Deform>
+void BatchRunner::each_pass(std::size_t member, WriteMode mode, std::size_t region, std::size_t first,
+                            std::size_t last, const Deform& deform) noexcept {
+    for (const PassPlan& pass : plan_.passes()) {
+        if (pass.mode != mode) continue;
+        each_input(member, pass, region, first, last,
+                   [&](const KernelInput& input, std::size_t begin, std::size_t end) {
+                       deform(pass, input, begin, end);
+                   });
+    }
+}
+
+/// The same for each stretch.
+template <class Deform>
+void BatchRunner::each_call(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
+                            const Deform& deform) noexcept {
+    each_stretch(member, mode, first, last, [&](std::size_t region, std::size_t begin, std::size_t end) {
+        each_pass(member, mode, region, begin, end, deform);
+    });
 }
 
 /// Kernels of all passes in the mode `mode` write planes of the stage. The last block of it stays there until
@@ -316,17 +367,14 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
     while (first < last) {
         write_staged();
         const std::size_t end = block_end(member, first, last, staging_.capacity());
-        for (const PassPlan& pass : plan_.passes()) {
-            if (pass.mode != mode) continue;
-            each_piece(first, end, [&](std::size_t region, std::size_t begin, std::size_t piece_end) {
-                each_input(member, pass, region, begin, piece_end,
-                           [&](const KernelInput& input, std::size_t from, std::size_t to) {
-                               kernels_.plane_kernel(input.squeeze, pass.streams)(
-                                   *input.columns, *input.k, staging_.output(pass, from - first), input.first,
-                                   to - from, Write::staged);
-                           });
-            });
-        }
+        each_piece(first, end, [&](std::size_t region, std::size_t begin, std::size_t piece_end) {
+            each_pass(member, mode, region, begin, piece_end,
+                      [&](const PassPlan& pass, const KernelInput& input, std::size_t from, std::size_t to) {
+                          kernels_.plane_kernel(input.squeeze, pass.streams)(
+                              *input.columns, *input.k, staging_.output(pass, from - first), input.first,
+                              to - from, Write::staged);
+                      });
+        });
         staged_ = {mode, members_[member].vertex + first, end - first, end == body_.vertex_count};
         first = end;
     }

@@ -42,6 +42,11 @@ private:
         std::size_t peeled;    ///< its vertices before the first one that begins a cache line
     };
 
+    /// The vertices [first, last).
+    struct Span {
+        std::size_t first, last;
+    };
+
     /// Vertices in the stage.
     struct StagedBlock {
         WriteMode mode;
@@ -72,6 +77,8 @@ private:
     void deform(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_records(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    void deform_pairs(std::size_t member, std::size_t first, std::size_t last) noexcept;
+    void deform_pair(std::size_t member, std::size_t region, Span vertices) noexcept;
     template <class Deform>
     void each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                       const Deform& deform) noexcept;
@@ -80,11 +87,19 @@ private:
     [[nodiscard]] std::size_t block_end(std::size_t member, std::size_t first, std::size_t last,
                                         std::size_t most) const noexcept;
     template <class Deform>
+    void each_pass(std::size_t member, WriteMode mode, std::size_t region, std::size_t first,
+                   std::size_t last, const Deform& deform) noexcept;
+    template <class Deform>
+    void each_call(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
+                   const Deform& deform) noexcept;
+    template <class Deform>
     void each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                     std::size_t last, const Deform& deform) noexcept;
     template <class Deform>
     void each_blended(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                       std::size_t last, const Deform& deform) noexcept;
+    [[nodiscard]] Span between_joints(std::size_t member, std::size_t region, std::size_t first,
+                                      std::size_t last) const noexcept;
     template <class Deform>
     void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,

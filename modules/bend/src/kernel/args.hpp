@@ -119,6 +119,30 @@ struct RecordOutput {
 using WeavingKernel = void (*)(const RestColumns& rest, const Coefficients& k, const RecordOutput& out,
                                std::size_t first, std::size_t count, Write write);
 
+/// The order of vectors in a record of two poses. Where there are no normals, previous_position_normal and
+/// position_previous_normal stand for the order of the other two.
+enum class PairOrder : unsigned char {
+    previous_position_normal,
+    previous_normal_position,
+    position_previous_normal,
+    position_normal_previous,
+    normal_previous_position,
+    normal_position_previous,
+};
+
+/// Where a kernel call writes records of two poses, which have no gaps.
+struct PairOutput {
+    float* first;  ///< the first vertex's
+    PairOrder order;
+    std::size_t peeled;  ///< as in RecordOutput
+};
+
+/// The same to records that also hold the positions of the pose `previous`. Both have the squeeze of the
+/// kernel.
+using PairKernel = void (*)(const RestColumns& rest, const Coefficients& current,
+                            const Coefficients& previous, const PairOutput& out, std::size_t first,
+                            std::size_t count, Write write);
+
 /// Wrinkles `count` vertices of one region from vertex `first` on, at most BlendColumns::places, of which
 /// some are near the joint that `joint` tells of. `neighbor` has what set_as_own() sets of the region beyond
 /// it. Only the first `wanted` of them need be of that region: others take nothing of the neighbor. Writes
@@ -202,6 +226,7 @@ using Prefetch = void (*)(const float* at);
 struct KernelSet {
     PlaneKernel planes[squeeze_count][stream_set_count];
     WeavingKernel weaving[squeeze_count][stream_set_count];  ///< null where there is none
+    PairKernel pairs[squeeze_count][2];  ///< of positions, and of normals too; null where there is none
     BlendKernel blending[squeeze_count]
                         [2];     ///< of positions alone, and of directions too; null without wrinkles
     Weave weave[max_woven + 1];  ///< indexed by the floats of a record; null below min_woven
@@ -221,6 +246,13 @@ struct KernelSet {
     }
     [[nodiscard]] WeavingKernel weaving_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return weaving[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
+    }
+    /// Null unless `streams` are positions, with normals or without.
+    [[nodiscard]] PairKernel pair_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
+        const bool normals = streams == StreamSet::positions_normals;
+        return normals || streams == StreamSet::positions
+                   ? pairs[static_cast<unsigned char>(squeeze)][normals ? 1 : 0]
+                   : nullptr;
     }
     [[nodiscard]] LaneKernel lane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return lanes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];

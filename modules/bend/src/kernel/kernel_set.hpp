@@ -5,6 +5,7 @@
 #include "kernel/blend_kernel.hpp"
 #include "kernel/copy_kernel.hpp"
 #include "kernel/lane_kernel.hpp"
+#include "kernel/pair_kernel.hpp"
 #include "kernel/record_kernel.hpp"
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
@@ -83,6 +84,24 @@ constexpr KernelSet with_lanes(KernelSet set) {
     set.untile = &untile<L>;
     set.prefetch = &L::prefetch;
 #endif
+    return set;
+}
+
+template <class L, Squeeze squeeze>
+constexpr void add_pairs(KernelSet& set) {
+    PairKernel(&pairs)[2] = set.pairs[static_cast<unsigned char>(squeeze)];
+    pairs[0] = &bend_to_pairs<typename L::Single, squeeze, false>;
+    pairs[1] = &bend_to_pairs<L, squeeze, true>;
+}
+
+/// Adds the kernels that deform to two poses at a time. They need many registers: with AVX2 they take as long
+/// as the way through the staging buffer, or longer.
+template <class L>
+constexpr KernelSet with_pairs(KernelSet set) {
+    add_pairs<L, Squeeze::none>(set);
+    add_pairs<L, Squeeze::plain>(set);
+    add_pairs<L, Squeeze::relative>(set);
+    add_pairs<L, Squeeze::shaped>(set);
     return set;
 }
 

@@ -7,7 +7,8 @@
 #include <cstddef>
 
 /// The same kernels, which write records. A position and a normal, with gaps or without, are woven in
-/// registers; what else a record may hold goes through the staging buffer.
+/// registers, and in pair_kernel.hpp previous positions beside them; what else a record may hold goes through
+/// the staging buffer.
 
 namespace goffer::bend {
 
@@ -116,8 +117,8 @@ GOFFER_FLATTENED void bend_to_records(const RestColumns& columns, const Coeffici
             copy_between_gaps<L>(part, count, out, to);
         }
     };
-    deform_units<L, squeeze, streams>(rest, k, first, vertices, out.peeled != 0 ? out.peeled : unit<L>,
-                                      store);
+    deform_units<L, squeeze, streams, false>(rest, k, first, vertices, out.peeled != 0 ? out.peeled : unit<L>,
+                                             store);
 }
 
 }  // namespace goffer::bend

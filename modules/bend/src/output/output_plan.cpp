@@ -62,10 +62,9 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Whether there are kernels that write the records of a pass.
-bool has_kernels(const KernelSet& kernels, const BodyData& body, StreamSet streams) noexcept {
-    return kernels.weaving_kernel(body.columns.scale == nullptr ? Squeeze::plain : Squeeze::shaped,
-                                  streams) != nullptr;
+/// A squeeze that has the kernels that a body needs.
+Squeeze squeeze_of(const BodyData& body) noexcept {
+    return body.columns.scale == nullptr ? Squeeze::plain : Squeeze::shaped;
 }
 
 /// Whether all that a record holds are the values from `first` on, as vectors whose begins are `step` floats
@@ -107,6 +106,18 @@ std::optional<RecordGaps> gaps_of(const PassPlan& pass, std::size_t stride,
     return std::nullopt;
 }
 
+/// The order of a previous position, a current one, and a normal if there are 9 values, if the components are
+/// these in whole vectors.
+std::optional<PairOrder> order_of(std::span<const Component> components, std::size_t values) noexcept {
+    if (components.size() != values) return std::nullopt;
+    for (std::size_t i = 0; i < values; ++i) {
+        if (components[i].value != components[i / 3 * 3].value / 3 * 3 + i % 3) return std::nullopt;
+    }
+    const std::size_t first = components[0].value / 3, second = components[3].value / 3;
+    const std::size_t lower = first == 0 ? 1 : 0;  // of the vectors that are not the first
+    return static_cast<PairOrder>(2 * first + (second == lower ? 0 : 1));
+}
+
 }  // namespace
 
 std::size_t Record::to_line(std::size_t vertex) const noexcept {
@@ -143,15 +154,16 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
     }
     if (!batch.packed.empty()) add(Pass::packed, StreamSet::packed, 0, words_of(batch.packed));
     find_records(batch.scratch_gaps);
+    const Squeeze squeeze = squeeze_of(*batch.body->data());
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
         pass.mode = set_planes(pass, batch) ? WriteMode::planes
-                    : has_kernels(kernels, *batch.body->data(), pass.streams) && set_record(pass)
+                    : kernels.weaving_kernel(squeeze, pass.streams) != nullptr && set_record(pass)
                         ? WriteMode::records
                         : WriteMode::staged;
         staged |= pass.mode == WriteMode::staged;
     }
-    if (staged) stage_all();
+    if (staged) set_all_modes(set_pair(kernels, squeeze) ? WriteMode::pairs : WriteMode::staged);
     for (const PassPlan& pass : passes()) has_[static_cast<std::size_t>(pass.mode)] = true;
     for (Record& record : std::span(records_, record_count_)) {
         record.mode = mode_of(record);
@@ -161,8 +173,8 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
     if (lines != records().end()) lines_ = &*lines;
 }
 
-void OutputPlan::stage_all() noexcept {
-    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.mode = WriteMode::staged;
+void OutputPlan::set_all_modes(WriteMode mode) noexcept {
+    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.mode = mode;
 }
 
 /// Sets what `pass` has for WriteMode::records, if its own kernels can write its record: it holds the vectors
@@ -179,6 +191,19 @@ bool OutputPlan::set_record(PassPlan& pass) const noexcept {
         return true;
     }
     return false;
+}
+
+/// Sets what there is for WriteMode::pairs, if kernels of two poses can write all passes: a record of their
+/// vectors, without gaps.
+bool OutputPlan::set_pair(const KernelSet& kernels, Squeeze squeeze) noexcept {
+    if (pass_count_ != 2 || passes_[0].pass != Pass::previous || record_count_ != 1) return false;
+    if (kernels.pair_kernel(squeeze, passes_[1].streams) == nullptr) return false;
+    const Record& record = records_[0];
+    const std::optional<PairOrder> order = order_of(components(record), value_count_);
+    if (!order || record.has_gaps() || (record.in_lines && record.to_line(0) == line_floats)) return false;
+    for (PassPlan& pass : std::span(passes_, pass_count_)) pass.record = &record;
+    pair_order_ = *order;
+    return true;
 }
 
 /// Passes that share a record have the same mode.

@@ -25,9 +25,10 @@ constexpr std::size_t max_values = 16;
 enum class WriteMode : std::uint8_t {
     planes,   ///< kernels write the caller's planes
     records,  ///< kernels write the caller's records, which hold this pass alone
+    pairs,    ///< kernels of both poses write the caller's records, which hold both passes
     staged,   ///< kernels write planes of a stage, which is then copied to the caller's memory
 };
-constexpr std::size_t write_mode_count = 3;
+constexpr std::size_t write_mode_count = 4;
 
 /// Where one value of each vertex goes. (Has no initial values, nor has Record: plans hold more than they
 /// use.)
@@ -65,7 +66,7 @@ struct PassPlan {
     StreamSet streams = StreamSet::positions;
     std::size_t value = 0;               ///< index of its first value among those of all passes
     PlaneOutput planes = {};             ///< for WriteMode::planes, from vertex 0 on
-    const Record* record = nullptr;      ///< for WriteMode::records
+    const Record* record = nullptr;      ///< for WriteMode::records and pairs
     RecordGaps gaps = RecordGaps::none;  ///< the record's
     WriteMode mode = WriteMode::staged;
 };
@@ -82,6 +83,8 @@ public:
     [[nodiscard]] std::span<const Component> components(const Record& record) const noexcept {
         return {components_ + record.component, record.component_end - record.component};
     }
+    /// The order of vectors where passes are written in WriteMode::pairs, all in one record.
+    [[nodiscard]] PairOrder pair_order() const noexcept { return pair_order_; }
     /// The number of values per vertex that all passes compute.
     [[nodiscard]] std::size_t value_count() const noexcept { return value_count_; }
     [[nodiscard]] bool non_temporal() const noexcept { return non_temporal_; }
@@ -101,9 +104,10 @@ private:
     void add(Pass pass, StreamSet streams, std::size_t value, const Stream<N>& stream) noexcept;
     void find_records(bool scratch_gaps) noexcept;
     void set_woven(Record& record) const noexcept;
-    void stage_all() noexcept;
+    void set_all_modes(WriteMode mode) noexcept;
     [[nodiscard]] bool set_planes(PassPlan& pass, const Batch& batch) const noexcept;
     [[nodiscard]] bool set_record(PassPlan& pass) const noexcept;
+    [[nodiscard]] bool set_pair(const KernelSet& kernels, Squeeze squeeze) noexcept;
     [[nodiscard]] WriteMode mode_of(const Record& record) const noexcept;
 
     PassPlan passes_[pass_count];
@@ -113,6 +117,7 @@ private:
     Record records_[max_values];
     std::size_t record_count_ = 0;
     std::size_t value_count_ = 0;
+    PairOrder pair_order_ = {};
     bool non_temporal_ = false;
     bool has_[write_mode_count] = {};
     bool in_lines_[write_mode_count] = {};

@@ -13,8 +13,8 @@ namespace goffer::measure {
 
 /// Sets every float of `to`, the caller's memory, to a number from 1 to 2 that differs from its neighbors':
 /// memory that is all zeros or all one number is something that some machines are faster with. The numbers
-/// repeat every four cache lines, depend on `seed` and on where in its line a float lies, and not on where
-/// `to` begins. Does not allocate. Thread-safe where ranges do not overlap.
+/// repeat every four cache lines: they depend on `seed` and on a float's address, and not on where `to`
+/// begins. Does not allocate. Thread-safe where ranges do not overlap.
 void fill(std::span<float> to, float seed, bool non_temporal) noexcept;
 
 /// Copies `from` to the beginning of `to`, which is as long or longer, and does not overlap it. Does not
