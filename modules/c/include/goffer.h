@@ -40,9 +40,9 @@ GOFFER_API const char* goffer_version(void);
 /* What an error is about, for programs. These numbers stay as they are; there may be more of them. */
 enum {
     GOFFER_ERROR_NONE,
-    GOFFER_ERROR_ARGUMENT, /* null, out of its range, or not what goes with the others; a job or crowd too */
+    GOFFER_ERROR_ARGUMENT, /* null, no such value, or inconsistent; a job or crowd that does not validate */
     GOFFER_ERROR_MEMORY,   /* there is not enough; what was half made may be lost */
-    GOFFER_ERROR_BIND,     /* the mesh cannot be bound, or not with these options [fit::Error] */
+    GOFFER_ERROR_BIND,     /* the mesh cannot be bound, or not with these numbers in options [fit::Error] */
     GOFFER_ERROR_MISSING,  /* there is no file of that name */
     GOFFER_ERROR_SYSTEM,   /* the file cannot be opened or read */
     GOFFER_ERROR_FILE,     /* no body file, or one that is damaged */
@@ -113,13 +113,14 @@ typedef struct goffer_bind_options {
     int one_radius;                     /* not 0: the base is a cylinder, whatever the body's shape */
     int straight;                       /* not 0: the rest shape is taken for straight */
     double onset;                       /* negative: what suits the body */
-    double wrinkle_first, wrinkle_last; /* shares of the length that may wrinkle: 0, 1 */
+    double wrinkle_first, wrinkle_last; /* what may wrinkle, as shares of the length; defaults: 0, 1 */
     const double* axis;                 /* null, or 3 numbers from base to tip */
     const double* shares;               /* null, or what each region is of the length; adds up to 1 */
     size_t region_count;                /* of shares */
     int folds_apart;                    /* not 0: folds end where regions meet, instead of running on */
     /* Of a chain that the body is bent along at rest, 2 to GOFFER_MAX_REGIONS, each of which is a region;
-     * negative: as many as follow it, where one does not; 0 or 1: no chain. */
+     * negative: as many as follow it, where one does not; 0 or 1: no chain. A chain goes with neither shares
+     * nor straight. */
     int arcs;
 } goffer_bind_options;
 
@@ -192,10 +193,10 @@ typedef struct goffer_file_draw {
     const uint32_t* triangles; /* 3 vertices of the body each, counterclockwise from outside */
     size_t triangle_count;
     const float* uvs; /* 2 floats per vertex, v up */
-    /* Which vertex of the model each vertex is; nothing looks whether it has that many. */
+    /* Which vertex of the model each vertex is; not checked against any model. */
     const uint32_t* source;
     size_t part_count;
-    goffer_bounds rest_bounds; /* of all vertices at rest, as the file has it: nothing looks whether it is */
+    goffer_bounds rest_bounds; /* of all vertices at rest, as the file has it: not checked */
 } goffer_file_draw;
 
 typedef struct goffer_part {
@@ -222,18 +223,18 @@ GOFFER_API goffer_string goffer_file_notes(const goffer_file* file);
 
 /* ---- One instance [goffer/bend/job.hpp] ---- */
 
-/* Component c of vertex i is written `stride` * i bytes behind component[c]. All null: not wanted. The fourth
+/* Component c of vertex i is written `stride` * i bytes after component[c]. All null: not wanted. The fourth
  * component is a tangent's w. */
 typedef struct goffer_stream {
     float* component[4];
-    size_t stride; /* a multiple of 4 */
+    size_t stride; /* a multiple of 4, not 0; 4 for planes */
     size_t count;  /* vertices that the memory holds */
 } goffer_stream;
 
 /* 12 bytes a vertex, as goffer/bend/packed.hpp says. */
 typedef struct goffer_packed_stream {
     void* first;
-    size_t stride;
+    size_t stride; /* a multiple of 4, 12 or more */
     size_t count;
 } goffer_packed_stream;
 
@@ -255,7 +256,7 @@ typedef struct goffer_job {
 GOFFER_API goffer_job goffer_job_defaults(void);
 
 typedef struct goffer_job_result {
-    int clamped; /* an angle was beyond the largest, and was clamped to it */
+    int clamped; /* all poses were finite, and an angle was beyond the largest and was clamped to it */
     int at_rest; /* a pose was not finite, and all were taken as at rest */
 } goffer_job_result;
 
@@ -279,10 +280,10 @@ GOFFER_API void goffer_job_capsules(const goffer_job* job, size_t pieces, goffer
 
 /* ---- Crowds [goffer/bend/crowd.hpp] ---- */
 
-/* `count` elements, `stride` bytes apart, the first one `offset` bytes behind `data`. `data` null: not given.
+/* `count` elements, `stride` bytes apart, the first one `offset` bytes after `data`. `data` null: not given.
  * In pages of a power of two, `data` is an array of the pages' addresses, and page_size how many elements
- * each holds; 0: no pages. A stride of 0: the same for all, and `count` is the number of instances all the
- * same. */
+ * each holds, at most 2^32; 0: no pages. A stride of 0: all elements are the same one; `count` is still the
+ * number of elements: of instances or, with indices, more than the largest index. */
 typedef struct goffer_column {
     const void* data;
     size_t count;
@@ -296,7 +297,7 @@ typedef struct goffer_batch {
     const goffer_body* body;
     size_t count;            /* instances */
     const uint32_t* indices; /* null, or `count` of them: the element that each one reads */
-    /* goffer_pose; those of further regions behind the first one's: the stride has room for as many as the
+    /* goffer_pose; those of further regions after the first one's: the stride has room for as many as the
      * body has regions. */
     goffer_column poses;
     goffer_column transforms;      /* floats, as transform_layout says; not given: the identity */
@@ -316,13 +317,13 @@ typedef struct goffer_batch {
 
 typedef struct goffer_crowd_result {
     size_t deformed; /* instances that were not skipped */
-    size_t clamped;  /* those among them with an angle beyond the largest */
+    size_t clamped;  /* those among them with finite poses and an angle beyond the largest */
     size_t at_rest;  /* those among them with a pose that was not finite */
 } goffer_crowd_result;
 
 typedef struct goffer_crowd goffer_crowd;
 
-/* A crowd of `batch_count` empty batches. */
+/* A crowd of `batch_count` batches that are not set; it validates once each of them is. */
 GOFFER_API goffer_crowd* goffer_crowd_create(size_t batch_count, goffer_error* error);
 GOFFER_API void goffer_crowd_free(goffer_crowd* crowd);
 /* Sets batch `index`. What the batch points to is read when the crowd runs, so that it is to be set again
@@ -365,7 +366,7 @@ GOFFER_API void goffer_body_write_vertices(const goffer_body* body, void* result
 /* Writes them for a batch as goffer_crowd_bounds() takes it, whatever its masks say: instance after instance,
  * those of its regions in order. `result` is aligned to 16 bytes. */
 GOFFER_API void goffer_crowd_set_up(const goffer_crowd* crowd, size_t index, float* result);
-/* The same at the previous poses and transforms, which must be given. */
+/* The same at the previous poses, which must be given, and transforms (not given: the identity). */
 GOFFER_API void goffer_crowd_set_up_previous(const goffer_crowd* crowd, size_t index, float* result);
 /* The text of goffer/gpu/deform.glsl; a 0 follows it. */
 GOFFER_API goffer_string goffer_deform_glsl(void);

@@ -115,7 +115,7 @@ public:
         const glm::dvec3 exact = glm::normalize(glm::dvec3(n));
         // atan2 rather than acos, which knows no small angles. A normal that is none has no error.
         const double angle = std::atan2(glm::length(glm::cross(decoded, exact)), glm::dot(decoded, exact));
-        if (angle > glm::radians(result_.normal_error)) result_.normal_error = glm::degrees(angle);
+        result_.normal_error = std::max(result_.normal_error, angle);
         return steps;
     }
 
@@ -198,7 +198,7 @@ nlohmann::ordered_json description(const Frames& frames, const Names& names, con
     if (placement == TexturePlacement::listed) json["placements"] = placements_of(frames);
     json["half_step"] = texture.half_step;
     json["position_error"] = texture.position_error;
-    json["normal_error_degrees"] = texture.normal_error;
+    json["normal_error_degrees"] = glm::degrees(texture.normal_error);
     return json;
 }
 

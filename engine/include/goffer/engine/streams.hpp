@@ -8,11 +8,12 @@
 
 namespace goffer {
 
-/// `N` floats per vertex: component c of vertex i lies i * stride bytes behind component[c].
+/// `N` floats per vertex: component c of vertex i lies i * stride bytes after component[c].
 ///
 /// The memory is the caller's. It must be aligned to 4 bytes and hold `count` vertices, and is never read.
-/// Two streams of a job may be members of the same records, but must not share a byte. A default-made stream,
-/// whose components are all null, is empty: the output is not asked for. A plain value that owns nothing.
+/// Two streams of a job may be members of the same records, but must not share a byte. A default-constructed
+/// stream, whose components are all null, is empty: the output is not asked for. A plain value that owns
+/// nothing.
 template <std::size_t N>
 struct Stream {
     float* component[N] = {};

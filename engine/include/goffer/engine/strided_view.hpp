@@ -19,9 +19,10 @@
 
 namespace goffer {
 
-/// `count` elements of type T, `stride` bytes apart. Some columns have further values behind each element,
-/// like the poses of a body's regions behind that of the first. A plain value that owns nothing: the memory,
-/// and the array of page addresses, must outlive it. A default-made view is empty: the column is not given.
+/// `count` elements of type T, `stride` bytes apart. Some columns have further values after each element,
+/// like the poses of a body's regions after that of the first. A plain value that owns nothing: the memory,
+/// and the array of page addresses, must outlive it. A default-constructed view is empty: the column is not
+/// given.
 template <class T>
 struct StridedView {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -32,7 +33,7 @@ struct StridedView {
     std::uint32_t stride = sizeof(T);  ///< 0: one value for all, of which `count` says how many there are
     std::uint32_t offset = 0;  ///< bytes from the beginning of the array, or of a page, to its first element
     std::uint32_t page_shift = unpaged;  ///< a page holds 2^page_shift elements
-    /// How many values of type T each element has, one behind the other; 0: as many as the stride has room
+    /// How many values of type T each element has, one after the other; 0: as many as the stride has room
     /// for. A view of a member knows that what follows the member is something else.
     std::uint32_t values = 0;
 
@@ -127,7 +128,7 @@ template <class Object, std::size_t N, class Class, class M>
 }
 
 /// `count` elements in pages of `page_size` elements, a power of two. pages[p] is the address of page p.
-/// Pages behind element count - 1 are never read, nor are their addresses.
+/// Pages after that of element count - 1 are never read, nor are their addresses.
 template <class T>
 [[nodiscard]] StridedView<std::remove_const_t<T>> paged(T* const* pages, std::size_t page_size,
                                                         std::size_t count) noexcept {

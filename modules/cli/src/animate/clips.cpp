@@ -126,7 +126,7 @@ void write_vertex_texture(Animation& animation) {
     animation.report.json["texture"] = {{"width", done.layout.width},
                                         {"height", done.layout.height},
                                         {"position_error", done.position_error},
-                                        {"normal_error", done.normal_error},
+                                        {"normal_error", degrees(done.normal_error)},
                                         {"files", files}};
     animation.report.line("texture", std::to_string(done.layout.width) + " x " +
                                          std::to_string(done.layout.height) + " pixels: " + names +

@@ -24,8 +24,8 @@ struct BodyInput;
 /// do not allocate unless they say so.
 ///
 /// Vertices keep the order that they were given in: vertex i of the body is vertex i of every output stream.
-/// A body that was default-made or moved from is empty: it has no vertices and no regions, and validate()
-/// refuses it.
+/// A body that was default-constructed or moved from is empty: it has no vertices and no regions, and
+/// validate() refuses it.
 class Body {
 public:
     Body() noexcept;
@@ -50,8 +50,8 @@ public:
     [[nodiscard]] std::span<const Region> regions() const noexcept;
     /// What the regions were made from, unrounded. Together with origin(), axes() and radius() this is all of
     /// a BodyInput but what it has of its vertices. A body made from it deforms a vertex with the same rest
-    /// coordinates to the same position, bit for bit; normals differ in last bits where one body has vertices
-    /// of another scale than 1, and the other none.
+    /// coordinates to the same position, bit for bit; normals differ in last bits where one of the bodies has
+    /// a shape (a vertex with scale other than 1, or scale_slope or drift other than 0), and the other none.
     [[nodiscard]] std::span<const RegionInput> region_inputs() const noexcept;
     [[nodiscard]] std::size_t region_count() const noexcept { return regions().size(); }
     /// Length of all regions together, model units.
@@ -64,12 +64,13 @@ public:
     [[nodiscard]] Pose rest_pose(std::size_t region = 0) const noexcept;
     /// rest_pose() of each region: the poses that give the rest shape back. Allocates.
     [[nodiscard]] std::vector<Pose> rest_poses() const;
-    /// Center of the base end, model space. An empty body has origin and axes of a default-made BodyInput.
+    /// Center of the base end, model space. An empty body has origin and axes of a default-constructed
+    /// BodyInput.
     [[nodiscard]] glm::dvec3 origin() const noexcept;
     /// Columns e1, e2, e3 of the body frame, in model space. Include glm/mat3x3.hpp to call this.
     [[nodiscard]] glm::dmat3 axes() const noexcept;
-    /// Bytes of memory that the body takes, itself included. Columns that lie in a body file do not count,
-    /// nor the bytes of the file that it keeps: see BodyFile.
+    /// About how many bytes of memory the body takes, itself included. Columns that lie in a body file do not
+    /// count, nor the bytes of the file that it keeps: see BodyFile.
     [[nodiscard]] std::size_t bytes() const noexcept;
     /// For goffer's own sources; null if the body is empty.
     [[nodiscard]] const BodyData* data() const noexcept { return data_; }

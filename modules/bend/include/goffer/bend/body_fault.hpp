@@ -44,7 +44,7 @@ enum class BodyField : std::uint8_t {
     tangent_signs,
 };
 
-/// The first fault of a BodyInput. A plain value; a default-made one is none.
+/// The first fault of a BodyInput. A plain value; a default-constructed one is none.
 struct BodyFault {
     static constexpr std::size_t nowhere = Fault::nowhere;
 
@@ -58,7 +58,7 @@ struct BodyFault {
 };
 
 /// Says in one line what is wrong, where, and what was wanted, as in "regions[2].max_angle: not finite; ...".
-/// Says "no fault" of none. Does not allocate. Thread-safe.
+/// Returns "no fault" if there is none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const BodyFault& fault) noexcept;
 
 }  // namespace goffer::bend

@@ -17,7 +17,8 @@
 #include <string_view>
 #include <vector>
 
-/// The body file: bodies, and what is drawn of them, as one block of bytes that is used where it lies. A
+/// The body file: bodies, and what is drawn of them, as one block of bytes. Columns, triangles, texture
+/// coordinates and names are used where they lie in it; regions and tables are copied, for each level. A
 /// pipeline makes it (goffer bake, or fit::bake), a game reads it, or maps it and calls load():
 ///
 ///     bend::BodyFileFault fault;
@@ -112,11 +113,11 @@ private:
 
 /// How much of a file is looked at before it is used.
 enum class Verify : std::uint8_t {
-    /// All of it: the checksum, and each number, so that a file from anywhere does no harm. The runs of its
-    /// bodies are as safe as those of Body::make's, and triangles, parts and sockets refer to what is there;
-    /// only rest_bounds are taken as they are, if they are finite: do not cull by those of files from
-    /// anywhere.
-    /// In the default floating-point environment, or with subnormal numbers taken as 0.
+    /// All of it: the checksum, and each number, so that a file from anywhere does no harm. Runs of its
+    /// bodies are as safe as those of bodies from Body::make, and triangles, parts and sockets refer to what
+    /// is there. Two things are not verified: rest_bounds, beyond that they are finite and in order, and what
+    /// DrawMesh::source refers to. Do not cull by the one, nor index by the other without a check. To be
+    /// called in the default floating-point environment, or with subnormal numbers taken as 0.
     everything,
     /// The checksum, and what Verify::layout looks at: for files from a source that is trusted.
     checksum,

@@ -53,7 +53,7 @@ enum class FileReason : std::uint8_t {
     unreadable,  ///< load_file() cannot open or read it
 };
 
-/// The first fault of a file. A plain value; a default-made one is none.
+/// The first fault of a file. A plain value; a default-constructed one is none.
 struct BodyFileFault {
     static constexpr std::size_t nowhere = Fault::nowhere;
 
@@ -68,7 +68,7 @@ struct BodyFileFault {
 };
 
 /// Says in one line what is wrong and where, as in "levels[1].triangles[7]: refers to what is not there".
-/// Says "no fault" of none. Does not allocate. Thread-safe.
+/// Returns "no fault" if there is none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const BodyFileFault& fault) noexcept;
 
 }  // namespace goffer::bend

@@ -34,7 +34,7 @@ struct BodyInput {
 ///
 /// The depth of a wrinkle is not computed but bounded, by the sum of the largest absolute values of a row's
 /// terms. For tables that fit makes, the bound is up to five times the depth; in a region with a rest angle
-/// or an onset, up to two hundred times.
+/// or an onset, up to two hundred times. Terms are bounded, too: what kernels make of them stays below 1e36.
 struct WorkingRange {
     static constexpr double min_length = 1e-12;   ///< least length of a region; least radius
     static constexpr double max_length = 1e12;    ///< largest length of a region, radius, and rho of a vertex

@@ -13,12 +13,12 @@
 ///     bodies.replace(worm, std::move(reloaded->levels[0].body));  // between two frames
 ///     batch.body = bodies.find(worm);                             // null once it was removed
 ///
-/// An option: runs take a const Body*, wherever it comes from. Between two frames is when no run reads a
+/// Optional: runs take a const Body*, wherever it comes from. "Between two frames" is while no run reads a
 /// body.
 
 namespace goffer::bend {
 
-/// Names a body of one table. A plain value; a default-made one names none.
+/// Names a body of one table. A plain value; a default-constructed one names none.
 struct BodyHandle {
     std::uint32_t index = 0;
     std::uint32_t generation = 0;  ///< 0: none

@@ -20,14 +20,14 @@ struct Batch;
 
 /// A box that holds every vertex of `body` at `pose`, with full wrinkles, under `transform` (from model space
 /// to the box's space). `body` is not empty; `pose` is that of its first region, and other regions are at
-/// rest. A transform that is not finite gives a box that is not, or an empty one, whose
-/// low is above its high.
+/// rest. A transform that is not finite gives a box that is not, or an empty one, whose low is above its
+/// high.
 ///
 /// The box is conservative: for round bodies at most 1.3 times as long as the tight box on each axis, 1.7
 /// times where folds are deeper than the radius, before the margin. It is that of eleven bands of each
 /// region, each of which sweeps its widest cross-section along its piece of the arc, plus a margin for
 /// rounding: 1e-5 of a region's length, under the transform, and 1e-6 of how far the region's middle is from
-/// the origin along the axis; for bodies with a shape also what its drift is known to.
+/// the origin along the axis; for bodies with a shape also the error of the stored drift.
 ///
 /// The depth of wrinkles is looked up at some columns, and taken to grow between them toward the inner line,
 /// as it does in all tables that fit makes. With a table of the caller's own in which it rises and falls
@@ -35,8 +35,8 @@ struct Batch;
 [[nodiscard]] Bounds bounds(const Body& body, const Pose& pose,
                             const glm::mat4x3& transform = glm::mat4x3(1)) noexcept;
 
-/// The same for a body of several regions: `poses` has one for each, from base to tip. Regions behind the
-/// last pose are at rest.
+/// The same for a body of several regions: `poses` has one for each, from base to tip. Regions after the last
+/// pose are at rest.
 [[nodiscard]] Bounds bounds(const Body& body, std::span<const Pose> poses,
                             const glm::mat4x3& transform = glm::mat4x3(1)) noexcept;
 

@@ -64,8 +64,9 @@ private:
 /// run.
 ///
 /// Instance i reads element i of each column, or element indices[i]. A column that is not given has the
-/// default named beside it. As for a job, at least one stream must be given, outputs are never read, and no
-/// two of them may share a byte: neither two streams, nor two instances, nor an output and an input.
+/// default named beside it. A batch of 0 instances needs a body alone. As for a job, at least one stream must
+/// be given, outputs are never read, and no two of them may share a byte: neither two streams, nor two
+/// instances, nor an output and an input.
 struct Batch {
     const Body* body = nullptr;  ///< neither null nor empty
     std::size_t count = 0;       ///< instances
@@ -108,8 +109,8 @@ struct Batch {
     std::size_t vertex_step = 0;
 
     /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
-    /// may hold data of the caller's. Set this where they do not: past the cache, most records of up to 64
-    /// bytes are then written as whole lines, with zeros in the gaps, which takes two thirds of the time.
+    /// may hold data of the caller's. Set this where they do not: most records of up to 64 bytes may then be
+    /// written as whole lines, with zeros in the gaps, which takes two thirds of the time past the cache.
     /// Gaps are kept all the same where a batch writes several sets of records with one stride. Bytes before
     /// an instance's first output and behind its last one stay untouched in any case.
     bool scratch_gaps = false;
@@ -145,16 +146,18 @@ struct CrowdJob {
 
 /// Finds the first fault of `job`. Looks at every instance, whatever its masks say, and at every index and
 /// vertex offset: a job that validated once stays in bounds in later frames, whatever their masks, frame
-/// numbers, weights, transforms and poses. Does not find out whether instances overlap that vertex_offsets
-/// place, whether two batches write to the same memory, or whether an input shares bytes with an output.
-/// Of the pages of a column it finds only those that are null or not aligned. Does not allocate. Thread-safe.
+/// numbers, weights, transforms and poses, as long as no count changes. Does not find out whether instances
+/// overlap that vertex_offsets place, whether two batches write to the same memory, or whether an input
+/// shares bytes with an output. Of the pages of a column it finds only those that are null or not aligned.
+/// Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const CrowdJob& job) noexcept;
 
 /// What a run did.
 struct CrowdResult {
     std::size_t deformed = 0;  ///< instances that were not skipped
-    std::size_t clamped = 0;   ///< those among them whose `poses` had an angle beyond a region's max_angle
-    std::size_t at_rest = 0;   ///< those among them whose `poses` were not finite: taken as at rest
+    /// Those among them whose `poses` were finite, and had an angle beyond a region's max_angle.
+    std::size_t clamped = 0;
+    std::size_t at_rest = 0;  ///< those among them whose `poses` were not finite: taken as at rest
 
     /// Adds the result of another piece.
     CrowdResult& operator+=(const CrowdResult& other) noexcept {
@@ -169,9 +172,8 @@ struct CrowdResult {
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
 /// taken as at rest, weights beyond 0..1 as the nearer of these and NaN as 0, and transforms that are not
-/// finite give positions that are not. Does not allocate or log,
-/// nor lock but in the first run of a process; takes up to 64 KB of stack. Thread-safe where outputs do not
-/// overlap.
+/// finite give positions that are not. Does not allocate or log, nor lock but in the first run of a process;
+/// takes up to 64 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
 /// split, the number of threads, an instance's neighbors or `stores`.

@@ -42,10 +42,12 @@ enum class Reason : std::uint8_t {
     not_finite,  ///< a NaN or an infinity
     too_large,   ///< a transform with a number beyond 1e18
     /// Outside 0..1 (a weight), WorkingRange (a body's number), its column (an index) or a stream (a vertex
-    /// offset); memory that would end beyond all addresses (a stream); or a value that a layout or a page's
-    /// size does not have.
+    /// offset); memory that would end beyond all addresses (a stream); a value that a layout or a page's size
+    /// does not have; or, of a body, what its field does not allow: axes that are no rotation, vertices in
+    /// another order than a blend asks for, a blend without a table or without a next region.
     out_of_range,
-    count,          ///< not as many as there are regions, instances or vertices
+    /// Not as many as there are regions, instances or vertices; a table of one row; more than max_regions.
+    count,
     too_short,      ///< a stream that ends before the last vertex
     stride,         ///< no multiple of 4, or less than one vertex takes; of a column, less than is read
     alignment,      ///< not aligned to its type, or a stride that is no multiple of that
@@ -53,7 +55,7 @@ enum class Reason : std::uint8_t {
     not_supported,  ///< tangents of a body without any; an instruction set that cannot run here
 };
 
-/// The first fault of a job or a crowd. A plain value; a default-made one is none.
+/// The first fault of a job or a crowd. A plain value; a default-constructed one is none.
 struct Fault {
     static constexpr std::size_t nowhere = ~std::size_t{0};
 
@@ -76,7 +78,7 @@ struct FaultText {
 };
 
 /// Says in one line what is wrong and where, as in "batches[1].poses[7][2]: not finite: a NaN or an
-/// infinity". Says "no fault" of none. Does not allocate. Thread-safe.
+/// infinity". Returns "no fault" if there is none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const Fault& fault) noexcept;
 
 }  // namespace goffer::bend

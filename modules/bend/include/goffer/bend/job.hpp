@@ -80,7 +80,7 @@ struct DeformJob {
 
 /// What a run made of the current poses.
 struct DeformResult {
-    bool clamped = false;  ///< an angle was beyond body->max_angle(region) and was clamped to it
+    bool clamped = false;  ///< an angle was beyond body->max_angle(region), and all poses were finite
     bool at_rest = false;  ///< a pose was not finite: all regions were taken as at rest
 };
 

@@ -16,10 +16,10 @@ namespace goffer::bend {
 class Body;
 struct Batch;
 
-/// The columns of a body, one value per vertex, as plain pointers. S_0 is the scale of a vertex's column at
-/// rest, s the radius about the vertex over that of its region. In regions with neither a rest arc nor an
-/// onset, sqrt(s) stands for S_0 in the first columns, and 1 in the last three. For g and w see
-/// modules/paper/README.md, "Wrinkle", for s and D "Shaped bodies".
+/// The columns of a body, arrays of one value per vertex, as plain pointers. S_0 is the scale at rest of the
+/// line along the body that a vertex is on, s the radius about the vertex over that of its region. In regions
+/// with neither a rest arc nor an onset, sqrt(s) stands for S_0 in the first arrays, and 1 in the last three.
+/// For g and w see modules/paper/README.md, "Wrinkle", for s and D "Shaped bodies".
 struct RestColumns {
     const float* cos_half_beta = nullptr;  ///< sqrt(2) cos(beta / 2)
     const float* sin_half_beta = nullptr;  ///< sqrt(2) sin(beta / 2)
@@ -92,7 +92,8 @@ struct Coefficients : CoefficientsOf<float> {};
 inline constexpr std::size_t coefficient_rows = 17;
 static_assert(sizeof(Coefficients) == coefficient_rows * 4 * sizeof(float));
 
-/// The columns of `body`, which is not empty, and which owns them. Does not allocate. Thread-safe.
+/// The columns of `body`, which is not empty. They are valid as long as the body is, and the bytes that it
+/// was loaded from. Does not allocate. Thread-safe.
 [[nodiscard]] RestColumns rest_columns(const Body& body) noexcept;
 
 /// What the wrinkle of a vertex near a joint has of the region beyond: its amplitude A, and derivatives of
@@ -115,12 +116,12 @@ struct NeighborShare {
 /// Sets up every instance of `batch`, whatever its masks say: result[i * regions + r] are the coefficients of
 /// region r of instance i, at the batch's poses, transforms and wrinkle weights. Amplitudes are 0 where
 /// nothing wrinkles. `result` is the caller's and holds batch.count * region_count() or more; it is written
-/// in no order, and not at full lines, so that a mapped buffer of a GPU is better filled by a copy. Poses and
-/// weights may hold any bits, as in a run. batch.body is neither null nor empty, and batch.poses is given;
-/// outputs are not read. `isa` runs here. Does not allocate. Thread-safe.
+/// in no order, and not in whole cache lines, so that a mapped buffer of a GPU is better filled by a copy.
+/// Poses and weights may hold any bits, as in a run. batch.body is neither null nor empty, and batch.poses is
+/// given; outputs are not read. `isa` runs here. Does not allocate. Thread-safe.
 void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa = Isa::automatic) noexcept;
 
-/// The same at the previous poses and transforms, which are given.
+/// The same at batch.previous_poses, which are given, and batch.previous_transforms (default: the identity).
 void set_up_previous(const Batch& batch, std::span<Coefficients> result, Isa isa = Isa::automatic) noexcept;
 
 }  // namespace goffer::bend

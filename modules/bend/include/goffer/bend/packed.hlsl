@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // packed.glsl in HLSL: goffer_position and goffer_normal, from attributes or from words. Compiled by glslang's HLSL
-// front end; other compilers have not been tried. GLSL's names for types that are macros already stay what they are.
+// front end; other compilers have not been tried. A GLSL type name that is a macro already is left alone.
 
 #ifndef vec2
 #define vec2 float2

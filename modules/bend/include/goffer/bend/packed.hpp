@@ -28,8 +28,8 @@ struct PackedVertex {
 static_assert(sizeof(PackedVertex) == 12 && alignof(PackedVertex) == 2);
 
 /// Where packed vertices go. The memory is the caller's. It must be aligned to 4 bytes and hold `count`
-/// vertices, and is never read. A default-made stream is empty: the output is not asked for. A plain value
-/// that owns nothing.
+/// vertices, and is never read. A default-constructed stream is empty: the output is not asked for. A plain
+/// value that owns nothing.
 struct PackedStream {
     PackedVertex* first = nullptr;
     /// Bytes from one vertex to the next: a multiple of 4, at least 12.

@@ -18,7 +18,7 @@ namespace goffer::bend {
 /// What is wrong with a path.
 enum class PathFault : std::uint8_t { none, too_few_points, not_finite, repeated_point };
 
-/// Says in one line what is wrong; "no fault" of none. Static storage.
+/// Says in one line what is wrong; "no fault" if there is none. Static storage.
 [[nodiscard]] std::string_view describe(PathFault fault) noexcept;
 
 /// Finds the first fault of a polyline: fewer than two points, a point that is not finite, or one that

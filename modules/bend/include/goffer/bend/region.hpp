@@ -27,16 +27,19 @@ struct RegionInput {
     FactorTable factors = {};      ///< empty: all factors are 1
     std::size_t vertex_count = 0;  ///< number of the body's vertices that belong to it
     double radius = 0;             ///< r of its base, the mean of its radii, model units; 0: the body's
-    double max_scale = 1;          ///< >= 1, largest RestVertex::scale of its vertices
+    double max_scale = 1;          ///< >= 1; no RestVertex::scale of its vertices exceeds it
     /// How far on both sides of the joint with the next region the wrinkles of both pass into each other,
-    /// model units; 0: wrinkles vanish at the joint, or there is no next region. Both regions then have a
-    /// table; their radii are within a factor of 1000; either both or neither have an onset or a rest arc;
-    /// they share a rest arc, or each of them is bent at rest by WorkingRange::max_joint_rest at most; the
-    /// blend is from 1e-5 of the longer region to what both have room for; and wrinkles pass into each other
-    /// no more steeply, and with the gain are no deeper, than WorkingRange allows. Among a region's vertices,
-    /// those within that distance of the joint below come before those of the joint above, and none is
-    /// thicker than the region beyond may be: scale times the own radius over that one's is at most 1.01
-    /// times its max_scale. Kernels are fastest if the former come first of all and the latter last.
+    /// model units; 0: wrinkles vanish at the joint, or there is no next region. Where it is not 0
+    /// - it is from 1e-5 of the longer region to what both have room for;
+    /// - both regions have a table, and radii within a factor of 1000;
+    /// - both or neither have an onset or a rest arc;
+    /// - they share a rest arc, or each is bent at rest by WorkingRange::max_joint_rest at most;
+    /// - wrinkles pass into each other no more steeply, and with the gain are no deeper, than WorkingRange
+    ///   allows;
+    /// - among a region's vertices, those near the joint below come before those near the joint above, and
+    ///   kernels are fastest if the former come first of all and the latter last;
+    /// - none of these is thicker than the other region may be: its scale, times the radius of its region
+    ///   over that of the other, is at most 1.01 times the other's max_scale.
     double blend = 0;
     /// The wave g of the next region over that of this one at the joint. Used with a blend, and finite
     /// without.

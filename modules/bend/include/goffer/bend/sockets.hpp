@@ -20,8 +20,8 @@
 namespace goffer::bend {
 
 /// The frame of a socket on the deformed body: a matrix whose columns are tangent, normal x tangent, normal
-/// (orthonormal and right-handed, unless the transform flattens), and position. It places what is modeled
-/// around the origin, z outward.
+/// (orthonormal and right-handed if the socket's own are orthogonal, unless the transform flattens), and
+/// position. It places what is modeled around the origin, z outward.
 using SocketFrame = glm::mat4x3;
 
 /// The sockets of a body. Immutable; move-only; instances and threads share it by reference. An object that

@@ -35,7 +35,8 @@ using WrinkleRow = std::array<float, wrinkle_degree + 1>;
 /// Rows from angle 0 to `max_angle`, at equal steps of the angle's root, in which the area factor is smooth:
 /// row i of n is for the angle max_angle (i / (n - 1))^2. A plain value. Empty: the region never wrinkles.
 struct WrinkleTable {
-    /// The most rows that a body file holds, and that the fit makes.
+    /// The most rows of this table, and of a FactorTable, that a body file holds, and that the fit makes.
+    /// Body::make takes more.
     static constexpr int max_rows = 4096;
 
     float max_angle = 0;           ///< angle of the last row, radians; > 0 where there are rows

@@ -56,10 +56,11 @@ enum class TexturePlacement : std::uint8_t {
 struct VertexTexture {
     VertexTextureLayout layout;
     glm::vec3 low{0}, high{0};  ///< bounds of all positions of the clip: texels 0 and 65535
-    /// What rounding to 16 bits can add to a position's error: the longest side of the bounds / 131070.
+    /// What rounding to 16 bits can add to a position's error on one axis: the longest side of the bounds /
+    /// 131070.
     double half_step = 0;
     double position_error = 0;  ///< measured: the largest distance of a decoded position, model units
-    double normal_error = 0;    ///< measured: the largest angle of a decoded normal, degrees
+    double normal_error = 0;    ///< measured: the largest angle of a decoded normal, radians
     std::vector<std::filesystem::path> files;  ///< all of them, `file` first
 };
 

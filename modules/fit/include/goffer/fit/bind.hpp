@@ -67,12 +67,12 @@ struct Binding {
 
 /// Makes a body of `geometry` on `cylinder`, straight or bent at rest. A vertex belongs to the region that it
 /// stands in; within a region those near joints that folds run over come first and last, and all else keeps
-/// the order that it has in the geometry (Binding::order).
-/// Normals and tangents are taken from the geometry, at unit length. Normals that it does not have, or that
-/// have no length, are made (make_normals); a tangent without length becomes a direction orthogonal to the
-/// normal. A vertex that no triangle uses is bound at the nearer end where it lies beyond one, and 1000
-/// radii from the axis where it is farther away; on a chain of arcs, one that lies beyond an end by more than
-/// 5e-4 of the length of the arc there is bound so far beyond it. At rest these are not where they were.
+/// the order that it has in the geometry (Binding::order). Normals and tangents are taken from the geometry,
+/// at unit length. Normals that it does not have, or that have no length, are made (make_normals); a tangent
+/// without length becomes a direction orthogonal to the normal. A vertex that no triangle uses is bound at
+/// the nearer end where it lies beyond one, and 1000 radii from the axis where it is farther away; on a chain
+/// of arcs, any vertex that lies beyond an end by more than 5e-4 of the length of the arc there is bound so
+/// far beyond it. At rest these are not where they were.
 ///
 /// Throws Error as check(geometry) and check(cylinder) do, and if an option is out of range, a vertex of a
 /// triangle lies beyond an end by more than a thousandth of the length, a number is outside

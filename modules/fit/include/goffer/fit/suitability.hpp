@@ -35,9 +35,8 @@ struct Suitability {
 
 /// Why a region has fewer folds than were asked for or, where no number was, than suit it.
 enum class FoldShortage {
-    /// It has enough: a half of those that suit it keep their depth. Or none suit it: with other profiles
-    /// than
-    /// even, where it is longer than 2048 radii.
+    /// It has at least half as many folds as suit it. Or none suit it: with profiles other than even, where
+    /// it is longer than 2048 radii.
     none,
     /// The mesh's rows of vertices are too far apart; folds that were asked for are made all the same.
     rows,

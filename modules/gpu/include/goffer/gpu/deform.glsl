@@ -3,7 +3,7 @@
 // to rounding. modules/gpu/README.md shows a whole shader.
 //   - A GofferVertex is filled from the attributes that goffer::gpu::write_vertices() writes.
 //   - Coefficients are rows of four floats, as goffer::bend::set_up() writes them: 17 for each region of an instance,
-//     those of its regions one behind the other. The shader defines goffer_row, which reads row `row` of them, before
+//     those of its regions one after the other. The shader defines goffer_row, which reads row `row` of them, before
 //     it calls anything here: from a uniform block, a texture or a storage buffer.
 //   - What is not used of the result costs nothing.
 // For GLSL 3.30 and ES 3.00 and later, and Vulkan; in vertex and compute shaders. deform.hlsl is the same for HLSL.
@@ -12,7 +12,7 @@ struct GofferVertex {
     vec4 column;   // sqrt(2) cos(beta / 2), sqrt(2) sin(beta / 2); rho; height
     vec4 wrinkle;  // radial offset; wrinkle; slope; the region's number
     vec3 normal;
-    vec4 shape;    // drift; taper; rest scale; scale: 0, 0, 0, 1 for a body that has none
+    vec4 shape;    // drift; taper; s / S_0; scale s: 0, 0, 0, 1 for a body that has none
     vec4 tangent;  // w: the sign
     vec4 joint;    // share of the neighbor in the wrinkle, negative: of the region before; its slope; gain; radius ratio
 };

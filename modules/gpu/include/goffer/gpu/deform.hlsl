@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// deform.glsl in HLSL. Compiled by glslang's HLSL front end; other compilers have not been tried. GLSL's names that are
-// macros already stay what they are.
+// deform.glsl in HLSL. Compiled by glslang's HLSL front end; other compilers have not been tried. A GLSL name that is a
+// macro already is left alone.
 
 #ifndef vec3
 #define vec3 float3

@@ -109,9 +109,9 @@ struct LoadOptions {
 /// face, or a glTF is compressed and has no plain copy of its data.
 [[nodiscard]] Mesh load(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// Returns the buffers that a glTF or GLB file names, which need not exist, without those outside its folder,
-/// which load() refuses; none for other formats and for a glTF that is broken. Throws Error if the file
-/// cannot be read or is beyond the limits. Thread-safe.
+/// Returns the buffers that a glTF or GLB file names, which need not exist, without those outside its folder
+/// unless options.allow_outside, since load() refuses them; none for other formats and for a glTF that is
+/// broken. Throws Error if the file cannot be read or is beyond the limits. Thread-safe.
 [[nodiscard]] std::vector<std::filesystem::path> named_buffers(const std::filesystem::path& file,
                                                                const LoadOptions& options = {});
 
@@ -180,7 +180,8 @@ struct TriangleRange {
 
 /// Returns where in their images the corners of triangles(mesh) are, each in the texture of its part's
 /// material: of its set, and transformed. 0, 0 where there is no texture, or the corner has no coordinate in
-/// it; empty where that is so of all. Values may be infinite or NaN if the file has such.
+/// it; empty where no part's texture has a set that the mesh has. Values may be infinite or NaN if the file
+/// has such.
 ///
 /// They are of corners rather than of vertices since a vertex on a seam has several. What bends a mesh then
 /// needs no vertices for the sake of its texture: split ones would change what a fit finds, and what save()

@@ -36,7 +36,7 @@ struct GridVertex {
     double detail = 0;
 };
 
-/// A grid in one pose: what the merge interpolates from. Immutable. A default-made one is empty.
+/// A grid in one pose: what the merge interpolates from. Immutable. A default-constructed one is empty.
 class BentGrid {
 public:
     /// Returns the deformed position, in the body frame, of a vertex that the same Grid has bound: trilinear
