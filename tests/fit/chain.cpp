@@ -378,6 +378,7 @@ TEST_CASE("chains: what makes none is named") {
     CHECK(says(said_of([&](Cylinder& c) { c.arcs[2].direction = nan; }), "not finite"));
     CHECK(says(said_of([](Cylinder& c) { c.arcs[0].length = 0; }), "length of one of the arcs"));
     CHECK(says(said_of([](Cylinder& c) { c.arcs.assign(33, {c.length / 33, 0, 0}); }), "33 arcs"));
+    CHECK(said_of([](Cylinder& c) { c.arcs.assign(32, {c.length / 32, 0, 0}); }) == "");
     CHECK(says(said_of([](Cylinder& c) {
                    c.radii = {0.2, 2.6, 0.2};
                    c.radius = paper::Spline(c.length, c.radii).mean();

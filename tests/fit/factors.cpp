@@ -208,6 +208,10 @@ TEST_CASE("amplitude mesh: regions keep the area of each") {
     options.folds = 2;
     options.regions = {{0.5, {}}, {0.5, {}}};
     const fit::Binding binding = fit::bind(soup.geometry(), cylinder, options);
+    for (const bend::RegionInput& region : binding.body.region_inputs()) {
+        REQUIRE(!region.factors.empty());
+        CHECK(region.factors.rows[0] == region.factors.rows[1]);  // nothing is solved at the angle 0
+    }
     const double rest = fit::surface_area(soup.positions, soup.triangles);
     for (const float direction : {0.0f, 1.0f, 2.5f}) {
         const bend::Pose poses[] = {{0.7f, direction}, {-0.9f, 0.3f}};

@@ -6,7 +6,7 @@ import unittest.mock
 
 import support
 from gating import judgment, pairs
-from gating.outcome import Verdict
+from gating.outcome import Unmeasured, Verdict
 
 COUNT = 6
 
@@ -23,6 +23,14 @@ class Pairs(support.Case):
         with unittest.mock.patch.object(pairs, "measure_pair", return_value=(1.0, 1.0)):
             pairs.Comparison(("base", "head"), 2, 0.05, told.append).judge(["case"])
         self.assertEqual(told, ["pair 1 of 2: case", "pair 2 of 2: case"])
+
+    def test_both_programs_are_ended_whatever_happens(self):
+        runs = [unittest.mock.Mock(), unittest.mock.Mock()]
+        runs[0].counters.side_effect = Unmeasured("failed")
+        with unittest.mock.patch.object(pairs, "Run", side_effect=runs), self.assertRaises(Unmeasured):
+            pairs.measure_pair(("base", "head"), "case", False)
+        for run in runs:
+            run.stop.assert_called_once_with()
 
     def test_programs_take_turns_to_be_first(self):
         self.assertEqual(self.judge(1.0, 0.05)[1], [False, True] * (COUNT // 2))

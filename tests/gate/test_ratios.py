@@ -39,6 +39,9 @@ class Ratios(support.Case):
         self.judge({"of_floor": {CASE: 0.3}}, program)
         self.assertEqual((self.folder / "head.runs").read_text(), "." * (1 + ratios.TRIES))
 
+    def test_the_machine_has_a_name(self):
+        self.assertRegex(machine.processor(), r"\S")
+
     def test_threads_on_a_busy_machine_are_not_judged(self):
         program = self.fake("head", PAIR, spread=0)
         bounds = {"two_threads": {"deform/packed/crowd/avx2": 1.9}}

@@ -150,6 +150,11 @@ TEST_CASE("gltf: sparse indices and counts are checked") {
     document.json["accessors"][0]["sparse"]["count"] = 5;
     CHECK(tells(load_error("d.glb", document.glb()),
                 "accessors[0].sparse.count: is 5, but the accessor has 4 elements"));
+    // Of no element none can be missing.
+    Json& none = document.json["accessors"][0]["sparse"];
+    none["count"] = 0;
+    none["indices"]["byteOffset"] = 1;
+    CHECK(load_error("d.glb", document.glb()).empty());
 }
 
 TEST_CASE("gltf: a node that is drawn many times is bent once, and that is said") {

@@ -152,6 +152,18 @@ TEST_CASE("gltf: primitives that share accessors share vertices, nodes that shar
     CHECK(mesh.positions[7] == glm::vec3(5, 0, 3));
 }
 
+TEST_CASE("gltf: a primitive has the name of its extras, if that is text, or else its node's") {
+    Document document = tetra_with_nodes(R"([{"mesh": 0, "name": "left"}])");
+    for (const auto& [extras, name] :
+         std::vector<std::pair<const char*, std::string>>{{R"({"name": "own"})", "own"},
+                                                          {R"({"name": 3})", "left"},
+                                                          {R"({})", "left"},
+                                                          {R"(["name"])", "left"}}) {
+        primitive_of(document)["extras"] = Json::parse(extras);
+        CHECK(load_document(document).parts[0].name == name);
+    }
+}
+
 TEST_CASE("gltf: primitives may have different sets of texture coordinates") {
     Document document = tetra();
     const std::size_t points = document.floats(tetra_points, "VEC3"),

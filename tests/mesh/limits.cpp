@@ -111,6 +111,21 @@ TEST_CASE("limits: what an attribute is read into stays while the others are rea
     CHECK(within({.memory = 2'400'000}, "a.glb", bytes).empty());
 }
 
+TEST_CASE("limits: triangles of strips and fans count as others do") {
+    for (const int mode : {5, 6}) {
+        Document document = tetra();
+        Json& primitive = primitive_of(document);
+        primitive["mode"] = mode;
+        std::vector<std::uint16_t> indices(30000);
+        for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint16_t>(i % 4);
+        primitive["indices"] = document.shorts(indices);
+        const std::size_t bytes = document.glb().size();
+        CHECK(within({.memory = bytes + 1'600'000}, "d.glb", document.glb()).empty());
+        // A corner is read into a number; a triangle has three, and its size.
+        CHECK(tells(within({.memory = bytes + 800'000}, "d.glb", document.glb()), "Limits::memory"));
+    }
+}
+
 TEST_CASE("limits: elements that no bytes are behind count in the scene, not in each accessor") {
     Document document = tetra();
     document.json["accessors"][0] = {{"componentType", 5126}, {"count", 1 << 20}, {"type", "VEC3"}};

@@ -62,6 +62,12 @@ TEST_CASE("stl: binary is read, even if it says solid") {
     }
 }
 
+TEST_CASE("stl: one facet is enough of a binary file, even if that says solid") {
+    std::string one = binary("solid but binary").substr(0, 84 + 50);
+    one[80] = 1;
+    CHECK(load_text("a.stl", one).corners == std::vector<std::uint32_t>{0, 1, 2});
+}
+
 TEST_CASE("stl: an unchanged mesh is written to the byte") {
     for (const std::string& bytes : {text, binary("x"), binary("solid"), binary("x") + "tail"})
         CHECK(saved(load_text("a.stl", bytes), "b.stl") == bytes);

@@ -51,7 +51,8 @@ TEST_CASE("with caps the base mesh is closed and its triangles face outward") {
     CHECK(volume(mesh) == doctest::Approx(4 * polygon).epsilon(1e-14));
 }
 
-TEST_CASE("a base mesh of no size is refused") {
+TEST_CASE("a base mesh of no size is refused, the smallest one is not") {
+    CHECK(base_mesh(1, 1, 3, 2).positions.size() == 6);
     CHECK_THROWS_AS(static_cast<void>(base_mesh(0, 1, 8, 3)), std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(base_mesh(1, std::nan(""), 8, 3)), std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(base_mesh(1, 1, 2, 3)), std::invalid_argument);

@@ -6,6 +6,8 @@
 #include <goffer/paper/shape.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -197,4 +199,30 @@ TEST_CASE("shapes that none can be are refused") {
     body.radius = 1;
     body.amplitude = Amplitude::area;
     CHECK_THROWS_AS(ClosedForm(body, {1, 0}), std::invalid_argument);
+}
+
+TEST_CASE("a shaped body that is bent at rest: straightened vectors come back as they were") {
+    std::mt19937 random(77);
+    const auto in = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    double worst = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const auto shape =
+            std::make_shared<const Shape>(10.0, 1.0, Shape::Knots{random_values(random, 6, 0.6, 1.4)});
+        const Pose rest{in(0.1, 3), in(-3, 3)};
+        Parameters body{.length = 10, .radius = shape->radius()};
+        body.shape = shape;
+        const ClosedForm map(body, rest);
+        const Cylindrical at{in(-pi, pi), in(0, 10), in(0.1, 1)};
+        const glm::dvec3 v = glm::normalize(glm::dvec3(in(-1, 1), in(-1, 1), in(-1, 1)));
+        const CylindricalVector normal =
+            straightened_normal(v, at, body.length, body.radius, rest, shape.get());
+        const CylindricalVector tangent =
+            straightened_tangent(v, at, body.length, body.radius, rest, shape.get());
+        goffer::test::take_worst(worst, glm::length(map.normal(at, normal) - v));
+        goffer::test::take_worst(worst, glm::length(map.tangent(at, tangent) - v));
+    }
+    CAPTURE(worst);
+    CHECK(worst < 1e-13);
 }
