@@ -48,4 +48,6 @@ TEST_CASE("bend: a path that is too short for the body is said to be, with the s
     CHECK(run(folder, words + Words{"--path-scale", "2.5"}).err.empty());
     CHECK(run(folder, words + Words{"--path-scale", "2.5", "--path-start", "1"}).err.find("1 shorter") !=
           std::string::npos);
+    folder.write("short.txt", "0 0 0\n0 0 4e-9\n");  // 2.5e9 would be more than the option takes
+    CHECK(run(folder, words).err.find("give a longer one") != std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include <goffer/io/error.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -92,7 +93,7 @@ void check_errors(const Errors& errors, const VertexTexture& texture) {
     CHECK(errors.distance ==
           doctest::Approx(texture.position_error).epsilon(0.01 + rounding / texture.half_step));
     CHECK(errors.normal <= normal_half_step);
-    CHECK(errors.normal == doctest::Approx(texture.normal_error).epsilon(0.02));
+    CHECK(errors.normal == doctest::Approx(glm::degrees(texture.normal_error)).epsilon(0.02));
 }
 
 /// A texture of moving points, carried in the texture, within its stated error.
@@ -174,7 +175,7 @@ TEST_CASE("vertex texture: a model that bends is within half a step of 16 bits")
     const glm::vec3 size = texture.high - texture.low;
     MESSAGE(texture.layout.width, " x ", texture.layout.height, ", bounds ",
             std::max({size.x, size.y, size.z}), ", half a step ", texture.half_step, ", off by ",
-            texture.position_error, " and ", texture.normal_error, " degrees");
+            texture.position_error, " and ", glm::degrees(texture.normal_error), " degrees");
 }
 
 TEST_CASE("vertex texture: placements that are listed are not in the texels") {
@@ -219,7 +220,7 @@ TEST_CASE("vertex texture: the JSON says what a player needs") {
     CHECK(json["frames_per_second"] == 24);
     CHECK(json["half_step"] == texture.half_step);
     CHECK(json["position_error"] == texture.position_error);
-    CHECK(json["normal_error_degrees"] == texture.normal_error);
+    CHECK(json["normal_error_degrees"] == glm::degrees(texture.normal_error));
     CHECK(glm::vec3(vector_of(json["low"])) == texture.low);
     CHECK(glm::vec3(vector_of(json["high"])) == texture.high);
     for (const auto& file : texture.files) CHECK(std::filesystem::is_regular_file(file));

@@ -14,6 +14,8 @@
 namespace goffer::cli {
 namespace {
 
+constexpr double largest_scale = 1e9;  // that --path-scale takes
+
 nlohmann::ordered_json rows_of(const glm::mat4x3& transform) {
     nlohmann::ordered_json rows;
     for (int r = 0; r < 3; ++r)
@@ -43,8 +45,8 @@ std::vector<fit::RegionOptions> regions_for_path() {
 
 double read_path_scale(const std::string& text) {
     const std::vector<double> numbers = read_numbers("--path-scale", text);
-    constexpr double least = 1e-9, most = 1e9;
-    if (numbers.size() != 1 || !(numbers[0] >= least && numbers[0] <= most))
+    constexpr double least_scale = 1e-9;
+    if (numbers.size() != 1 || !(numbers[0] >= least_scale && numbers[0] <= largest_scale))
         throw UsageError("--path-scale: '" + text + "' is not a number within 1e-09..1e+09");
     return numbers[0];
 }
@@ -81,10 +83,13 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
     report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
                             number(words.start) + ": the center line is within " + number(error) + " of it");
     constexpr double noticeable = 1e-3;
-    if (laid.beyond > noticeable * laid.length)
+    if (laid.beyond > noticeable * laid.length) {
+        const double enough = laid.scale * (laid.length + laid.beyond) / laid.length;
         report.warn("the path is " + number(laid.beyond) +
-                    " shorter than the body, which goes straight on behind its end; --path-scale " +
-                    number(laid.scale * (laid.length + laid.beyond) / laid.length) + " makes it long enough");
+                    " shorter than the body, which goes straight on beyond its end; " +
+                    (enough <= largest_scale ? "--path-scale " + number(enough) + " makes it long enough"
+                                             : "give a longer one"));
+    }
     if (laid.fit.clamped)
         report.warn("the path bends more sharply than the body can; regions are bent as far as they can");
 }
