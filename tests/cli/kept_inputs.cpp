@@ -190,6 +190,19 @@ TEST_CASE("cache: buffers that a glTF names are part of what a cache is made fro
             {"--json", "replace"});
 }
 
+TEST_CASE("materials and textures of a model are no place for an output") {
+    const Folder folder;
+    base(folder, "base.obj");
+    folder.write("m.obj", "mtllib m.mtl\n" + bytes_of(folder / "base.obj"));
+    folder.write("m.mtl", "newmtl a\nmap_Kd t.png\n");
+    folder.write("t.png", "a picture");
+    const Words bend{"bend", "m.obj", "--angle", "9", "-o", "b.glb"};
+    refused(folder, 2, bend + Words{"--json", "m.mtl"}, {"--json", "replace"});
+    refused(folder, 2, bend + Words{"--png", "t.png"}, {"--png", "replace"});
+    refused(folder, 2, {"bake", "m.obj", "-o", "t.png"}, {"-o", "replace"});
+    CHECK(bytes_of(folder / "t.png") == "a picture");
+}
+
 TEST_CASE("cache: whichever way leads to the scene's folder, the cache is the same") {
     const Folder folder;
     nlohmann::json scene = scene_in(folder);

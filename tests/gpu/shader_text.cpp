@@ -198,6 +198,11 @@ TEST_CASE("set_up: every instance, whatever the masks say, and previous poses") 
     batch.transforms = batch.previous_transforms = strided(std::span(transforms));
     std::vector<bend::Coefficients> now(3 * instances, unset()), before(3 * instances, unset()), one(3);
     bend::set_up(batch, now);
+    for (const bend::Coefficients& k : now) {  // zeros follow the vectors of the matrices
+        for (const std::size_t last : {3u, 7u, 11u})
+            CHECK((k.matrix[last] == 0 && k.normal_matrix[last] == 0));
+        CHECK(k.offset[3] == 0);
+    }
     bend::set_up_previous(batch, before);
     for (std::size_t i = 0; i < instances; ++i) {
         CAPTURE(i);

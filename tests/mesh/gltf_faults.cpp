@@ -31,6 +31,17 @@ TEST_CASE("gltf: the way out of a compression is a tool that knows it") {
     CHECK(tells(load_error("d.glb", document.glb()), "decompress it: gltf-transform copy IN OUT"));
 }
 
+TEST_CASE("gltf: an extension that is required and unknown is warned of") {
+    Document document = tetra();
+    document.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_transform",
+                                           "KHR_mesh_quantization"};
+    CHECK(load_document(document).warnings.empty());
+    document.json["extensionsRequired"].push_back("FOO_bar");
+    const goffer::mesh::Mesh mesh = load_document(document);
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].starts_with("extensionsRequired names 'FOO_bar', which goffer does not know"));
+}
+
 TEST_CASE("gltf: of data that are compressed and plain, the plain ones are read, and kept alone") {
     Document document = tetra();
     const goffer::mesh::Mesh plain = load_document(document);

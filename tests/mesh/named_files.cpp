@@ -94,6 +94,27 @@ TEST_CASE("files: the buffers that a glTF names are told, there or not, without 
     CHECK(named_buffers(place.folder.write("in/broken.gltf", "{")).empty());
 }
 
+TEST_CASE("files: the images of a glTF, the materials of an OBJ and their textures are told, too") {
+    const Place place;
+    const auto names = [&](const fs::path& file, const LoadOptions& options = {}) {
+        std::vector<std::string> found;
+        for (const fs::path& named : named_files(file, options)) found.push_back(named.filename().string());
+        return found;
+    };
+    using Names = std::vector<std::string>;
+    Document document = tetra();
+    document.json["buffers"].push_back({{"byteLength", 4}, {"uri", "own.bin"}});
+    document.json["images"] =
+        Json::parse(R"([{"uri": "a%20b.png"}, {"bufferView": 0}, {"uri": "../c.png"}])");
+    const fs::path gltf = place.folder.write("in/d.gltf", document.gltf());
+    CHECK(names(gltf) == Names{"own.bin", "a b.png"});
+    CHECK(names(gltf, {.allow_outside = true}) == Names{"own.bin", "a b.png", "c.png"});
+    place.folder.write("in/m.mtl", "newmtl a\nmap_Kd t.png\nmap_bump b.png\n");
+    const fs::path obj = place.folder.write("in/a.obj", "mtllib m.mtl\nmtllib none.mtl\nv 0 0 0\n");
+    CHECK(names(obj) == Names{"m.mtl", "t.png", "b.png", "none.mtl"});
+    CHECK(names(place.folder.write("in/a.stl", "solid\n")).empty());
+}
+
 TEST_CASE("named files: a glTF reads and copies nothing from outside its folder, however it is spelled") {
     const Place place;
     const LoadOptions allowed{.allow_outside = true};

@@ -260,7 +260,8 @@ TEST_CASE("ply: texture coordinates that are no numbers are 0, with a warning") 
     const Mesh mesh = load_text("a.ply", replaced(rich_ply, "8 0 0 1 0 1 1 0 1", "8 0 0 nan 0 1 inf 0 1"));
     CHECK(mesh.uvs[0].values == std::vector<glm::vec2>{{0, 0}, {0, 0}, {1, 0}, {0, 1}});
     REQUIRE(mesh.warnings.size() == 1);
-    CHECK(mesh.warnings[0] == "2 uv or color values are not finite: taken as 0");
+    CHECK(mesh.warnings[0] ==
+          "2 uv or color values are not finite: taken as 0, but kept in a file of the same format");
 }
 
 TEST_CASE("ply: an index that is no number, or too large for one, is told as it is") {

@@ -237,11 +237,12 @@ void check_output(const std::filesystem::path& file) {
 
 namespace {
 
-/// Returns the buffers that a .gltf names. Where it cannot be read, reading it says why.
-std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file) {
-    if (io::ending_of(file) != ".gltf") return {};
+/// Returns the files that a model names. Where it cannot be read, reading it says why.
+std::vector<std::filesystem::path> files_named_by(const std::filesystem::path& file) {
+    const std::string ending = io::ending_of(file);
+    if (ending != ".gltf" && ending != ".glb" && ending != ".obj") return {};
     try {
-        return mesh::named_buffers(file, {.allow_outside = true});
+        return mesh::named_files(file, {.allow_outside = true});
     } catch (const mesh::Error&) {
         return {};
     }
@@ -252,14 +253,14 @@ std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& file)
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
     std::vector<NamedFile> taken = inputs;
-    // A buffer that an output would replace is there: most runs need not look for any.
+    // A file that an output would replace is there: most runs need not look for any.
     const bool may_replace = std::ranges::any_of(outputs, [&](const NamedFile& output) {
         std::error_code error;
         return is_file(output) && std::filesystem::exists(output.file, error);
     });
     for (const NamedFile& input : may_replace ? inputs : std::vector<NamedFile>{}) {
-        for (std::filesystem::path& buffer : buffers_of(input.file))
-            taken.push_back({input.option, std::move(buffer)});
+        for (std::filesystem::path& named : files_named_by(input.file))
+            taken.push_back({input.option, std::move(named)});
     }
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {

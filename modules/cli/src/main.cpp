@@ -65,7 +65,8 @@ void heed_signals() {
 #ifdef _WIN32
     constexpr std::array signals{SIGINT, SIGTERM};
 #else
-    constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGALRM, SIGXCPU, SIGXFSZ};
+    constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGALRM, SIGXCPU};
+    std::signal(SIGXFSZ, SIG_IGN);  // what cannot be written is then told as any other fault
 #endif
     for (const int signal : signals) {
         if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup wants it

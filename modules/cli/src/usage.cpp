@@ -80,8 +80,10 @@ std::string fault_of_rest(const CLI::App& command, const std::vector<std::string
 /// What is wrong with how often an option is given, or how many values it has.
 std::string fault_of_count(const CLI::App& command, const std::string& fault) {
     const CLI::Option* const option = command.get_option_no_throw(fault.substr(0, fault.find(':')));
-    return option != nullptr && option->count() > 1 ? " is given more than once; give it once"
-                                                    : " needs a value";
+    if (option == nullptr || option->count() <= 1) return " needs a value";
+    const int most = option->get_expected_max();
+    return most > 1 ? " are more than " + std::to_string(most) + "; give fewer"
+                    : " is given more than once; give it once";
 }
 
 /// The subcommand that was given, or null.

@@ -129,16 +129,34 @@ Mesh load(const fs::path& file, const LoadOptions& options) {
     }
 }
 
-std::vector<fs::path> named_buffers(const fs::path& file, const LoadOptions& options) {
+namespace {
+
+constexpr const char* gltf_lists[] = {"buffers", "images"};
+
+/// `lists`: of a glTF. `materials`: those of an OBJ are wanted.
+std::vector<fs::path> files_in(const fs::path& file, std::span<const char* const> lists, bool materials,
+                               const LoadOptions& options) {
     try {
         Budget budget(options.limits);
         const std::string bytes = read_bytes(file, budget);
         const Format format = format_of(file, bytes);
-        if (format != Format::glb && format != Format::gltf) return {};
-        return gltf_buffers(file, bytes, options, budget);
+        if (format == Format::glb || format == Format::gltf)
+            return gltf_files(file, bytes, lists, options, budget);
+        return format == Format::obj && materials ? obj_files(file, bytes, options, budget)
+                                                  : std::vector<fs::path>{};
     } catch (const OverLimit& error) {
         fail(file, error.what());
     }
+}
+
+}  // namespace
+
+std::vector<fs::path> named_buffers(const fs::path& file, const LoadOptions& options) {
+    return files_in(file, std::span(gltf_lists).first(1), false, options);
+}
+
+std::vector<fs::path> named_files(const fs::path& file, const LoadOptions& options) {
+    return files_in(file, gltf_lists, true, options);
 }
 
 void save(const Mesh& mesh, const fs::path& file) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,11 +35,17 @@ inline constexpr std::uint32_t none = Attribute<glm::vec3>::none;
                              const LoadOptions& options, Budget& budget,
                              const Share& share);  // .gltf and .glb
 
-/// The files that the buffers of a .gltf or .glb lie in; none where it is broken, of which read_gltf() says
-/// more.
-[[nodiscard]] std::vector<std::filesystem::path> gltf_buffers(const std::filesystem::path& file,
-                                                              std::string_view bytes,
-                                                              const LoadOptions& options, Budget& budget);
+/// The files that the elements of `lists` ("buffers", "images") of a .gltf or .glb lie in; none where it is
+/// broken, of which read_gltf() says more.
+[[nodiscard]] std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& file,
+                                                            std::string_view bytes,
+                                                            std::span<const char* const> lists,
+                                                            const LoadOptions& options, Budget& budget);
+
+/// The material files that an OBJ names, and the textures that these name.
+[[nodiscard]] std::vector<std::filesystem::path> obj_files(const std::filesystem::path& file,
+                                                           std::string_view bytes, const LoadOptions& options,
+                                                           Budget& budget);
 
 /// Whether the bytes are certainly STL; those of a broken STL file may not be.
 [[nodiscard]] bool is_stl(std::string_view bytes);

@@ -73,7 +73,8 @@ std::string short_faces_warning(std::uint64_t faces) {
 }
 
 std::string not_finite_warning(std::uint64_t values) {
-    return number_of(values, "uv or color value is", "uv or color values are") + " not finite: taken as 0";
+    return number_of(values, "uv or color value is", "uv or color values are") +
+           " not finite: taken as 0, but kept in a file of the same format";
 }
 
 std::string_view next_token(std::string_view& rest) {

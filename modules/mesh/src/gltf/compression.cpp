@@ -9,8 +9,8 @@ namespace {
 
 struct Compression {
     const char* name;
-    const char*
-        tool;  ///< takes it out; gltf-transform, up to version 4.5, does not know KHR_meshopt_compression
+    /// Takes it out. (gltf-transform, up to version 4.5, does not know KHR_meshopt_compression.)
+    const char* tool;
 };
 constexpr std::array<Compression, 3> compressions{
     {{"KHR_draco_mesh_compression", "gltf-transform copy IN OUT"},

@@ -202,18 +202,37 @@ std::string_view Document::view(const Value& buffer_view) const {
                                            buffer_view["byteLength"].whole());
 }
 
-std::vector<std::filesystem::path> named_buffers(std::string_view bytes, const io::NamedFiles& files,
-                                                 Budget& budget) {
+std::vector<std::filesystem::path> named_files(std::string_view bytes, std::span<const char* const> lists,
+                                               const io::NamedFiles& files, Budget& budget) {
     const Json json = parse(parts_of(bytes).json, budget, {});
     std::vector<std::filesystem::path> named;
-    each(json, "buffers", [&](const Json& buffer) {
-        const bool has_uri = buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string();
+    const auto take = [&](const Json& element) {
+        const bool has_uri = element.is_object() && element.contains("uri") && element["uri"].is_string();
         if (!has_uri) return;
-        const std::string& uri = buffer["uri"].get_ref<const std::string&>();
+        const std::string& uri = element["uri"].get_ref<const std::string&>();
         if (uri.empty() || is_data_uri(uri) || has_scheme(uri)) return;
         if (const auto place = files.find(path_of(uri))) named.push_back(*place);
-    });
+    };
+    for (const char* const list : lists) each(json, list, take);
     return named;
+}
+
+std::string unknown_extensions(const Document& document) {
+    // What these change is no geometry, or is read.
+    constexpr std::array<std::string_view, 9> known{
+        "KHR_materials_",       "KHR_texture_", "EXT_texture_",   "MSFT_texture_",
+        "KHR_lights_",          "KHR_xmp",      "KHR_animation_", "EXT_mesh_gpu_instancing",
+        "KHR_mesh_quantization"};
+    std::string unknown;
+    each(document.json, "extensionsRequired", [&](const Json& name) {
+        const bool is_text = name.is_string();
+        const std::string text = is_text ? name.get<std::string>() : std::string();
+        const auto begins = [&](std::string_view begin) { return text.starts_with(begin); };
+        if (is_text && unknown.empty() && std::ranges::none_of(known, begins)) unknown = text;
+    });
+    return unknown.empty() ? unknown
+                           : "extensionsRequired names " + mesh::quoted(unknown) +
+                                 ", which goffer does not know: what it changes is not looked at";
 }
 
 std::shared_ptr<const Document> open_document(const std::filesystem::path& file, std::string_view bytes,

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,10 +105,15 @@ struct Document : Source {
                                                             const LoadOptions& options, Budget& budget,
                                                             const Share& share);
 
-/// Returns the files that the buffers of a .glb or .gltf lie in, but for those that `files` does not find.
-/// Throws Error without the file's name where it is no document.
-[[nodiscard]] std::vector<std::filesystem::path> named_buffers(std::string_view bytes,
-                                                               const io::NamedFiles& files, Budget& budget);
+/// Returns the files that the elements of `lists` ("buffers", "images") of a .glb or .gltf lie in, but for
+/// those that `files` does not find. Throws Error without the file's name where it is no document.
+[[nodiscard]] std::vector<std::filesystem::path> named_files(std::string_view bytes,
+                                                             std::span<const char* const> lists,
+                                                             const io::NamedFiles& files, Budget& budget);
+
+/// A warning of the extensions that a document requires, but that neither bending nor reading it knows; empty
+/// if there is none.
+[[nodiscard]] std::string unknown_extensions(const Document& document);
 
 /// Refuses a document whose meshes are compressed. Where they are also there in plain, for readers that do
 /// not know the compression, takes the compressed copies out.

@@ -17,10 +17,11 @@ double opening_share(std::string_view bytes) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> gltf_buffers(const std::filesystem::path& file, std::string_view bytes,
-                                                const LoadOptions& options, Budget& budget) {
+std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& file, std::string_view bytes,
+                                              std::span<const char* const> lists, const LoadOptions& options,
+                                              Budget& budget) {
     try {
-        return gltf::named_buffers(bytes, io::NamedFiles(file, options.allow_outside), budget);
+        return gltf::named_files(bytes, lists, io::NamedFiles(file, options.allow_outside), budget);
     } catch (const OverLimit&) {
         throw;
     } catch (const Error&) {
@@ -38,6 +39,8 @@ Mesh read_gltf(const std::filesystem::path& file, std::string_view bytes, const 
             std::ranges::move(warnings, std::back_inserter(mesh.warnings));
         };
         say(gltf::missing_images(*document));
+        if (std::string unknown = gltf::unknown_extensions(*document); !unknown.empty())
+            say({std::move(unknown)});
         say(gltf::wrong_types(*document));
         say(gltf::read_textures(document, mesh));
         mesh.source = document;

@@ -149,7 +149,7 @@ void SceneReader::read_node(const PlacedNode& placed) {
     if (!node.has("mesh")) return;
     const Value mesh = document_.entry("meshes", node["mesh"]);
     take_entry(node["mesh"].whole());
-    if (node.has("skin")) warn(node.path() + " is skinned: it is bent in its rest shape, as stored");
+    if (node.has("skin")) warn(node.path() + " is skinned: it is taken in its rest shape, as stored");
     const Placement placement = begin_block(placed).placement;
     if (placement.singular()) {
         warn(node.path() +
@@ -172,7 +172,7 @@ void SceneReader::read_node(const PlacedNode& placed) {
         budget_.take(2 * mesh_.parts[part].name.size());
         morphed = morphed || primitive.has("targets");
     }
-    if (morphed) warn(node.path() + " has morph targets: it is bent in its rest shape, without them");
+    if (morphed) warn(node.path() + " has morph targets: it is taken in its rest shape, without them");
 }
 
 void SceneReader::read_primitive(const PlacedNode& placed, const Value& primitive,

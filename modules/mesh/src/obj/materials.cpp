@@ -57,6 +57,7 @@ public:
           budget_(budget),
           mesh_(mesh) {}
     void read();
+    std::vector<std::filesystem::path> files();
 
 private:
     std::vector<tinyobj::material_t> read_libraries();
@@ -74,6 +75,7 @@ private:
     Mesh& mesh_;
     std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
     std::vector<std::optional<Texture>> textures_;  ///< of each entry of the material files
+    std::vector<std::filesystem::path> named_;      ///< material files and textures
 };
 
 void MaterialReader::read_library(const std::filesystem::path& library,
@@ -121,7 +123,7 @@ void MaterialReader::find_textures(const std::filesystem::path& library,
 /// for.
 void MaterialReader::warn_of_textures(const std::filesystem::path& library,
                                       std::span<const tinyobj::material_t> materials) {
-    const io::NamedFiles files(library, false);
+    const io::NamedFiles files(library, false), all(library, options_.allow_outside);
     std::set<std::string> missing;
     for (const tinyobj::material_t& material : materials) {
         for (const auto texture :
@@ -134,6 +136,7 @@ void MaterialReader::warn_of_textures(const std::filesystem::path& library,
             const std::string name = with_slashes(material.*texture);
             std::error_code error;
             const auto place = files.find(name);
+            if (const auto any = all.find(name); !name.empty() && any) named_.push_back(*any);
             if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
                 missing.insert(name);
         }
@@ -164,6 +167,7 @@ std::vector<tinyobj::material_t> MaterialReader::read_libraries() {
                 mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
                                          ": mtllib names " + quoted(name) + io::NamedFiles::outside);
             } else if (read.insert(*library).second) {
+                named_.push_back(*library);
                 read_library(*library, found);
             }
         }
@@ -187,11 +191,23 @@ void MaterialReader::read() {
     }
 }
 
+std::vector<std::filesystem::path> MaterialReader::files() {
+    (void)read_libraries();
+    return std::move(named_);
+}
+
 }  // namespace
 
 void read_materials(const std::filesystem::path& file, std::string_view text, const MaterialLines& lines,
                     const LoadOptions& options, Budget& budget, Mesh& mesh) {
     MaterialReader(file, text, lines, options, budget, mesh).read();
+}
+
+std::vector<std::filesystem::path> material_files(const std::filesystem::path& file, std::string_view text,
+                                                  const MaterialLines& lines, const LoadOptions& options,
+                                                  Budget& budget) {
+    Mesh unread;
+    return MaterialReader(file, text, lines, options, budget, unread).files();
 }
 
 }  // namespace goffer::mesh

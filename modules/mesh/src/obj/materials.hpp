@@ -25,4 +25,10 @@ struct MaterialLines {
 void read_materials(const std::filesystem::path& file, std::string_view text, const MaterialLines& lines,
                     const LoadOptions& options, Budget& budget, Mesh& mesh);
 
+/// Returns the material files that `lines` name, and the textures that these name.
+[[nodiscard]] std::vector<std::filesystem::path> material_files(const std::filesystem::path& file,
+                                                                std::string_view text,
+                                                                const MaterialLines& lines,
+                                                                const LoadOptions& options, Budget& budget);
+
 }  // namespace goffer::mesh

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace goffer::mesh {
 namespace {
@@ -252,6 +253,15 @@ Mesh read_obj(const std::filesystem::path& file, std::string_view bytes, const L
     source->read = mesh;
     mesh.source = std::move(source);
     return mesh;
+}
+
+std::vector<std::filesystem::path> obj_files(const std::filesystem::path& file, std::string_view bytes,
+                                             const LoadOptions& options, Budget& budget) {
+    MaterialLines lines;
+    Statement statement;
+    for (std::string_view rest = without_bom(bytes); next_statement(rest, statement);)
+        if (statement.keyword == "mtllib") lines.libraries.push_back(trimmed(statement.arguments));
+    return material_files(file, bytes, lines, options, budget);
 }
 
 }  // namespace goffer::mesh

@@ -115,6 +115,11 @@ struct LoadOptions {
 [[nodiscard]] std::vector<std::filesystem::path> named_buffers(const std::filesystem::path& file,
                                                                const LoadOptions& options = {});
 
+/// The same, and the images of a glTF, the material files of an OBJ and the textures that these name: what an
+/// output must not replace.
+[[nodiscard]] std::vector<std::filesystem::path> named_files(const std::filesystem::path& file,
+                                                             const LoadOptions& options = {});
+
 /// Writes `mesh` in the format of the file name's ending (.obj, .ply, .stl, .glb or .gltf, in any case).
 ///
 /// A mesh that differs from the file that it came from in positions, normals and tangents only is given back
