@@ -175,6 +175,10 @@ TEST_CASE("animate: animated glTF and a vertex-animation texture") {
     CHECK(gltf["bytes"] == bytes_of(folder / "worm.glb").size());
     CHECK(mesh::load(folder / "worm.glb").positions.size() ==
           mesh::load(folder / "base.ply").positions.size());
+    CHECK(gltf["warnings"].empty());
+    const json still = report(folder, {"animate", "base.ply", "-o", "still.glb", "--swing", "0"});
+    REQUIRE(still["warnings"].size() == 1);
+    CHECK(still["warnings"][0] == "nothing moves: the file has no animation");
     const json few = report(folder, Words{"animate", "base.ply", "-o", "worm.glb", "--targets", "1"} + swing);
     CHECK(few["gltf"]["targets"] == 1);
     const json exact =

@@ -74,6 +74,7 @@ GltfReport save_gltf(const mesh::Mesh& mesh, Frames& frames, const GltfOptions& 
     const Keys keys = keys_of(frames);
     mesh::MorphingFile written = mesh::save_morphing(
         mesh, {targets, keys.times, blend.weights, keys.translations, keys.rotations}, file, files);
+    if (!written.animated) written.warnings.emplace_back("nothing moves: the file has no animation");
     return {frames.count(),
             targets.size(),
             blend.exact,

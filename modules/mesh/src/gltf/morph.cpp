@@ -235,6 +235,7 @@ MorphingFile save_morphing(const Mesh& mesh, const Morphing& morphing, const std
     try {
         check(morphing, vertex_arrays(mesh).positions.size());
         gltf::Output output = gltf::Morpher(mesh, morphing, file, ending == ".glb").run(written.warnings);
+        written.animated = output.json.contains("animations");
         bytes = ending == ".glb" ? gltf::glb_file(std::move(output.json), output.buffer)
                                  : gltf::gltf_file(std::move(output.json), output.buffer);
     } catch (const Error& error) {

@@ -45,7 +45,7 @@ enum class GltfLimit : std::uint8_t {
 /// they are those of the values in the file, over all vertices of all frames, before the placement.
 struct GltfReport {
     std::size_t frames = 0;
-    std::size_t targets = 0;            ///< in the file, 0 if nothing moves
+    std::size_t targets = 0;            ///< that blend the frames, 0 if nothing moves
     bool exact = false;                 ///< the targets are the frames themselves: nothing is left out
     GltfLimit limit = GltfLimit::none;  ///< why max_error is not kept
     double size = 0;                    ///< the mesh's largest extent at rest
@@ -54,7 +54,7 @@ struct GltfReport {
     double max_angle = 0;  ///< largest angle between a normal and that of its frame; 0 without normals
     double rms_angle = 0;
     std::uint64_t bytes = 0;            ///< of the file
-    std::vector<std::string> warnings;  ///< what of the mesh's source is left out, a line each
+    std::vector<std::string> warnings;  ///< what of the mesh's source is left out, and that nothing moves
 
     [[nodiscard]] bool within() const noexcept { return limit == GltfLimit::none; }  ///< max_error is kept
 };

@@ -37,6 +37,7 @@ struct Morphing {
 /// What save_morphing() wrote.
 struct MorphingFile {
     std::uint64_t bytes = 0;
+    bool animated = false;              ///< it has an animation: something moves between the keys
     std::vector<std::string> warnings;  ///< what of the source is left out, a line each
 };
 
