@@ -30,7 +30,9 @@ struct StridedView {
 
     const void* data = nullptr;  ///< the array, or an array of the pages' addresses
     std::size_t count = 0;
-    std::uint32_t stride = sizeof(T);  ///< 0: one value for all, of which `count` says how many there are
+    /// 0: all elements are the same one; `count` is still their number: of instances or, with indices, more
+    /// than the largest index.
+    std::uint32_t stride = sizeof(T);
     std::uint32_t offset = 0;  ///< bytes from the beginning of the array, or of a page, to its first element
     std::uint32_t page_shift = unpaged;  ///< a page holds 2^page_shift elements
     /// How many values of type T each element has, one after the other; 0: as many as the stride has room

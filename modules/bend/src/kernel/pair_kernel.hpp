@@ -9,7 +9,7 @@
 
 namespace goffer::bend {
 
-/// Records of a current position, a normal if wanted, and a previous position, in that order.
+/// Records of a previous position, a current one and, if wanted, a normal, in the order that `order` says.
 template <class L, bool normals, PairOrder order>
 struct PairLayout {
     static constexpr int vectors = normals ? 3 : 2;
@@ -77,24 +77,22 @@ GOFFER_FLATTENED void bend_to_pairs(const RestColumns& columns, const Coefficien
     const bool non_temporal = write == Write::non_temporal;
     if (non_temporal) prefetch_ends<L>(out.first, floats * vertices);
     alignas(64) float part[floats * unit<L>];
-    std::size_t next = out.peeled != 0 ? out.peeled : unit<L>;
-    for (std::size_t j = 0; j < vertices; j = next, next += unit<L>) {
-        const Coefficients &k = reread<L>(current), &k_before = reread<L>(previous);
-        Results<L> now[batches<L>], before[batches<L>];
+    const auto store = [&](const Results<L>(&now)[batches<L>], std::size_t j, std::size_t count) {
+        const Coefficients& k = reread<L>(previous);
+        Results<L> before[batches<L>];
         for (std::size_t b = 0; b < batches<L>; ++b) {
             const std::size_t i = first + j + b * L::width;
             before[b] = deform_batch<L, squeeze, StreamSet::positions>(
-                rest, k_before, turn_batch<L, squeeze, false>(rest, k_before, i), i);
-            now[b] =
-                deform_batch<L, squeeze, streams>(rest, k, turn_batch<L, squeeze, normals>(rest, k, i), i);
+                rest, k, turn_batch<L, squeeze, false>(rest, k, i), i);
         }
         float* const to = out.first + floats * j;
-        const std::size_t count = (next < vertices ? next : vertices) - j;
         const bool whole = count == unit<L>;
         store_pairs<L, normals>(now, before, out.order, whole ? to : part, whole && non_temporal);
         if (!whole) [[unlikely]]
             copy_dense<L>(part, floats * count, to, non_temporal);
-    }
+    };
+    deform_units<L, squeeze, streams, true>(rest, current, first, vertices,
+                                            out.peeled != 0 ? out.peeled : unit<L>, store);
 }
 
 }  // namespace goffer::bend

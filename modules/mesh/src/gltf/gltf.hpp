@@ -111,8 +111,7 @@ struct Document : Source {
                                                              std::span<const char* const> lists,
                                                              const io::NamedFiles& files, Budget& budget);
 
-/// A warning of the extensions that a document requires, but that neither bending nor reading it knows; empty
-/// if there is none.
+/// A warning of an extension that a document requires and goffer does not know; empty if there is none.
 [[nodiscard]] std::string unknown_extensions(const Document& document);
 
 /// Refuses a document whose meshes are compressed. Where they are also there in plain, for readers that do

@@ -10,11 +10,11 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -45,6 +45,14 @@ Texture texture_with(const tinyobj::texture_option_t& option, std::shared_ptr<co
     return texture;
 }
 
+/// The names of all textures of a material, as its file has them; empty where it has none of a kind.
+std::array<std::string, 12> texture_names(const tinyobj::material_t& material) {
+    const auto& m = material;
+    return {m.diffuse_texname,   m.ambient_texname,      m.specular_texname, m.specular_highlight_texname,
+            m.bump_texname,      m.displacement_texname, m.alpha_texname,    m.reflection_texname,
+            m.roughness_texname, m.metallic_texname,     m.emissive_texname, m.normal_texname};
+}
+
 class MaterialReader {
 public:
     MaterialReader(const std::filesystem::path& file, std::string_view text, const MaterialLines& lines,
@@ -60,11 +68,13 @@ public:
     std::vector<std::filesystem::path> files();
 
 private:
-    std::vector<tinyobj::material_t> read_libraries();
-    void read_library(const std::filesystem::path& library, std::vector<tinyobj::material_t>& found);
-    void warn_of_textures(const std::filesystem::path& library,
-                          std::span<const tinyobj::material_t> materials);
-    void find_textures(const std::filesystem::path& library, std::span<const tinyobj::material_t> materials);
+    using Materials = std::vector<tinyobj::material_t>;
+
+    template <class Visit>
+    void each_library(const Visit& visit);
+    [[nodiscard]] Materials read_library(const std::filesystem::path& library);
+    void warn_of_textures(const std::filesystem::path& library, const Materials& materials);
+    void find_textures(const std::filesystem::path& library, const Materials& materials);
 
     const std::filesystem::path& file_;
     std::string_view text_;
@@ -75,11 +85,9 @@ private:
     Mesh& mesh_;
     std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
     std::vector<std::optional<Texture>> textures_;  ///< of each entry of the material files
-    std::vector<std::filesystem::path> named_;      ///< material files and textures
 };
 
-void MaterialReader::read_library(const std::filesystem::path& library,
-                                  std::vector<tinyobj::material_t>& found) {
+MaterialReader::Materials MaterialReader::read_library(const std::filesystem::path& library) {
     std::istringstream text;
     try {
         std::string bytes = read_bytes(library, budget_);
@@ -92,15 +100,13 @@ void MaterialReader::read_library(const std::filesystem::path& library,
     }
     std::map<std::string, int> index;
     std::string warnings, errors;
-    const std::size_t before = found.size();
-    tinyobj::LoadMtl(&index, &found, &text, &warnings, &errors);
-    warn_of_textures(library, std::span(found).subspan(before));
-    find_textures(library, std::span(found).subspan(before));
+    Materials materials;
+    tinyobj::LoadMtl(&index, &materials, &text, &warnings, &errors);
+    return materials;
 }
 
 /// Finds the images of map_Kd that are there and may be read, each once.
-void MaterialReader::find_textures(const std::filesystem::path& library,
-                                   std::span<const tinyobj::material_t> materials) {
+void MaterialReader::find_textures(const std::filesystem::path& library, const Materials& materials) {
     const io::NamedFiles files(library, options_.allow_outside);
     std::set<std::string> outside;
     for (const tinyobj::material_t& material : materials) {
@@ -121,22 +127,14 @@ void MaterialReader::find_textures(const std::filesystem::path& library,
 
 /// Most of them nothing reads, but whoever shows the output wants them. Those outside are not even looked
 /// for.
-void MaterialReader::warn_of_textures(const std::filesystem::path& library,
-                                      std::span<const tinyobj::material_t> materials) {
-    const io::NamedFiles files(library, false), all(library, options_.allow_outside);
+void MaterialReader::warn_of_textures(const std::filesystem::path& library, const Materials& materials) {
+    const io::NamedFiles files(library, false);
     std::set<std::string> missing;
     for (const tinyobj::material_t& material : materials) {
-        for (const auto texture :
-             {&tinyobj::material_t::diffuse_texname, &tinyobj::material_t::ambient_texname,
-              &tinyobj::material_t::specular_texname, &tinyobj::material_t::specular_highlight_texname,
-              &tinyobj::material_t::bump_texname, &tinyobj::material_t::displacement_texname,
-              &tinyobj::material_t::alpha_texname, &tinyobj::material_t::reflection_texname,
-              &tinyobj::material_t::roughness_texname, &tinyobj::material_t::metallic_texname,
-              &tinyobj::material_t::emissive_texname, &tinyobj::material_t::normal_texname}) {
-            const std::string name = with_slashes(material.*texture);
+        for (const std::string& texture : texture_names(material)) {
+            const std::string name = with_slashes(texture);
             std::error_code error;
             const auto place = files.find(name);
-            if (const auto any = all.find(name); !name.empty() && any) named_.push_back(*any);
             if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
                 missing.insert(name);
         }
@@ -147,11 +145,11 @@ void MaterialReader::warn_of_textures(const std::filesystem::path& library,
                                  ", which is not there; put it beside the material file");
 }
 
-/// Reads the material files, each once. The file's name is looked up for each, which takes far longer than to
-/// read the line that names it: hence the limit.
-std::vector<tinyobj::material_t> MaterialReader::read_libraries() {
+/// Reads the material files, each once, and calls visit(file, materials). The file's name is looked up for
+/// each, which takes far longer than to read the line that names it: hence the limit.
+template <class Visit>
+void MaterialReader::each_library(const Visit& visit) {
     constexpr std::size_t most = 1000;
-    std::vector<tinyobj::material_t> found;
     std::set<std::string_view> lines;
     std::set<std::filesystem::path> read;
     for (const std::string_view line : lines_.libraries) {
@@ -160,23 +158,26 @@ std::vector<tinyobj::material_t> MaterialReader::read_libraries() {
             if (read.size() >= most || lines.size() > most) {
                 mesh_.warnings.push_back("materials are left out: there are more than " +
                                          std::to_string(most) + " material files; merge them");
-                return found;
+                return;
             }
             const std::optional<std::filesystem::path> library = files_.find(name);
             if (!library) {
                 mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
                                          ": mtllib names " + quoted(name) + io::NamedFiles::outside);
             } else if (read.insert(*library).second) {
-                named_.push_back(*library);
-                read_library(*library, found);
+                visit(*library, read_library(*library));
             }
         }
     }
-    return found;
 }
 
 void MaterialReader::read() {
-    const std::vector<tinyobj::material_t> found = read_libraries();
+    Materials found;
+    each_library([&](const std::filesystem::path& library, const Materials& materials) {
+        warn_of_textures(library, materials);
+        find_textures(library, materials);
+        found.insert(found.end(), materials.begin(), materials.end());
+    });
     std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
     for (std::size_t i = 0; i < found.size(); ++i) {
         const tinyobj::material_t& entry = found[i];
@@ -192,8 +193,18 @@ void MaterialReader::read() {
 }
 
 std::vector<std::filesystem::path> MaterialReader::files() {
-    (void)read_libraries();
-    return std::move(named_);
+    std::vector<std::filesystem::path> named;
+    each_library([&](const std::filesystem::path& library, const Materials& materials) {
+        named.push_back(library);
+        const io::NamedFiles files(library, options_.allow_outside);
+        for (const tinyobj::material_t& material : materials) {
+            for (const std::string& texture : texture_names(material)) {
+                const auto place = texture.empty() ? std::nullopt : files.find(with_slashes(texture));
+                if (place) named.push_back(*place);
+            }
+        }
+    });
+    return named;
 }
 
 }  // namespace

@@ -108,11 +108,11 @@ struct Batch {
     /// vertex_offsets are given.
     std::size_t vertex_step = 0;
 
-    /// Bytes of a record between and behind its outputs, up to the next record, are left as they are: they
+    /// Bytes of a record between and after its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not: most records of up to 64 bytes may then be
     /// written as whole lines, with zeros in the gaps, which takes two thirds of the time past the cache.
     /// Gaps are kept all the same where a batch writes several sets of records with one stride. Bytes before
-    /// an instance's first output and behind its last one stay untouched in any case.
+    /// an instance's first output and after its last one stay untouched in any case.
     bool scratch_gaps = false;
 };
 

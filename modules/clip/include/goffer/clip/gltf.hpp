@@ -45,7 +45,7 @@ enum class GltfLimit : std::uint8_t {
 /// they are those of the values in the file, over all vertices of all frames, before the placement.
 struct GltfReport {
     std::size_t frames = 0;
-    std::size_t targets = 0;            ///< that blend the frames, 0 if nothing moves
+    std::size_t targets = 0;            ///< shapes that frames are blends of
     bool exact = false;                 ///< the targets are the frames themselves: nothing is left out
     GltfLimit limit = GltfLimit::none;  ///< why max_error is not kept
     double size = 0;                    ///< the mesh's largest extent at rest
