@@ -52,6 +52,21 @@ TEST_CASE("streams: a full standard output is an error") {
     }
 }
 
+TEST_CASE("streams: where a report cannot be printed, nothing is said to be written") {
+    const Folder folder;
+    base(folder);
+    if (!std::filesystem::exists("/dev/full")) {
+        MESSAGE("skipped: there is no /dev/full");
+        return;
+    }
+    const std::string line = "cd '" + (folder / ".").string() + "' && '" + GOFFER_COMMAND +
+                             "' bend base.ply -o out.ply --json - >/dev/full 2>said.txt";
+    CHECK(std::system(line.c_str()) != 0);
+    const std::string said = bytes_of(folder / "said.txt");
+    CHECK(said.starts_with("goffer: standard output: cannot be written"));
+    CHECK(!std::filesystem::exists(folder / "out.ply"));
+}
+
 TEST_CASE("streams: nothing that is printed gets into an output where a standard stream is closed") {
     const Folder folder;
     const std::string whole = bytes_of(folder / base(folder));

@@ -153,3 +153,19 @@ TEST_CASE("suitability: a body far from the origin, whose coordinates are rounde
               (away > 5e4f));
     }
 }
+
+TEST_CASE("suitability: vertices that no face uses") {
+    const Folder folder;
+    mesh::Mesh rod = rods(folder, {{0, 0, 0}});
+    rod.positions.insert(rod.positions.end(), {{0, 0, 5}, {3, 0, 10.005f}});  // within, and nearly
+    const auto said = [&] {
+        mesh::save(rod, folder / "loose.ply");
+        const json all = report(folder, {"inspect", "loose.ply"});
+        return all["warnings"].empty() ? std::string() : all["warnings"][0].get<std::string>();
+    };
+    CHECK(said().empty());
+    rod.positions.emplace_back(0, 0, 12);
+    CHECK(said().starts_with("a vertex that no face uses lies beyond the ends of the body"));
+    rod.positions.emplace_back(0, 0, -1);
+    CHECK(said().starts_with("2 vertices that no face uses lie beyond the ends of the body"));
+}

@@ -288,6 +288,7 @@ BoundModel bind_model(const std::filesystem::path& file, const BindRequest& requ
 BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::filesystem::path& fit) {
     const std::filesystem::path& file = model.file;
     const bool given = !fit.empty();
+    const std::filesystem::path& source = given ? fit : file;  // of the cylinder
     const fit::Cylinder cylinder = in_file(file, [&] {
         const Progress progress("fitting " + file.string());
         const fit::Geometry geometry = geometry_of(model.rest);
@@ -295,8 +296,8 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
         const fit::Cylinder found =
             given ? read_fit(fit)
                   : fit::fit_cylinder(geometry, request.axis, request.rest, request.words.fit.arcs);
+        in_file(source, [&] { fit::check_bindable(found); });  // before vertices are added
         const bool shaped = request.options.shape == fit::ShapeMode::automatic && found.radii.empty();
-        fit::check_bindable(found);  // before vertices are added
         return shaped ? fit::fit_shape(geometry, found) : found;
     });
     const std::size_t arcs = cylinder.arcs.size(), said = request.words.fit.arcs;
@@ -325,7 +326,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     Progress progress("binding " + file.string());
     options.progress = progress.listener();
     model.binding =
-        in_file(given ? fit : file, [&] { return fit::bind(geometry_of(model), cylinder, options); });
+        in_file(source, [&] { return fit::bind(geometry_of(model), cylinder, options); });
     model.cylinder = model.binding.cylinder;
     return model;
 }

@@ -49,6 +49,14 @@ std::string for_terminals(const std::string& json) {
     return out;
 }
 
+bool flushed() {
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+[[noreturn]] void throw_output_error() {
+    throw InputError("standard output: cannot be written; is it closed, or its disk full?");
+}
+
 }  // namespace
 
 std::string number(double value) {
@@ -89,15 +97,16 @@ void Report::finish(io::AtomicFiles& outputs) {
     if (!json_file_.empty() && !to_output) outputs.add(json_file_).write(text);
     outputs.flush();  // what the lines say is true but for the last step
 
+    if (to_output) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        if (!flushed()) throw_output_error();
+    }
     std::FILE* people = to_output ? stderr : stdout;
     for (const std::string& line : lines_) std::fprintf(people, "%s\n", io::escaped(line).c_str());
     for (const std::string& warning : warnings_)
         std::fprintf(stderr, "goffer: warning: %s\n", io::escaped(warning).c_str());
-    if (to_output) std::fwrite(text.data(), 1, text.size(), stdout);
-    // Lines for people may go nowhere, where standard output is closed; a report may not.
-    const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (!written && (to_output || errno != EBADF))
-        throw InputError("standard output: cannot be written; is it closed, or its disk full?");
+    // Lines may go nowhere, where standard output is closed.
+    if (!to_output && !flushed() && errno != EBADF) throw_output_error();
     outputs.commit();
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "suitability.hpp"
 
+#include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/suitability.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace goffer::cli {
 namespace {
@@ -30,6 +32,20 @@ std::string far_away(const BoundModel& model) {
     if (step <= most * radius) return {};
     return "it lies so far from the origin that its coordinates are rounded to steps of " + number(step) +
            ", " + number(100 * step / radius) + " % of its radius; move it nearer to the origin";
+}
+
+/// How many vertices that no face uses bind() moves, since they lie beyond an end of the body.
+std::size_t stray_vertices(const BoundModel& model) {
+    constexpr double slack = 1e-3;  // shares of the length: what bind() allows the others too
+    std::vector<bool> used(model.rest.positions.size());
+    for (const std::uint32_t vertex : model.rest.triangles) used[vertex] = true;
+    const std::vector<double> heights = fit::heights(model.rest.positions, model.cylinder);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const double share = heights[i] / model.cylinder.length;
+        if (!used[i] && (share < -slack || share > 1 + slack)) ++count;
+    }
+    return count;
 }
 
 std::string warning(const fit::Suitability& found, double residual) {
@@ -63,6 +79,12 @@ void report_suitability(Report& report, const BoundModel& model) {
     const bool round = !model.cylinder.arcs.empty();  // about its chain, or it would have none
     const std::string why = warning(found, round ? 0 : model.cylinder.residual);
     if (const std::string far = far_away(model); !far.empty()) report.warn(far);
+    if (const std::size_t stray = stray_vertices(model); stray > 0)
+        report.warn((stray == 1 ? "a vertex that no face uses lies"
+                                : std::to_string(stray) + " vertices that no face uses lie") +
+                    std::string(" beyond the ends of the body, and the output has ") +
+                    (stray == 1 ? "it" : "them") +
+                    " at its ends; take out loose points and lines, or give them faces");
     if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
 }
 
