@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -186,6 +187,25 @@ TEST_CASE("parts: a plate is as thin as it is, however wide, and stands almost s
     };
     CHECK(weight(1) > 0.5);
     CHECK(weight(0.05) < 0.3);
+}
+
+TEST_CASE("parts: a thin part close to a thick one hardly sways either") {
+    const auto deep = [](double) { return 0.2; };
+    const auto weights = [&](const Rods& rods) {  // on its outer line, its inner line, and the tube below it
+        const test::Solid solid = tube_and_rods(rods);
+        fit::Parts parts(solid.geometry(), base_of_tube());
+        parts.weigh(deep, deep);
+        return std::array{parts.at({0, 5, rods.distance + rods.radius}).value,
+                          parts.at({0, 5, rods.distance - rods.radius}).value, parts.at({0, 5, 1}).value};
+    };
+    const auto far = weights({.radius = 0.3, .distance = 2.5});
+    const auto close = weights({.radius = 0.3, .distance = 1.35});
+    CHECK(std::fabs(close[0]) < 1.1 * std::fabs(far[0]));
+    CHECK(close[1] < 0.4 * far[1]);  // away from the rod's own center
+    // What lies on the tube goes with it.
+    const auto grip = weights({.radius = 0.02, .distance = 1.03, .flatness = 12});
+    CHECK(grip[0] > 0.6);
+    CHECK(grip[2] > 0.6);
 }
 
 TEST_CASE("parts: hairs in number do not make the body between them smooth") {

@@ -25,6 +25,7 @@ constexpr double most_wobble = 0.1;  // of a part's size that its center may mov
 constexpr double most_depth = 0.35;  // of the size of a part beside the axis that its wrinkle may be deep
 constexpr double spread = 0.3;       // radii along the body that a weight passes into others in
 constexpr double blend = 1.5;        // greatest depths of a wrinkle over which it does so across the body
+constexpr double least_apart = 0.25, apart = 0.75;  // of what weights blend over: see priority_of()
 // By these, a wrinkle leaves a part of every distance away from the axis in any pose, so that no surface
 // passes through another.
 
@@ -178,6 +179,16 @@ double share_of(double radius) {
     return std::pow(std::min(radius / thick, 1.0), 1.25);
 }
 
+/// How much more the weight of a part counts than that of one that bears all of its wrinkle, so that where
+/// thin parts grow out of a thick one, weights blend in the thick one. The thinner a part is, the less, for
+/// the sake of hairs. What lies on a thick part, such as a grip, goes with it: `distance` is how far away
+/// that is on average, in the length that weights blend over.
+double priority_of(double weight, double share, double distance) {
+    constexpr double least = 0.1, power = 2.5;
+    return std::pow(least + weight,
+                    -power * std::sqrt(share) * glm::smoothstep(least_apart, apart, distance));
+}
+
 std::vector<CrossSection> cross_sections(const Geometry& geometry, const Cylinder& cylinder, double step) {
     const Straightening straightening(cylinder);
     std::vector<glm::dvec3> local;
@@ -235,7 +246,35 @@ Parts::Parts(const Geometry& geometry, const Cylinder& cylinder)
         });
         std::ranges::stable_sort(slices_[slice].parts, std::greater{},
                                  [](const Part& part) { return part.disc.radius; });
+        measure_distances(slices_[slice]);
     }
+}
+
+/// Sets how far each part is from thicker ones on average. Thick parts come first.
+void Parts::measure_distances(Slice& slice) {
+    constexpr double thicker = 1.2;  // times as thick
+    for (Part& part : slice.parts) {
+        const auto end = std::ranges::find_if(
+            slice.parts, [&](const Part& other) { return other.disc.radius <= thicker * part.disc.radius; });
+        if (end == slice.parts.begin()) continue;
+        double sum = 0;
+        for (const OutlinePoints& points : part.outline) {
+            for (std::size_t i = 0; i < points.count; ++i)
+                sum += distance(std::span(slice.parts.begin(), end), static_cast<double>(points.x[i]),
+                                static_cast<double>(points.y[i]));
+        }
+        part.distance = sum / static_cast<double>(part.outline.size() * OutlinePoints::count);
+    }
+}
+
+/// How far the nearest of the outlines is.
+double Parts::distance(std::span<const Part> parts, double x, double y) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Part& part : parts) {
+        const double from = std::max(std::hypot(x - part.disc.x, y - part.disc.y) - part.disc.reach, 0.0);
+        if (from < least) least = std::min(least, std::sqrt(squared_distance(part.outline, x, y)));
+    }
+    return least;
 }
 
 double Parts::outermost(double low, double high) const {
@@ -260,6 +299,7 @@ void Parts::weigh(const Depth& depth, const Depth& deepest) {
             const double bearable =
                 std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.size;
             part.weight = deep > 0 ? std::min(bearable / deep, 1.0) : 1;
+            part.priority = priority_of(part.weight, part.share, part.distance / slice.blend);
             slice.sound = slice.sound && part.weight == 1 && part.disc.beside == 0;
         }
         sound_ = sound_ && slice.sound;
@@ -267,15 +307,15 @@ void Parts::weigh(const Depth& depth, const Depth& deepest) {
 }
 
 /// Each part is almost alone near its own outline, if the other's is much farther away than what they blend
-/// over. If two are equally far away, the thicker one counts for more: where hairs grow out of a body, they
-/// go with it rather than let it be smooth. Thick parts come first, and what hardly counts beside them is
-/// left out.
+/// over. If two are equally far away, the one that bears less counts for more, but hairs for less: where they
+/// grow out of a body, they go with it rather than let it be smooth. What hardly counts beside parts before
+/// it is left out.
 Parts::Near Parts::near(const Slice& slice, double x, double y) {
     constexpr double least = 1e-3;  // of the greatest share so far
     const double core = slice.blend * slice.blend;
     const auto share_at = [core](const Part& part, double squared) {
         const double nearness = core / (core + squared);
-        return part.share * nearness * nearness;
+        return part.share * part.priority * nearness * nearness;
     };
     double greatest = 0;
     Near sum;

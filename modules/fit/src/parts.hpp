@@ -10,6 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace goffer::fit {
@@ -64,7 +66,9 @@ private:
         double moved;                        // by how much of the depth of a wrinkle its center moves
         double share;                        // how much it counts beside others as near
         std::vector<OutlinePoints> outline;  // all along it
+        double distance = std::numeric_limits<double>::infinity();  // of the outline from thicker parts
         double weight = 1;
+        double priority = 1;  // of its weight before those of others
     };
 
     struct Slice {
@@ -78,6 +82,8 @@ private:
         double weight = 0, all = 0;
     };
 
+    static void measure_distances(Slice& slice);
+    [[nodiscard]] static double distance(std::span<const Part> parts, double x, double y);
     [[nodiscard]] static Near near(const Slice& slice, double x, double y);
 
     std::vector<Slice> slices_;
