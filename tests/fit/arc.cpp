@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "refined.hpp"
 #include "support/angles.hpp"
 #include "support/rounds.hpp"
 #include "support/worst.hpp"
 #include "synthetic.hpp"
 
+#include <goffer/fit/bind.hpp>
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/refine.hpp>
 #include <goffer/paper/closed_form.hpp>
@@ -234,6 +236,33 @@ TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     CHECK(std::abs(fitted.length - fitted.rest_angle * fitted.radius - (14 - 1.2)) < 5e-4);
 }
 
+TEST_CASE("arcs: a disc is none about its rim, nor is a ring, nor a trunk with a branch") {
+    std::mt19937 random(65);
+    const auto ball =
+        test::warped(test::cylinder({.columns = 32, .rows = 48, .length = 2}, random), [](glm::dvec3 p) {
+            return glm::dvec3(std::sqrt(std::max(p.z * (2 - p.z), 0.0)) * glm::dvec2(p), p.z);
+        });
+    for (const double thin : {0.1, 0.2, 0.3}) {
+        const Solid disc =
+            test::warped(ball, [&](glm::dvec3 p) { return glm::dvec3(p.x, thin * p.y, 1.3 * p.z); });
+        CHECK(fit_to(disc, glm::dvec3(0, 0, 1)).rest_angle == 0);
+    }
+    const paper::ClosedForm about({.length = 60, .radius = 1}, {2 * std::numbers::pi - 1e-6, 0});
+    const Solid ring = test::warped(test::cylinder({.rows = 200, .length = 60, .closed = false}, random),
+                                    [&](glm::dvec3 p) { return about.position(paper::to_cylindrical(p)); });
+    CHECK(fit_to(ring, glm::dvec3(0, 0, 1)).rest_angle == 0);
+    Solid tree = test::cylinder({.columns = 24, .rows = 60, .length = 20}, random);
+    const Solid branch = test::cylinder({.columns = 24, .rows = 30, .length = 9}, random);
+    for (const double side : {0.5, 0.9}) {
+        Solid both = tree;
+        const auto before = static_cast<std::uint32_t>(both.positions.size());
+        for (const glm::vec3& p : branch.positions)
+            both.positions.emplace_back(0.5 * p.x + side * p.z, 0.5 * p.y, 10 + p.z);
+        for (const std::uint32_t i : branch.triangles) both.triangles.push_back(before + i);
+        CHECK(fit::fit_cylinder(both.geometry(), std::nullopt, fit::RestPose::chain).arcs.empty());
+    }
+}
+
 TEST_CASE("arcs: a given axis is the way from base to tip, and turns the body round") {
     std::mt19937 random(65);
     const Recipe recipe{.columns = 32, .rows = 60, .length = 12};
@@ -325,6 +354,25 @@ TEST_CASE("arcs: rows that refining adds lie evenly along the arc, however large
             CHECK(fit::folds_capacity(fine.geometry(), base) == 6);
         }
     }
+}
+
+TEST_CASE("arcs: what lies across the gap between the ends is not refined, and stays closed") {
+    std::mt19937 random(66);
+    const paper::Pose rest{5, 0.4};
+    const paper::ClosedForm map({.length = 30, .radius = 1}, rest);
+    Solid solid = test::warped(test::cylinder({.columns = 16, .rows = 40, .length = 30}, random),
+                               [&](glm::dvec3 p) { return map.position(paper::to_cylindrical(p)); });
+    Cylinder base = fit_to(solid);
+    REQUIRE(base.rest_angle > 4.9);
+    // A membrane between both ends, and one between an end and the middle.
+    const auto last = static_cast<std::uint32_t>(16 * 40);
+    for (const std::uint32_t to : {last, last - 1, last / 2})
+        solid.triangles.insert(solid.triangles.end(), {0, to, to + 1, 0, to + 1, 1});
+    const fit::Refinement refined = fit::refine(solid.geometry(), base, 60);
+    const Solid after = test::applied(solid, refined);
+    CHECK(test::border(after) == doctest::Approx(test::border(solid)).epsilon(1e-6));
+    CHECK(after.triangles.size() > 10 * solid.triangles.size());
+    CHECK_NOTHROW((void)fit::bind(after.geometry(), base));
 }
 
 TEST_CASE("arcs: the time a fit takes") {

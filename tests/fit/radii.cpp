@@ -152,6 +152,18 @@ TEST_CASE("radii: a body that is too thick for its own arc keeps one radius") {
     }
 }
 
+TEST_CASE("radii: a knot in a stalk may be as narrow as radii are apart") {
+    std::mt19937 random(5);
+    const test::Solid solid = test::cylinder({.columns = 12, .rows = 800}, random);
+    fit::Cylinder base = test::upright();
+    base.radii.assign(124, 1);
+    base.radii[55] = 3;
+    base.radius = paper::Spline(base.length, base.radii).mean();
+    const fit::Binding binding = fit::bind(solid.geometry(), base);
+    const double most = 1 + 2 * 2.0 / 3;  // the spline's weight at its knot
+    CHECK(binding.body.region_inputs()[0].max_scale * base.radius > most);
+}
+
 TEST_CASE("folds: as long and as deep as the body is thick") {
     const Solid cone = tapered_tube(1.4, 0.5, 800);
     const fit::Binding binding = fit::bind(cone.geometry(), shaped(cone));

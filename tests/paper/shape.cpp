@@ -88,6 +88,10 @@ TEST_CASE("splines: straight lines are met, slope and integral are those of the 
         }
         CHECK(spline(0) == doctest::Approx(values.front()));
         CHECK(spline(3) == doctest::Approx(values.back()));
+        double largest = 0;
+        for (int i = 0; i <= 3000; ++i) largest = std::max(largest, spline(i * 1e-3));
+        CHECK(spline.largest() > largest - 1e-12);
+        CHECK(spline.largest() < largest + 1e-5);
     }
 }
 

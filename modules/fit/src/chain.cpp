@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "chain.hpp"
 
+#include "bent_tube.hpp"
 #include "center_line.hpp"
 #include "least_squares.hpp"
 #include "rest.hpp"
@@ -267,7 +268,8 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     const View view = view_about(cloud, chain);
     const double now = roughness(cloud, view);
     if (!(now < smooth * limits.radius && now < better * rough)) return std::nullopt;
-    return base_about(chain, body, cloud, view);
+    const std::optional<Cylinder> base = base_about(chain, body, cloud, view);
+    return base && is_bent_tube(body, *base) ? base : std::nullopt;
 }
 
 std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,

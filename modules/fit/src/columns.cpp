@@ -113,12 +113,14 @@ glm::vec3 ColumnCutter::half_way(Edge edge) const {
 }
 
 /// Whether to cut an edge, and if so how badly: what is off in its middle, or 0. One whose ends are next to
-/// each other in float is left as it is.
+/// each other in float is left as it is, and so is one across the gap between the ends of a bent body.
 double ColumnCutter::need(Edge edge) const {
     const double its = off(edge);
     if (!(its > most_off)) return 0;
     const glm::vec3 half = half_way(edge);
-    return half == positions_[edge.a] || half == positions_[edge.b] ? 0 : its;
+    if (half == positions_[edge.a] || half == positions_[edge.b]) return 0;
+    const double z = straightening_.height(half), slack = 5e-4 * radius_.length();
+    return z < -slack || z > radius_.length() + slack ? 0 : its;
 }
 
 /// The vertex in the middle of an edge.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arc.hpp"
+#include "bent_tube.hpp"
 #include "chain.hpp"
 #include "rest.hpp"
 #include "sections.hpp"
@@ -248,6 +249,7 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     const Line best = kept ? line : straighten(body, line);
     std::optional<Fitted> found;
     if (rest != RestPose::straight) found = arc_instead(body, principal, best, axis);
+    if (found && !is_bent_tube(body, cylinder_of(body, *found))) found.reset();
     if (!found) found = measured(body, axis ? line : best);
     const std::optional<Cylinder> chain = chain_instead(found->line);
     Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));

@@ -57,7 +57,8 @@ public:
 
 private:
     [[nodiscard]] double pieces(Edge edge) const {
-        return std::max(1.0, std::ceil(std::abs(rows_[edge.a] - rows_[edge.b]) / longest_edge));
+        const double count = std::ceil(std::abs(rows_[edge.a] - rows_[edge.b]) / longest_edge);
+        return count > 1 && leads_along(edge) ? count : 1;
     }
 
     [[nodiscard]] std::array<Edge, 3> edges(std::size_t triangle) const {
@@ -71,6 +72,7 @@ private:
     [[nodiscard]] Upright upright(std::size_t triangle) const;
     void append_inner(std::vector<std::uint32_t>& chain, Edge upward);
     std::uint32_t first_between(Edge edge, std::uint32_t count);
+    [[nodiscard]] bool leads_along(Edge edge) const;
     [[nodiscard]] double place(Edge edge, double height) const;
     [[nodiscard]] bool left_next(std::size_t i, std::size_t j) const;
 
@@ -133,6 +135,15 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     return entry->second;
 }
 
+/// Whether an edge lies between the heights of its ends. One that leads from one end of a bent body to the
+/// other across the gap between them does not, and is not cut: its middle is of no height of the body.
+bool Refiner::leads_along(Edge edge) const {
+    if (arc_ == nullptr) return true;
+    const auto [low, high] = std::minmax(heights_[edge.a], heights_[edge.b]);
+    const double middle = arc_->height((points_[edge.a] + points_[edge.b]) / 2.0);
+    return low <= middle && middle <= high;
+}
+
 /// Where an edge, from a up to b, reaches a height, as a share of the edge. About an arc's center a straight
 /// edge turns one way, but not evenly: solved by false position (the Illinois variant), which keeps a
 /// bracket.
@@ -186,19 +197,24 @@ bool Refiner::left_next(std::size_t i, std::size_t j) const {
 /// of the other side that is within a row of both its ends.
 void Refiner::cut(std::size_t triangle) {
     const Upright corners = upright(triangle);
-    if (pieces({corners.low, corners.high}) == 1) {
-        const std::uint32_t* c = &triangles_[3 * triangle];
-        out_.triangles.insert(out_.triangles.end(), c, c + 3);
-        out_.parents.push_back(static_cast<std::uint32_t>(triangle));
-        return;
-    }
     left_.clear();
     right_.clear();
     append_inner(left_, {corners.low, corners.high});
     append_inner(right_, {corners.low, corners.middle});
     right_.push_back(corners.middle);
     append_inner(right_, {corners.middle, corners.high});
-
+    if (left_.empty() && right_.size() == 1) {
+        const std::uint32_t* c = &triangles_[3 * triangle];
+        out_.triangles.insert(out_.triangles.end(), c, c + 3);
+        out_.parents.push_back(static_cast<std::uint32_t>(triangle));
+        return;
+    }
+    if (left_.empty()) {  // a fan: only the edge on the left crosses a gap
+        for (std::size_t j = 0; j + 1 < right_.size(); ++j)
+            emit(triangle, corners, {corners.low, right_[j], right_[j + 1]});
+        emit(triangle, corners, {corners.low, right_.back(), corners.high});
+        return;
+    }
     emit(triangle, corners, {corners.low, right_[0], left_[0]});
     for (std::size_t i = 0, j = 0; i + j + 2 < left_.size() + right_.size();) {
         const bool left = left_next(i, j);

@@ -114,6 +114,27 @@ double Spline::integral(double z) const {
     return sums_[first] + step_ * blended(values_, first, integrals(t));
 }
 
+double Spline::largest() const {
+    double largest = 0;
+    for (std::size_t i = 0; i + 3 < values_.size(); ++i) {
+        const double z = step_ * static_cast<double>(i);
+        const auto take = [&](double t) {
+            if (t >= 0 && t <= 1) largest = std::max(largest, (*this)(z + t * step_));
+        };
+        take(0);
+        take(1);
+        // Where the slope, a t^2 + 2 b t + c, is 0.
+        const double a = (values_[i + 3] - values_[i]) / 2 - 1.5 * (values_[i + 2] - values_[i + 1]);
+        const double b = (values_[i] - 2 * values_[i + 1] + values_[i + 2]) / 2;
+        const double c = (values_[i + 2] - values_[i]) / 2, square = b * b - a * c;
+        if (square < 0) continue;
+        const double q = -(b + std::copysign(std::sqrt(square), b));
+        if (a != 0) take(q / a);
+        if (q != 0) take(c / q);
+    }
+    return largest;
+}
+
 Shape::Shape(double length, double radius, const Knots& knots)
     : knots_(knots),
       radius_(length, checked_range(values_or(knots.radius, radius), tiny, huge, "radius")),
@@ -123,13 +144,11 @@ Shape::Shape(double length, double radius, const Knots& knots)
       weight_(length, checked_range(values_or(knots.weight, 1), 0, 4, "weight")),
       round_(knots.radius.empty()),
       mean_(round_ ? radius : radius_.mean()),
-      max_scale_(0) {
+      max_scale_(round_ ? 1 : radius_.largest() / mean_) {
     const double step = length / fold_steps;
     folds_.push_back(0);
-    for (int i = 0; i < fold_steps; ++i) {
+    for (int i = 0; i < fold_steps; ++i)
         folds_.push_back(folds_.back() + folds_between(step * i, step * (i + 1)));
-        max_scale_ = std::max({max_scale_, scale(step * i), scale(step * (i + 1))});
-    }
 }
 
 double Shape::drift(double z) const {

@@ -75,18 +75,19 @@ public:
 /// The direction from base to tip is that of the arc's chord, which is found; an `axis` that is given decides
 /// which end is the base. An arc is taken if its sections are circles about it within 0.3 of the radius, or
 /// 0.2 beyond a half turn, and within 0.8 of what they are about the best straight line (rms of rho within
-/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; and if a given
-/// `axis` is within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and
-/// rest_angle is exactly 0.
+/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; if the body is as
+/// large as a tube that was bent along it, within 3.5 % of its area, and no faces lead across the gap between
+/// its ends; and if a given `axis` is within about 45 degrees of its chord. Otherwise the result is that of
+/// RestPose::straight, and rest_angle is exactly 0.
 ///
 /// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
 /// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
 /// than half a turn), and its body as many regions: if its sections lie all around the chain, and are circles
 /// about it within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the
-/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; and if a
-/// given `axis` is within about 45 degrees of its chord, which is signed as the long axis is otherwise. A
-/// mesh without a long axis may get one, too. How many arcs follow a body best may change with a small change
-/// of its mesh.
+/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; if its
+/// area and its faces are as those about an arc; and if a given `axis` is within about 45 degrees of its
+/// chord, which is signed as the long axis is otherwise. A mesh without a long axis may get one, too. How
+/// many arcs follow a body best may change with a small change of its mesh.
 ///
 /// `arcs`, 2..bend::max_regions, says how many with RestPose::chain: the result is then a chain of so many,
 /// whatever else would be better. Where fewer follow the body, the longest ones are halved. 0: as above.

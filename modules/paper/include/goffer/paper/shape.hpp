@@ -28,6 +28,9 @@ public:
     /// Returns the mean over the length.
     [[nodiscard]] double mean() const { return sums_.back() / length_; }
 
+    /// Returns the largest value, or 0 where all are less.
+    [[nodiscard]] double largest() const;
+
     [[nodiscard]] double length() const { return length_; }
 
 private:
@@ -58,7 +61,7 @@ public:
     /// Returns the mean of r(z), which is the radius of the region's base cylinder.
     [[nodiscard]] double radius() const { return mean_; }
 
-    /// Returns the largest r(z) / radius(), to within a thousandth.
+    /// Returns the largest r(z) / radius().
     [[nodiscard]] double max_scale() const { return max_scale_; }
 
     /// Returns how many folds there are from end to end if they are as long as fold_length says, in model
