@@ -247,6 +247,28 @@ TEST_CASE("refined: PLY keeps all elements and properties, names from the nearer
         CHECK(bytes.colors[i].b == std::round(alone.colors[i].b * 255) / 255);
 }
 
+TEST_CASE("refined: PLY elements with a row for each face are left out, since the faces are others") {
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element texture_face 4\nproperty uchar tx\nproperty list uchar int corners\n"
+        "element face 4\nproperty list uchar int vertex_indices\nelement mark 1\nproperty int a\n"
+        "element more 4\nproperty int b\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n0 0 16\n1 3 0 1 2\n1 3 0 1 2\n1 3 0 1 2\n1 3 0 1 2\n"
+        "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n77\n1\n2\n3\n4\n";
+    const Mesh mesh = load_text("t.ply", text);
+    const Mesh out = refined_along(mesh, 2);
+    REQUIRE(out.warnings.size() == 2);
+    CHECK(out.warnings[0].starts_with("element texture_face is left out: "));
+    CHECK(out.warnings[1].starts_with("element more is left out: "));
+    const std::string now = saved(out, "out.ply");
+    CHECK(now.find("property float z\nelement face 94\nproperty list uchar int vertex_indices\n"
+                   "element mark 1\nproperty int a\nend_header\n") != now.npos);
+    CHECK(now.ends_with("\n77\n"));
+    check_same(load_text("again.ply", now), out);
+    // They stay where nothing is cut.
+    CHECK(saved(mesh, "same.ply") == text);
+}
+
 TEST_CASE("refined: a binary PLY gets the numbers that its text gets, in every type and byte order") {
     const std::string text =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty double y\nproperty float z\n"

@@ -325,8 +325,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
     if (cylinder.radii.empty()) options.shape = fit::ShapeMode::cylinder;  // that was looked for already
     Progress progress("binding " + file.string());
     options.progress = progress.listener();
-    model.binding =
-        in_file(source, [&] { return fit::bind(geometry_of(model), cylinder, options); });
+    model.binding = in_file(source, [&] { return fit::bind(geometry_of(model), cylinder, options); });
     model.cylinder = model.binding.cylinder;
     return model;
 }

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace goffer::mesh {
 namespace {
@@ -25,6 +27,16 @@ bool has_room(const Header& header, std::size_t vertices) {
            (!narrow || vertices <= (index == Type::u16   ? 65536u
                                     : index == Type::i16 ? 32768u
                                                          : 128u));
+}
+
+/// Elements with a row for each face, other than the faces: texture coordinates of some scanners.
+std::vector<const Element*> beside_faces(const Header& header) {
+    const Element *vertex = header.find("vertex"), *face = header.find("face");
+    std::vector<const Element*> found;
+    for (const Element& element : header.elements) {
+        if (&element != vertex && &element != face && element.count == face->count) found.push_back(&element);
+    }
+    return found;
 }
 
 void append_number(std::string& out, const Header& header, Type type, double number) {
@@ -62,7 +74,8 @@ void append_number(std::string& out, const Header& header, Type type, double num
 }
 
 /// Edits the file of a mesh: rows for the new vertices follow the others, and rows for the pieces take the
-/// place of their faces. All other rows stay as they are, to the byte.
+/// place of their faces. Elements with rows for each face, which would be those of other faces now, are left
+/// out. All other rows stay as they are, to the byte.
 class PlyRefiner {
 public:
     PlyRefiner(const Header& header, const Cut& cut, const Mesh& refined, const Share& share)
@@ -71,6 +84,7 @@ public:
           now_(refined),
           vertex_(header.find("vertex")),
           face_(header.find("face")),
+          left_out_(beside_faces(header)),
           share_(share.part(0, 1, refined.positions.size() + refined.faces.size())),
           row_begin_(header.bytes.data() + header.size) {
         find_pieces();
@@ -100,7 +114,7 @@ public:
 
     void end_row(const Cursor& cursor, const Element& element) {
         const char* const row_end = cursor.rest().data();
-        bool kept = true;
+        bool kept = !is_left_out(&element);
         if (&element == face_) kept = !end_face();
         if (kept) body_.append(row_begin_, row_end);
         row_begin_ = row_end;
@@ -194,14 +208,24 @@ private:
         return numbers;
     }
 
-    /// The header with the new counts.
+    [[nodiscard]] bool is_left_out(const Element* element) const {
+        return std::ranges::find(left_out_, element) != left_out_.end();
+    }
+
+    /// The header with the new counts, without what is left out.
     [[nodiscard]] std::string new_header() const {
         Editor out(header_.bytes.substr(0, header_.size));
         std::string_view rest = header_.bytes.substr(0, header_.size);
+        bool leaves_out = false;
         while (!rest.empty()) {
+            const std::string_view before = rest;
             std::string_view line = next_line(rest);
-            if (next_token(line) != "element") continue;
-            const std::string_view name = next_token(line), count = next_token(line);
+            const std::string_view word = next_token(line);
+            const bool begins = word == "element";
+            const std::string_view name = begins ? next_token(line) : word, count = next_token(line);
+            if (begins || word == "end_header") leaves_out = begins && is_left_out(header_.find(name));
+            if (leaves_out) out.replace(before.substr(0, before.size() - rest.size()), "");
+            if (!begins) continue;
             if (name == "vertex") out.replace(count, std::to_string(now_.positions.size()));
             if (name == "face") out.replace(count, std::to_string(face_->count + more_faces_));
         }
@@ -212,6 +236,7 @@ private:
     const Cut& cut_;
     const Mesh& now_;
     const Element *vertex_, *face_;
+    std::vector<const Element*> left_out_;
     Share share_;  ///< in vertices and faces of the refined mesh
     /// For each face, the first corner of its pieces in the refined mesh, or `whole`.
     std::vector<std::size_t> first_piece_;
@@ -237,6 +262,9 @@ std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone, const Share& 
     const std::string bytes = PlyRefiner(header, cut, alone, share.part(0.1, 0.6)).finish();
     Mesh out = read_ply({}, bytes, budget, share.part(0.6, 1));
     out.warnings = cut.mesh().warnings;
+    for (const Element* element : beside_faces(header))
+        out.warnings.push_back("element " + std::string(element->name) +
+                               " is left out: it has a row for each face, and the faces are others now");
     return out;
 }
 

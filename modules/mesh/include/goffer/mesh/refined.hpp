@@ -44,10 +44,11 @@ struct Subdivision {
 ///
 /// The file that the mesh came from is refined with it, so that save() gives back as much of it as of a mesh
 /// that was only bent: the text of an OBJ, the elements and properties of a PLY (whole numbers, which may be
-/// identifiers, from the nearer end), the header and attributes of an STL, the whole document of a glTF.
-/// There, vertex arrays become floats, but for joints; indices get 32 bits where 16 are too few; the largest
-/// weights are kept, with their sum; strips and fans become triangles; a mesh that several nodes show is
-/// cloned if it is cut in different ways. A PLY whose types cannot hold the result (integer coordinates,
+/// identifiers, from the nearer end; elements with a row for each face, as some scanners write for texture
+/// coordinates, are left out with a warning), the header and attributes of an STL, the whole document of a
+/// glTF. There, vertex arrays become floats, but for joints; indices get 32 bits where 16 are too few; the
+/// largest weights are kept, with their sum; strips and fans become triangles; a mesh that several nodes show
+/// is cloned if it is cut in different ways. A PLY whose types cannot hold the result (integer coordinates,
 /// narrow indices, lists in vertices) is not kept: save() writes it anew.
 ///
 /// Throws Error if `pieces` are not of this mesh (a number is out of range, a corner of a piece does not lie
