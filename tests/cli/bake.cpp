@@ -4,13 +4,17 @@
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/body_input.hpp>
+#include <goffer/bend/job.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <optional>
 #include <span>
+#include <vector>
 
 /// Body files: baked, looked at, and bent in the place of their models.
 
@@ -39,6 +43,35 @@ TEST_CASE("bake: a body file bends as its model does, to the same floats") {
         // The first ones are those of the model, and cutting a vertex in two moves none.
         const auto first = std::span(a.positions).first(b.positions.size());
         CHECK(std::ranges::equal(first, b.positions));
+    }
+}
+
+TEST_CASE("bake: a refined model without normals is shaded as it was, whatever the order of its vertices") {
+    const Folder folder;
+    const std::string rod = base(folder, "rod.ply", {"--columns", "12", "--rows", "6"});
+    mesh::Mesh plain = mesh::load(folder / rod);
+    plain.normals = {};
+    plain.source = nullptr;
+    for (const std::string name : {"rod.obj", "rod.stl", "rod.glb"}) {
+        CAPTURE(name);
+        mesh::save(plain, folder / name);
+        const json baked =
+            report(folder, {"bake", name, "-o", "rod.goffer", "--axis", "z", "--refine", "on"});
+        REQUIRE(baked["refined"]["triangles_after"] > 5 * baked["refined"]["triangles_before"].get<int>());
+        const std::optional<bend::BodyFile> file = bend::load_file((folder / "rod.goffer").string().c_str());
+        REQUIRE(file);
+        const bend::Body& body = file->levels[0].body;
+        std::vector<glm::vec3> at(body.vertex_count()), normals(at.size());
+        bend::DeformJob job{.body = &body};
+        job.positions = interleaved<3>(&at[0].x, at.size());
+        job.normals = interleaved<3>(&normals[0].x, at.size());
+        bend::run(job);
+        const auto [low, high] = std::ranges::minmax(at, {}, &glm::vec3::z);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            const double rho = std::hypot(at[i].x, at[i].y);
+            if (at[i].z < low.z + 0.01f || at[i].z > high.z - 0.01f) continue;
+            CHECK((normals[i].x * at[i].x + normals[i].y * at[i].y) / rho > std::cos(0.1));
+        }
     }
 }
 

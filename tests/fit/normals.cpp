@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "refined.hpp"
 #include "synthetic.hpp"
 
 #include <goffer/fit/normals.hpp>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 using namespace goffer;
 using test::near;
@@ -54,6 +56,59 @@ TEST_CASE("normals of a cylinder's skin are its radii, of unit length at any sca
             REQUIRE(near(normals[i], {p.x, p.y, 0}, 1e-5));
             REQUIRE(std::abs(glm::length(glm::dvec3(normals[i])) - 1) < 1e-7);
         }
+    }
+}
+
+TEST_CASE("refined normals shade a tube of few sides as it was shaded, and leave its rims sharp") {
+    std::mt19937 random(23);
+    for (const int sides : {7, 12, 40}) {
+        const Solid solid = test::cylinder({.columns = sides, .rows = 3, .dense = 2}, random);
+        const fit::Refinement refinement = fit::refine(solid.geometry(), test::upright(), 12);
+        const Solid after = test::applied(solid, refinement);
+        const std::vector<glm::vec3> normals =
+            fit::make_refined_normals(solid.positions, solid.triangles, refinement);
+        REQUIRE(normals.size() == after.positions.size());
+        REQUIRE(after.positions.size() > 5 * solid.positions.size());
+        double worst = 1, flat = 1;
+        const std::vector<glm::vec3> of_pieces = normals_of(after);
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const glm::dvec3 p = after.positions[i], n = normals[i];
+            REQUIRE(std::abs(glm::length(n) - 1) < 1e-6);
+            const double rho = glm::length(glm::dvec2(p));
+            if (p.z > 0.01 && p.z < 9.99) {
+                worst = std::min(worst, glm::dot(n, glm::dvec3(glm::dvec2(p) / rho, 0)));
+                flat = std::min(flat, glm::dot(glm::dvec3(of_pieces[i]), glm::dvec3(glm::dvec2(p) / rho, 0)));
+            } else if (rho < 0.5) {
+                CHECK(near(n, {0, 0, p.z < 5 ? -1 : 1}));
+            }
+        }
+        const double half = std::numbers::pi / sides;  // of what a side spans
+        CHECK(std::acos(worst) < 0.35 * half);         // as far as a chord is from its arc
+        CHECK(std::acos(flat) > 0.6 * half);
+    }
+}
+
+TEST_CASE("refined normals: vertices at one place agree, and hostile numbers give unit normals") {
+    std::mt19937 random(24);
+    const Solid closed = test::cylinder({.columns = 9, .rows = 2}, random);
+    Solid soup;
+    for (const std::uint32_t i : closed.triangles) {
+        soup.triangles.push_back(static_cast<std::uint32_t>(soup.positions.size()));
+        soup.positions.push_back(closed.positions[i]);
+    }
+    const fit::Refinement one = fit::refine(closed.geometry(), test::upright(), 12);
+    const fit::Refinement loose = fit::refine(soup.geometry(), test::upright(), 12);
+    const auto of_closed = fit::make_refined_normals(closed.positions, closed.triangles, one);
+    const auto of_soup = fit::make_refined_normals(soup.positions, soup.triangles, loose);
+    REQUIRE(one.triangles.size() == loose.triangles.size());
+    for (std::size_t c = 0; c < one.triangles.size(); ++c)
+        REQUIRE(near(of_closed[one.triangles[c]], glm::dvec3(of_soup[loose.triangles[c]]), 1e-5));
+    for (const float size : {0.0f, 1e-45f, 1e-38f, 1e30f, 3e38f}) {
+        Solid odd = closed;
+        for (glm::vec3& p : odd.positions)
+            if (random() % 3 == 0) p *= size;
+        for (const glm::vec3& n : fit::make_refined_normals(odd.positions, odd.triangles, one))
+            REQUIRE(std::abs(glm::length(glm::dvec3(n)) - 1) < 1e-6);
     }
 }
 

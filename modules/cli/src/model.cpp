@@ -317,6 +317,10 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
         });
         if (model.growth->triangles_after != model.growth->triangles_before) {
             take_arrays(model, request);
+            if (!model.growth->normals.empty()) {
+                for (const std::uint32_t vertex : model.rest.vertex)
+                    model.rest.normals.push_back(model.growth->normals[vertex]);
+            }
         } else if (automatic) {
             model.growth.reset();
         }

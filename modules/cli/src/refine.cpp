@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,6 +81,16 @@ std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const f
     }
 }
 
+/// Values of the vertices in the order of a refined mesh, which is not everywhere that of the refinement.
+std::vector<glm::vec3> in_order_of(const mesh::Mesh& mesh, std::span<const std::uint32_t> pieces,
+                                   std::span<const glm::vec3> values) {
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    assert(triangles.size() == pieces.size());
+    std::vector<glm::vec3> sorted(mesh.positions.size(), glm::vec3(0));
+    for (std::size_t c = 0; c < pieces.size(); ++c) sorted[triangles[c]] = values[pieces[c]];
+    return sorted;
+}
+
 }  // namespace
 
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
@@ -104,7 +115,10 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     std::vector<mesh::EdgeVertex> vertices;
     vertices.reserve(made.vertices.size());
     for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
+    std::vector<glm::vec3> normals;
+    if (mesh.normals.empty()) normals = fit::make_refined_normals(mesh.positions, triangles, made);
     mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents}, limits, stretch_of(cuts_found, 1));
+    if (!normals.empty()) growth.normals = in_order_of(mesh, made.triangles, normals);
     growth.vertices_after = mesh.positions.size();
     growth.triangles_after = mesh::triangle_count(mesh);
     return growth;

@@ -8,10 +8,12 @@
 #include <goffer/fit/refine.hpp>
 #include <goffer/mesh/mesh.hpp>
 
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 /// A model with the vertices that its folds need: `goffer refine`, and `--refine` of other commands.
 
@@ -22,6 +24,7 @@ struct Growth {
     int folds = 0;  ///< that it was refined for, as their profile counts them, in all regions together
     std::size_t vertices_before = 0, vertices_after = 0;
     std::size_t triangles_before = 0, triangles_after = 0;
+    std::vector<glm::vec3> normals = {};  ///< of its vertices, where it grew and has none of its own
 };
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that

@@ -119,4 +119,13 @@ struct RefineOptions {
 [[nodiscard]] std::vector<glm::vec3> refined_positions(std::span<const glm::vec3> positions,
                                                        const Refinement& refinement);
 
+/// Makes the normals of a refined mesh, one per vertex, that shade it as the mesh was shaded before:
+/// interpolated over each triangle from its corners, with edges of more than 65 degrees kept sharp. Normals
+/// made of the pieces alone would show the flat triangles that they come from. `refinement` must be of the
+/// mesh with these positions and triangles; the order is that of refined_positions(). Vertices at one place
+/// agree, and one without a direction gets (0, 0, 1), as with make_normals(). Thread-safe.
+[[nodiscard]] std::vector<glm::vec3> make_refined_normals(std::span<const glm::vec3> positions,
+                                                          std::span<const std::uint32_t> triangles,
+                                                          const Refinement& refinement);
+
 }  // namespace goffer::fit
