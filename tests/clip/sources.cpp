@@ -59,7 +59,7 @@ Document placed_twice() {
 /// A skinned tetrahedron under a node that is elsewhere, which counts for nothing.
 Document skinned() {
     Document document = tetra_with_nodes(
-        R"([{"name": "a", "mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"name": "joint"}])");
+        R"([{"name": "a", "mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"name": "joint", "translation": [1, 2, 3], "scale": [2, 2, 2]}])");
     document.json["scenes"][0]["nodes"] = {0, 1};
     document.json["skins"] = Json::parse(R"([{"joints": [1]}])");
     const std::size_t joints =

@@ -327,15 +327,65 @@ TEST_CASE("gltf: materials have their names and base colors") {
     CHECK(mesh.parts[0].material == 1);
 }
 
-TEST_CASE("gltf: a skinned mesh stays where it is stored, a morphed one at rest, both with a warning") {
+TEST_CASE("gltf: a skinned mesh stands where its joints place it, a morphed one is at rest, with warnings") {
     Document document = tetra_with_nodes(R"([{"mesh": 0, "skin": 0, "translation": [100, 0, 0]}])");
     document.json["skins"] = Json::parse(R"([{"joints": [0]}])");
     primitive_of(document)["targets"] = Json::parse(R"([{"POSITION": 0}])");
     const Mesh mesh = load_document(document);
-    CHECK(mesh.positions[1] == glm::vec3(2, 0, 0));
+    CHECK(mesh.positions[1] == glm::vec3(102, 0, 0));
     REQUIRE(mesh.warnings.size() == 2);
-    CHECK(mesh.warnings[0].find("nodes[0] is skinned") != std::string::npos);
-    CHECK(mesh.warnings[1].find("morph") != std::string::npos);
+    CHECK(mesh.warnings[0].find("morph") != std::string::npos);
+    CHECK(mesh.warnings[1] ==
+          "nodes[0] is skinned: it is taken in the shape that the file has, without bones");
+}
+
+namespace {
+
+/// A skinned tetrahedron, whose node counts for nothing, and two joints, the second of which is the first
+/// one's child. Bound where both stand at the origin, and the mesh is 100 times smaller.
+Document bound(const std::string& second) {
+    Document document = tetra_with_nodes((R"([{"mesh": 0, "skin": 0, "translation": [9, 9, 9]},
+             {"children": [2], "scale": [100, 100, 100], "translation": [5, 0, 0]}, )" +
+                                          second + "]")
+                                             .c_str());
+    document.json["scenes"][0]["nodes"] = {0, 1};
+    const std::size_t inverse = document.accessor(
+        document.view(raw(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,      0, 0, 1,  //
+                                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.25f, 0, 0, 1})),
+        5126, "MAT4", 2);
+    document.json["skins"] = Json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", inverse}}});
+    return document;
+}
+
+}  // namespace
+
+TEST_CASE("gltf: joints that stand as they were bound place a mesh exactly, others by the first one") {
+    const Mesh still = load_document(bound(R"({"translation": [0.25, 0, 0]})"));
+    CHECK(still.positions[1] == glm::vec3(205, 0, 0));
+    REQUIRE(still.warnings.size() == 1);
+    CHECK(still.warnings[0].ends_with("without bones"));
+    const Mesh moved = load_document(bound(R"({"translation": [0.25, 0.1, 0]})"));
+    CHECK(moved.positions == still.positions);
+    REQUIRE(moved.warnings.size() == 1);
+    CHECK(moved.warnings[0].ends_with("without bones, where the first one places it"));
+    // What is written goes back to where the joints take it from.
+    Mesh shifted = moved;
+    for (glm::vec3& p : shifted.positions) p.x += 100;
+    const Document after = opened(saved(shifted, "out.glb"));
+    CHECK(load_document(after).positions == shifted.positions);
+    CHECK(after.json["nodes"][0] == bound("{}").json["nodes"][0]);
+    Document twice = bound("{}");
+    twice.json["nodes"].push_back(twice.json["nodes"][0]);
+    twice.json["scenes"][0]["nodes"].push_back(3);
+    CHECK(load_document(twice).warnings[0].starts_with("nodes[0] and 1 more are skinned: they are taken"));
+    Document far = bound(R"({"translation": [0.25, 1e308, 0]})");
+    CHECK(load_document(far).positions[1] == glm::vec3(2, 0, 0));  // beyond numbers: as stored
+    Document elsewhere = bound(R"({"translation": [0.25, 0, 0]})");
+    elsewhere.json["scenes"][0]["nodes"] = {0};  // joints of another scene count as not moved
+    CHECK(load_document(elsewhere).positions[1] == glm::vec3(2, 0, 0));
+    Document dangling = bound("{}");
+    dangling.json["nodes"][0]["skin"] = 5;
+    CHECK(load_error("d.glb", dangling.glb()).find("nodes[0].skin") != std::string::npos);
 }
 
 TEST_CASE("gltf: textures may be missing, which is warned of, and broken, which nobody sees") {

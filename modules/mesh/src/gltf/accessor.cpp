@@ -24,11 +24,10 @@ std::size_t size_of(std::uint64_t component) {
     }
 }
 
-std::size_t components_of(const std::string& type) {
-    if (type == "SCALAR") return 1;
-    if (type == "VEC2") return 2;
-    if (type == "VEC3") return 3;
-    return type == "VEC4" ? 4 : 0;
+/// The type of an accessor whose elements have so many components, of those that are read here.
+std::string type_of(std::size_t components) {
+    if (components == 1) return "SCALAR";
+    return components == 16 ? "MAT4" : "VEC" + std::to_string(components);
 }
 
 template <class T>
@@ -138,12 +137,8 @@ template <class T>
 std::vector<T> read(const Document& document, const Value& index, std::size_t components,
                     bool unsigned_only) {
     const Value accessor = document.entry("accessors", index);
-    const std::string& type = accessor["type"].text();
-    if (components_of(type) != components) {
-        accessor["type"].fail("is the wrong one here, expected " +
-                              (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)) +
-                              "; export the file again");
-    }
+    if (const std::string type = type_of(components); accessor["type"].text() != type)
+        accessor["type"].fail("is the wrong one here, expected " + type + "; export the file again");
     const std::uint64_t count = accessor["count"].whole();
     if (count == 0) accessor["count"].fail("is 0, expected 1 or more; export the file again");
     Run run;

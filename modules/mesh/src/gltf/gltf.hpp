@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -180,6 +181,7 @@ public:
     Placement() : Placement(glm::dmat4(1.0)) {}
     explicit Placement(const glm::dmat4& matrix);
 
+    [[nodiscard]] const glm::dmat4& matrix() const { return matrix_; }
     [[nodiscard]] bool mirrored() const { return mirrored_; }  ///< the winding of triangles changes
     [[nodiscard]] bool singular() const { return singular_; }  ///< there is no way back
 
@@ -237,6 +239,16 @@ struct PlacedNode {
 
 /// All nodes of the scene, parents before children, children in their order. Throws Error if it is no forest.
 [[nodiscard]] std::vector<PlacedNode> nodes_of_scene(const Document& document);
+
+/// Where its joints place a skinned mesh.
+struct SkinPlace {
+    glm::dmat4 matrix{1.0};  ///< from the mesh's space to the scene's: the first joint's
+    bool as_bound = true;    ///< all joints place it so: they stand as they did when it was bound
+};
+
+/// `worlds`: the matrices of the scene's nodes. A joint that is not in the scene counts as not moved.
+[[nodiscard]] SkinPlace place_of_skin(const Document& document, const Value& skin,
+                                      const std::map<std::size_t, glm::dmat4>& worlds);
 
 /// Reads the scene of a document. The writer relies on getting the same scene for the same document.
 /// Throws OverLimit; without a budget there is no limit, for documents that have been read before.

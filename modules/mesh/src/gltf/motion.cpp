@@ -10,9 +10,9 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-/// Without its skin a mesh would stand where its node does, rather than where it was bound. So it moves to a
-/// new node, which has no place of its own. Returns that node.
-std::size_t unskin(Json& json, std::size_t node) {
+/// Without its skin a mesh would stand where its node does, rather than where it was bound, at `place`. So it
+/// moves to a new node there. Returns that node.
+std::size_t unskin(Json& json, std::size_t node, const glm::dmat4& place) {
     const std::size_t mesh = claim_mesh(json, node);
     each(json["meshes"][mesh], "primitives", [](Json& primitive) {
         Json kept = Json::object();
@@ -24,6 +24,10 @@ std::size_t unskin(Json& json, std::size_t node) {
     Json& old = json["nodes"][node];
     if (old.contains("name")) moved["name"] = old["name"];
     if (old.contains("weights")) moved["weights"] = old["weights"];
+    if (place != glm::dmat4(1.0)) {
+        moved["matrix"] = Json::array();
+        for (int i = 0; i < 16; ++i) moved["matrix"].push_back(place[i / 4][i % 4]);
+    }
     for (const char* key : {"mesh", "skin", "weights"}) old.erase(key);
     json["nodes"].push_back(std::move(moved));
     const std::size_t number = json["nodes"].size() - 1;
@@ -82,7 +86,7 @@ std::vector<std::string> let_go_of_motion(Json& json, std::vector<Block>& blocks
         if (const auto known = moved.find(block.node); known != moved.end()) {
             block.node = known->second;
         } else if (json["nodes"][block.node].contains("skin")) {
-            const std::size_t node = unskin(json, block.node);
+            const std::size_t node = unskin(json, block.node, block.placement.matrix());
             moved.emplace(block.node, node);
             block.node = node;
         }

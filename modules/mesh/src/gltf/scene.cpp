@@ -31,7 +31,9 @@ private:
     void read_node(const PlacedNode& placed);
     void read_primitive(const PlacedNode& placed, const Value& primitive,
                         std::map<AccessorSet, std::size_t>& known);
-    [[nodiscard]] Block begin_block(const PlacedNode& placed) const;
+    [[nodiscard]] Block begin_block(const PlacedNode& placed);
+    [[nodiscard]] const SkinPlace& skin_of(const Value& node);
+    void warn_of_skins();
     std::size_t read_block(const PlacedNode& placed, const Value& attributes, std::size_t uv_sets);
     void read_positions(Block& block, const Value& attributes);
     template <class T, class Place>
@@ -64,6 +66,9 @@ private:
     std::uint64_t done_ = 0;                             ///< of these, before the ones that are being read
     std::uint64_t unbacked_ = 0;                         ///< elements that have no bytes behind them
     std::map<std::size_t, std::uint64_t> entry_memory_;  ///< of entries of the document's meshes
+    std::map<std::size_t, glm::dmat4> worlds_;           ///< of the scene's nodes
+    std::map<std::size_t, SkinPlace> skins_;             ///< those in use
+    std::vector<std::pair<std::string, std::size_t>> skinned_;  ///< paths of nodes, and their skins
 };
 
 /// Nodes and primitives may repeat an accessor without end. To be called before it is read: its values are
@@ -103,14 +108,24 @@ std::vector<float> SceneReader::stream(const Value& attributes, const char* name
     return values;
 }
 
-Block SceneReader::begin_block(const PlacedNode& placed) const {
+Block SceneReader::begin_block(const PlacedNode& placed) {
     const Value node = document_.root()["nodes"][placed.node];
     Block block;
     block.node = placed.node;
     block.mesh = node["mesh"].whole();
-    if (!node.has("skin"))
-        block.placement = Placement(placed.world);  // a skin's joints place it, not its node
+    block.placement = Placement(node.has("skin") ? skin_of(node).matrix : placed.world);
     return block;
+}
+
+/// Where its joints place a skinned mesh, whatever its node. It keeps the shape that it was bound in.
+const SkinPlace& SceneReader::skin_of(const Value& node) {
+    const auto [place, is_new] = skins_.try_emplace(document_.number("skins", node["skin"]));
+    if (is_new) {
+        const Value skin = document_.entry("skins", node["skin"]);
+        if (skin.has("inverseBindMatrices")) spend(skin["inverseBindMatrices"], 16);
+        place->second = place_of_skin(document_, skin, worlds_);
+    }
+    return place->second;
 }
 
 /// Primitives have no name in glTF. This writer, and some others, give them one as extras.
@@ -149,7 +164,7 @@ void SceneReader::read_node(const PlacedNode& placed) {
     if (!node.has("mesh")) return;
     const Value mesh = document_.entry("meshes", node["mesh"]);
     take_entry(node["mesh"].whole());
-    if (node.has("skin")) warn(node.path() + " is skinned: it is taken in its rest shape, as stored");
+    if (node.has("skin")) skinned_.emplace_back(node.path(), document_.number("skins", node["skin"]));
     const Placement placement = begin_block(placed).placement;
     if (placement.singular()) {
         warn(node.path() +
@@ -351,11 +366,27 @@ Attribute<T> SceneReader::finish(Gathered<T>&& gathered) const {
     return attribute;
 }
 
+void SceneReader::warn_of_skins() {
+    for (const bool bound : {true, false}) {
+        std::vector<std::string> paths;
+        for (const auto& [path, skin] : skinned_)
+            if (skins_.at(skin).as_bound == bound) paths.push_back(path);
+        if (paths.empty()) continue;
+        const std::string which = paths.size() == 1 ? paths[0] + " is skinned: it is taken "
+                                                    : paths[0] + " and " + std::to_string(paths.size() - 1) +
+                                                          " more are skinned: they are taken ";
+        warn(which + "in the shape that the file has, without bones" +
+             (bound ? "" : ", where the first one places it"));
+    }
+}
+
 Scene SceneReader::read() && {
     mesh_.materials = materials_of(document_);
     const std::vector<PlacedNode> nodes = nodes_of_scene(document_);
     if (share_.is_heard()) share_ = share_.part(0, 1, work_of(document_, nodes));
+    for (const PlacedNode& placed : nodes) worlds_.emplace(placed.node, placed.world);
     for (const PlacedNode& placed : nodes) read_node(placed);
+    warn_of_skins();
     if (mesh_.positions.empty()) {
         throw Error("no node of the scene carries a mesh with vertices; put one into the default scene");
     }
