@@ -108,6 +108,26 @@ TEST_CASE("from rest: a straight body is bent as by --angle, to the byte") {
     CHECK(lines.find("straightens") == lines.npos);
 }
 
+TEST_CASE("from rest: a body that can be bent no further says so, whatever is asked for") {
+    const Folder folder;
+    base(folder, "base.ply", {"--length", "7", "--radius", "1"});
+    well(folder, {"bend", "base.ply", "--angle", "170", "--amplitude", "none", "-o", "bent.ply"});
+    mesh::Mesh mesh = mesh::load(folder / "bent.ply");
+    const float center = 7 / static_cast<float>(170 * radians_per_degree) - 1;
+    glm::vec3& inner = *std::ranges::min_element(
+        mesh.positions, {}, [&](const glm::vec3& p) { return glm::length(p - glm::vec3(center, 0, 0)); });
+    inner += 0.999f * (glm::vec3(center, 0, 0) - inner);
+    mesh::save(mesh, folder / "bent.ply");
+    for (const Words& words : {Words{"--by", "20"}, {"--angle", "max"}, {"--angle", "200"}}) {
+        const json all = report(
+            folder, Words{"bend", "bent.ply", "--axis", "x", "--refine", "off", "-o", "out.ply"} + words);
+        CAPTURE(all.dump());
+        CHECK(all["warnings"][0].get<std::string>().starts_with("bent at rest by 17"));
+        CHECK(all["max_angle"].get<double>() == doctest::Approx(all["fit"]["rest_angle"].get<double>()));
+        CHECK(farthest(mesh, mesh::load(folder / "out.ply")) < 0.01);
+    }
+}
+
 TEST_CASE("from rest: regions share it by their lengths") {
     const Bent bent;
     const json plain = bent.bend({"--by", "20", "--regions", "0.25,0.75"})["poses"];

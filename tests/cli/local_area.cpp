@@ -99,6 +99,21 @@ TEST_CASE("local area: without options, real models keep it several times better
     CHECK(over_paper[over_paper.size() / 2] < 0.25);
 }
 
+TEST_CASE("local area: where it changes much, one line says why, unless somebody said how to wrinkle") {
+    const Folder folder;
+    copy_of(folder, "blub_open.obj");
+    const auto said = [&](const Words& words) {
+        const json all = report(folder, Words{"bend", "blub_open.obj", "-o", "out.ply"} + words);
+        return std::ranges::any_of(all["warnings"], [](const json& warning) {
+            return warning.get<std::string>().starts_with(
+                "the body is not round all along, and its area changes");
+        });
+    };
+    CHECK(said({"--angle", "80"}));
+    CHECK_FALSE(said({"--angle", "80", "--amplitude", "none"}));
+    CHECK_FALSE(said({"--angle", "20"}));
+}
+
 TEST_CASE("local area: regions, whose vertices are in another order, are as one") {
     const Folder folder;
     base(folder);

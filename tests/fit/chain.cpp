@@ -243,7 +243,8 @@ TEST_CASE("chains: there are as many arcs as are asked for") {
     // Those of a body that few do not follow, or that has no room for so many.
     const auto said_of = [&](auto&& fit) { return test::error_of([&] { (void)fit(); }); };
     const Solid stout = test::cylinder({.length = 4}, random), bent = bent_along(cane, {.rows = 96}, random);
-    CHECK(says(said_of([&] { return with(stout, 9); }), "does not follow a chain of 9"));
+    CHECK(says(said_of([&] { return with(stout, 9); }),
+               "does not follow a chain of 9, nor of more; give none"));
     CHECK(says(said_of([&] { return with(bent, 3, {{1, -1, 0}}); }), "3 along that axis"));
     CHECK(says(said_of([&] { return with(straight, 1); }), "arcs: 1 is outside 2..32"));
     CHECK(says(said_of([&] { return with(straight, 33); }), "arcs: 33 is outside"));

@@ -22,6 +22,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -144,19 +145,36 @@ void warn_of_stretch(Report& report, double change) {
                     ": straightening stretches the inner side, which wrinkles cannot make up for");
 }
 
-/// Where nobody said how to wrinkle, area is kept; if it is not, this says so.
-void warn_of_area(Report& report, const Request& request, const BoundModel& model, double change) {
-    constexpr double most = 0.01;
+/// Whether nobody said how to wrinkle, so that area is to be kept.
+bool keeps_area(const Request& request, const BoundModel& model) {
     const BindRequest& bind = request.bind;
-    const bool chosen = model.baked || bind.words.folds || bind.words.amplitude != "mesh" ||
-                        bind.mask_channel || !bind.options.wrinkle_range.whole();
-    if (chosen || change >= -most) return;
+    return !model.baked && !bind.words.folds && bind.words.amplitude == "mesh" && !bind.mask_channel &&
+           bind.options.wrinkle_range.whole();
+}
+
+/// Returns whether the area is not kept, and says so.
+bool warn_of_area(Report& report, double change) {
+    constexpr double most = 0.01;
+    if (change >= -most) return false;
     report.warn("the area changes by " + percent(change) +
                 ", which the wrinkles do not make up for; cut the body into --regions, or name its folds "
                 "with --folds");
+    return true;
 }
 
-void report_bend(Report& report, const Request& request, const BoundModel& model,
+/// The area may be kept in all, and change here and there. Where the body is bent at rest, that may be why.
+void warn_of_patches(Report& report, const BoundModel& model, const fit::PatchChange& change) {
+    constexpr double most = 0.12;  // found by looking at models
+    const bool straight = model.cylinder.rest_angle == 0 && model.cylinder.arcs.empty();
+    if (straight && change.rms > most)
+        report.warn("the body is not round all along, and its area changes by " +
+                    number(std::round(100 * change.rms)) +
+                    " % here and there (rms): legs, fins and leaves are bent with what they grow from; --png "
+                    "with --show area colors where");
+}
+
+/// Returns whether something was said that area is not kept for.
+bool report_bend(Report& report, const Request& request, const BoundModel& model,
                  const std::vector<Target>& targets, const Deformed& bent, double area_before) {
     const fit::Binding& binding = model.binding;
     std::vector<double> used;
@@ -189,11 +207,9 @@ void report_bend(Report& report, const Request& request, const BoundModel& model
                             ", threads: " + std::to_string(request.threads) + ")");
     const bool few_folds = !model.baked && warn_of_folds(report, request.bind, model, used);
     const double change = area_after / area_before - 1;
-    if (straightened) {
-        warn_of_stretch(report, change);
-    } else if (!few_folds) {  // which would be why
-        warn_of_area(report, request, model, change);
-    }
+    if (straightened) warn_of_stretch(report, change);
+    if (straightened || few_folds || !keeps_area(request, model)) return true;
+    return warn_of_area(report, change);
 }
 
 void run_bend(const BendOptions& options) {
@@ -212,11 +228,13 @@ void run_bend(const BendOptions& options) {
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
     if (!model.baked) report_fit(report, model.cylinder);
-    if (!model.baked) report_suitability(report, model);
+    const bool suitable = model.baked || !report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
-    report_bend(report, request, model, targets, bent, area_before);
+    const bool explained = report_bend(report, request, model, targets, bent, area_before) || !suitable;
     if (along_path) report_path(report, laid, options.path);
-    in_file(options.model, [&] { report_local_area(report, model, poses, bent.records.positions); });
+    const fit::PatchChange change = in_file(
+        options.model, [&] { return report_local_area(report, model, poses, bent.records.positions); });
+    if (!explained) warn_of_patches(report, model, change);
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
     if (const std::filesystem::path& png = options.picture.file; !png.empty()) {

@@ -147,7 +147,7 @@ void report_bends(Report& report, const fit::Binding& binding) {
                     region_words(r, regions.size()) + number(degrees(regions[r].max_angle)) + " degrees");
     }
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        const std::string carried = "; the mesh carries " + std::to_string(binding.folds_capacity(r));
+        const std::string carried = "; the mesh carries " + capacity_words(binding.folds_capacity(r));
         report.line(
             r == 0 ? "folds" : "",
             region_words(r, regions.size()) +

@@ -57,8 +57,8 @@ LocalArea local_area(const BoundModel& model, std::span<const bend::Pose> poses,
     return local;
 }
 
-void report_local_area(Report& report, const BoundModel& model, std::span<const bend::Pose> poses,
-                       std::span<const glm::vec3> positions) {
+fit::PatchChange report_local_area(Report& report, const BoundModel& model, std::span<const bend::Pose> poses,
+                                   std::span<const glm::vec3> positions) {
     const auto [grid, bent, plain] = local_area(model, poses, positions);
     report.json["local_area_change"] = {{"slices", grid.slices},
                                         {"sides", grid.sides},
@@ -67,6 +67,7 @@ void report_local_area(Report& report, const BoundModel& model, std::span<const 
                                         {"without_wrinkles", numbers(plain, grid)}};
     report.line("local change", words(bent, grid) + " of " + std::to_string(bent.patches) + " patches");
     report.line("without wrinkles", words(plain, grid));
+    return bent;
 }
 
 std::vector<glm::vec4> area_colors(const BoundModel& model, std::span<const glm::vec3> positions) {

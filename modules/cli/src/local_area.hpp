@@ -34,9 +34,10 @@ struct LocalArea {
                                                     float wrinkle_weight = 1);
 
 /// Says how the areas of patches change, 12 slices along the body by 4 sides about it, and how they would
-/// without wrinkles. `positions` are those of the bent model, in the order of model.rest.
-void report_local_area(Report& report, const BoundModel& model, std::span<const bend::Pose> poses,
-                       std::span<const glm::vec3> positions);
+/// without wrinkles. `positions` are those of the bent model, in the order of model.rest. Returns the change,
+/// with wrinkles.
+fit::PatchChange report_local_area(Report& report, const BoundModel& model, std::span<const bend::Pose> poses,
+                                   std::span<const glm::vec3> positions);
 
 /// A color for every vertex, linear RGBA: blue where the area about it became smaller, white where it was
 /// kept, red where it became larger. Changes beyond a half look like a half.

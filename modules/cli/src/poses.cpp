@@ -136,10 +136,10 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
 /// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
 /// no straightening.
 bool straightens(const RestPose& rest, const Target& target) {
-    constexpr double clearly = 0.99, same_way = 0.7;  // cosine of 45 degrees
+    constexpr double clearly = 0.99, much = 0.5, same_way = 0.7;  // cosine of 45 degrees
     if (!(std::fabs(target.angle) < clearly * rest.angle)) return false;
     const double turn = std::cos(radians(target.direction - rest.direction));
-    return target.angle == 0 || std::copysign(1.0, target.angle) * turn > same_way;
+    return std::fabs(target.angle) < much * rest.angle || std::copysign(1.0, target.angle) * turn > same_way;
 }
 
 /// Returns whether a region gets straighter than it is at rest.
@@ -352,6 +352,10 @@ std::vector<double> right_angle_of(const bend::Body& body) {
     return angles;
 }
 
+std::string capacity_words(int folds) {
+    return folds >= fit::Stretch::max_folds ? "any number" : std::to_string(folds);
+}
+
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then) {
     report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " + number(limit) +
@@ -386,14 +390,22 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
         const std::string which = region_words(i, targets.size());
         report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
                                               number(targets[i].direction) + ", at most " + number(limit));
-        if (beyond && !all_the_way) warn_of_angle(report, which, asked, limit, "clamped to it");
+        if (beyond && rest.angle > 0 && limit <= rest.angle * (1 + 1e-6)) {
+            report.warn(
+                which + "bent at rest by " + number(rest.angle) +
+                " degrees, as far as it can be: its inner side lies at the center of the bend; --rest "
+                "straight takes it as it is");
+        } else if (beyond && !all_the_way) {
+            warn_of_angle(report, which, asked, limit, "clamped to it");
+        }
     }
     const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
     for (std::size_t i = 0; known && i < targets.size(); ++i) {
-        const int folds = binding.folds(i), capacity = binding.folds_capacity(i);
-        const std::string carried = folds > capacity
-                                        ? "; the mesh carries " + std::to_string(capacity)
-                                        : " of " + std::to_string(capacity) + " that the mesh carries";
+        const int folds = binding.folds(i);
+        const std::string capacity = capacity_words(binding.folds_capacity(i));
+        const std::string carried = folds > binding.folds_capacity(i)
+                                        ? "; the mesh carries " + capacity
+                                        : " of " + capacity + " that the mesh carries";
         report.line(i == 0 ? "folds" : "", region_words(i, targets.size()) + std::to_string(folds) + carried);
     }
     report.json["max_angle"] = regions[0]["max_angle"];
@@ -406,8 +418,7 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     constexpr double full_turn = 360.001;  // with some room for rounding
     const bool beyond = std::hypot(all.x, all.y) > full_turn;
     report.json["beyond_full_turn"] = beyond;
-    if (beyond)
-        report.line("note", "this is more than a full turn: parts of the body may go through each other");
+    if (beyond) report.warn("this is more than a full turn: parts of the body may go through each other");
     return report_rest_pose(report, request, targets, body);
 }
 

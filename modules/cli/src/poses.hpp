@@ -108,6 +108,9 @@ struct Target {
 /// What each region of a body has of a right angle, radians, or its largest angle if that is less.
 [[nodiscard]] std::vector<double> right_angle_of(const bend::Body& body);
 
+/// How many folds a mesh carries.
+[[nodiscard]] std::string capacity_words(int folds);
+
 /// Warns that an angle is beyond the largest, both in degrees. `which` begins the line; `then` ends it: what
 /// is done.
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,

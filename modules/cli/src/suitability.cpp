@@ -69,7 +69,7 @@ std::string warning(const fit::Suitability& found, double residual) {
 
 }  // namespace
 
-void report_suitability(Report& report, const BoundModel& model) {
+bool report_suitability(Report& report, const BoundModel& model) {
     const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
     const fit::Suitability found = fit::suitability_of(geometry, model.cylinder);
     report.json["suitability"] = {{"shells", found.shells},
@@ -86,6 +86,7 @@ void report_suitability(Report& report, const BoundModel& model) {
                     (stray == 1 ? "it" : "them") +
                     " at its ends; take out loose points and lines, or give them faces");
     if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
+    return !why.empty();
 }
 
 }  // namespace goffer::cli

@@ -216,9 +216,14 @@ void check_count(std::size_t arcs, RestPose rest) {
 
 Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {
     const std::optional<Cylinder> chain = fit_chain_of(body, arcs, axis);
-    if (!chain)
+    if (!chain) {
+        std::size_t more = arcs + 1;
+        while (more <= bend::max_regions && !fit_chain_of(body, more, axis)) ++more;
         throw Error("arcs: the body does not follow a chain of " + std::to_string(arcs) +
-                    (axis ? " along that axis" : "") + "; give another number, or none");
+                    (axis ? " along that axis" : "") +
+                    (more <= bend::max_regions ? ", but of " + std::to_string(more) + "; give that, or none"
+                                               : ", nor of more; give none"));
+    }
     check_size(*chain, body);
     return *chain;
 }
