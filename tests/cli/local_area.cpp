@@ -93,7 +93,7 @@ TEST_CASE("local area: without options, real models keep it several times better
             return all["local_area_change"]["bent"]["rms"].get<double>();
         };
         over_paper.push_back(rms({}) / rms({"--paper", "--refine", "on"}));
-        CHECK(over_paper.back() < 0.9);
+        CHECK(over_paper.back() < (name == "blub_open.obj" ? 0.9 : 0.8));  // which has fins
     }
     std::ranges::sort(over_paper);
     CHECK(over_paper[over_paper.size() / 2] < 0.25);
@@ -105,13 +105,13 @@ TEST_CASE("local area: where it changes much, one line says why, unless somebody
     const auto said = [&](const Words& words) {
         const json all = report(folder, Words{"bend", "blub_open.obj", "-o", "out.ply"} + words);
         return std::ranges::any_of(all["warnings"], [](const json& warning) {
-            return warning.get<std::string>().starts_with(
-                "the body is not round all along, and its area changes");
+            return warning.get<std::string>().starts_with("the area is kept in all, but changes by");
         });
     };
     CHECK(said({"--angle", "80"}));
     CHECK_FALSE(said({"--angle", "80", "--amplitude", "none"}));
     CHECK_FALSE(said({"--angle", "20"}));
+    CHECK_FALSE(said({"--angle", "80", "--profile", "damped"}));
 }
 
 TEST_CASE("local area: regions, whose vertices are in another order, are as one") {

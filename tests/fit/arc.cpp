@@ -236,6 +236,18 @@ TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     CHECK(std::abs(fitted.length - fitted.rest_angle * fitted.radius - (14 - 1.2)) < 5e-4);
 }
 
+TEST_CASE("arcs: a tube of few rows is bent as well") {
+    std::mt19937 random(67);
+    for (const auto& [angle, rows] : {std::pair{180.0, 3}, {180.0, 4}, {180.0, 6}, {90.0, 2}}) {
+        const double length = 5 * angle * degree;  // of the outer line: four radii from the center
+        const Recipe recipe{.columns = 12, .rows = rows, .length = length, .closed = false};
+        const Solid solid = bent_cylinder(recipe, {angle * degree, 0.3}, random);
+        CAPTURE(angle);
+        CAPTURE(rows);
+        CHECK(std::abs(fit_to(solid).rest_angle - angle * degree) < 0.1);
+    }
+}
+
 TEST_CASE("arcs: a disc is none about its rim, nor is a ring, nor a trunk with a branch") {
     std::mt19937 random(65);
     const auto ball =
@@ -368,10 +380,15 @@ TEST_CASE("arcs: what lies across the gap between the ends is not refined, and s
     const auto last = static_cast<std::uint32_t>(16 * 40);
     for (const std::uint32_t to : {last, last - 1, last / 2})
         solid.triangles.insert(solid.triangles.end(), {0, to, to + 1, 0, to + 1, 1});
+    solid.triangles.insert(solid.triangles.end(), {0, last / 2, last, last / 4, 0, last});
     const fit::Refinement refined = fit::refine(solid.geometry(), base, 60);
     const Solid after = test::applied(solid, refined);
     CHECK(test::border(after) == doctest::Approx(test::border(solid)).epsilon(1e-6));
     CHECK(after.triangles.size() > 10 * solid.triangles.size());
+    double least = 1;
+    for (std::size_t t = 0; t < after.triangles.size() / 3; ++t)
+        least = std::min(least, test::quality(after, t));
+    CHECK(least > 1e-5);
     CHECK_NOTHROW((void)fit::bind(after.geometry(), base));
 }
 

@@ -378,11 +378,17 @@ TEST_CASE("gltf: joints that stand as they were bound place a mesh exactly, othe
     twice.json["nodes"].push_back(twice.json["nodes"][0]);
     twice.json["scenes"][0]["nodes"].push_back(3);
     CHECK(load_document(twice).warnings[0].starts_with("nodes[0] and 1 more are skinned: they are taken"));
-    Document far = bound(R"({"translation": [0.25, 1e308, 0]})");
-    CHECK(load_document(far).positions[1] == glm::vec3(2, 0, 0));  // beyond numbers: as stored
+    const Mesh far = load_document(bound(R"({"translation": [0.25, 1e308, 0]})"));  // beyond numbers
+    CHECK(far.positions == still.positions);
+    CHECK(far.warnings[0].ends_with("where the first one places it"));
     Document elsewhere = bound(R"({"translation": [0.25, 0, 0]})");
-    elsewhere.json["scenes"][0]["nodes"] = {0};  // joints of another scene count as not moved
+    elsewhere.json["scenes"][0]["nodes"] = {0};  // joints of another scene count for nothing
     CHECK(load_document(elsewhere).positions[1] == glm::vec3(2, 0, 0));
+    elsewhere.json["scenes"][0]["nodes"] = {0, 2};  // one of them, which has another bind matrix
+    CHECK(load_document(elsewhere).positions[1] == glm::vec3(2, 0, 0));
+    Document few = bound("{}");
+    few.json["skins"][0]["joints"] = {1, 2, 0};
+    CHECK(load_error("d.glb", few.glb()).find("has 2 elements for 3 joints") != std::string::npos);
     Document dangling = bound("{}");
     dangling.json["nodes"][0]["skin"] = 5;
     CHECK(load_error("d.glb", dangling.glb()).find("nodes[0].skin") != std::string::npos);

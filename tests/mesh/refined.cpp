@@ -251,7 +251,8 @@ TEST_CASE("refined: PLY elements with a row for each face are left out, since th
     const std::string text =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         "element texture_face 4\nproperty uchar tx\nproperty list uchar int corners\n"
-        "element face 4\nproperty list uchar int vertex_indices\nelement mark 1\nproperty int a\n"
+        "comment of faces\nelement face 4\nproperty list uchar int vertex_indices\nelement mark 1\nproperty "
+        "int a\n"
         "element more 4\nproperty int b\nend_header\n"
         "0 0 0\n1 0 0\n0 1 0\n0 0 16\n1 3 0 1 2\n1 3 0 1 2\n1 3 0 1 2\n1 3 0 1 2\n"
         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n77\n1\n2\n3\n4\n";
@@ -261,10 +262,13 @@ TEST_CASE("refined: PLY elements with a row for each face are left out, since th
     CHECK(out.warnings[0].starts_with("element texture_face is left out: "));
     CHECK(out.warnings[1].starts_with("element more is left out: "));
     const std::string now = saved(out, "out.ply");
-    CHECK(now.find("property float z\nelement face 94\nproperty list uchar int vertex_indices\n"
-                   "element mark 1\nproperty int a\nend_header\n") != now.npos);
+    CHECK(now.find(
+              "property float z\ncomment of faces\nelement face 94\nproperty list uchar int vertex_indices\n"
+              "element mark 1\nproperty int a\nend_header\n") != now.npos);
     CHECK(now.ends_with("\n77\n"));
     check_same(load_text("again.ply", now), out);
+    const Mesh unended = load_text("t.ply", replaced(text, "3\n4\n", "3\n4"));
+    CHECK(saved(refined_along(unended, 2), "out.ply") == now);
     // They stay where nothing is cut.
     CHECK(saved(mesh, "same.ply") == text);
 }

@@ -136,7 +136,8 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
 /// Whether a region gets straighter than it is at rest. What `inspect` says of the rest pose is rounded, and
 /// no straightening.
 bool straightens(const RestPose& rest, const Target& target) {
-    constexpr double clearly = 0.99, much = 0.5, same_way = 0.7;  // cosine of 45 degrees
+    constexpr double clearly = 0.99, same_way = 0.7;  // cosine of 45 degrees
+    constexpr double much = 0.5;                      // of the bend is gone, whatever the direction
     if (!(std::fabs(target.angle) < clearly * rest.angle)) return false;
     const double turn = std::cos(radians(target.direction - rest.direction));
     return std::fabs(target.angle) < much * rest.angle || std::copysign(1.0, target.angle) * turn > same_way;
@@ -391,10 +392,11 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
         report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
                                               number(targets[i].direction) + ", at most " + number(limit));
         if (beyond && rest.angle > 0 && limit <= rest.angle * (1 + 1e-6)) {
-            report.warn(
-                which + "bent at rest by " + number(rest.angle) +
-                " degrees, as far as it can be: its inner side lies at the center of the bend; --rest "
-                "straight takes it as it is");
+            report.warn(which +
+                        (all_the_way ? "" : "the angle of " + number(asked) + " degrees is clamped: ") +
+                        "the body is bent at rest by " + number(rest.angle) +
+                        " degrees, as far as it can be, and keeps that shape" +
+                        (model.baked ? "" : "; --rest straight fits it as if it were straight"));
         } else if (beyond && !all_the_way) {
             warn_of_angle(report, which, asked, limit, "clamped to it");
         }
@@ -402,10 +404,10 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
     for (std::size_t i = 0; known && i < targets.size(); ++i) {
         const int folds = binding.folds(i);
-        const std::string capacity = capacity_words(binding.folds_capacity(i));
-        const std::string carried = folds > binding.folds_capacity(i)
-                                        ? "; the mesh carries " + capacity
-                                        : " of " + capacity + " that the mesh carries";
+        const int capacity = binding.folds_capacity(i);
+        const std::string carried = folds > capacity || capacity >= fit::Stretch::max_folds
+                                        ? "; the mesh carries " + capacity_words(capacity)
+                                        : " of " + capacity_words(capacity) + " that the mesh carries";
         report.line(i == 0 ? "folds" : "", region_words(i, targets.size()) + std::to_string(folds) + carried);
     }
     report.json["max_angle"] = regions[0]["max_angle"];

@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "memory.hpp"
 #include "model.hpp"
+#include "poses.hpp"
 #include "progress.hpp"
 
 #include <goffer/fit/bind.hpp>
@@ -56,7 +57,7 @@ void run_refine(const RefineOptions& options) {
     for (std::size_t r = 0; r < model.binding.regions.size(); ++r)
         capacity += model.binding.folds_capacity(r);
     report.json["folds_capacity"] = capacity;
-    report.line("folds", "the mesh carries " + std::to_string(capacity));
+    report.line("folds", "the mesh carries " + capacity_words(capacity));
     io::AtomicFiles outputs;
     mesh::save(model.mesh, options.output, outputs);
     report.line("written", options.output.string());
@@ -81,7 +82,8 @@ std::optional<fit::Refinement> refinement(const fit::Geometry& geometry, const f
     }
 }
 
-/// Values of the vertices in the order of a refined mesh, which is not everywhere that of the refinement.
+/// Values of the vertices in the order of a refined mesh, which is not everywhere that of the refinement. Its
+/// triangles are.
 std::vector<glm::vec3> in_order_of(const mesh::Mesh& mesh, std::span<const std::uint32_t> pieces,
                                    std::span<const glm::vec3> values) {
     const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);

@@ -36,7 +36,7 @@ std::string far_away(const BoundModel& model) {
 
 /// How many vertices that no face uses bind() moves, since they lie beyond an end of the body.
 std::size_t stray_vertices(const BoundModel& model) {
-    constexpr double slack = 1e-3;  // shares of the length: what bind() allows the others too
+    constexpr double slack = 1e-3;  // of the length: what bind() allows the others, too
     std::vector<bool> used(model.rest.positions.size());
     for (const std::uint32_t vertex : model.rest.triangles) used[vertex] = true;
     const std::vector<double> heights = fit::heights(model.rest.positions, model.cylinder);

@@ -8,82 +8,80 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace goffer::fit {
 namespace {
 
-/// The curvature of the rest arc at a height, of the outer line.
-double curvature_at(const Cylinder& cylinder, double z) {
-    if (cylinder.arcs.empty()) return cylinder.rest_angle / cylinder.length;
-    double end = 0;
-    for (const RestArc& arc : cylinder.arcs) {
-        end += arc.length;
-        if (z < end) return arc.angle / arc.length;
-    }
-    return cylinder.arcs.back().angle / cylinder.arcs.back().length;
+using Corners = std::array<std::uint32_t, 3>;
+
+double area_of(const std::vector<glm::dvec3>& places, const Corners& t) {
+    return glm::length(glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]])) / 2;
 }
 
-glm::dvec3 normal_of(const std::array<glm::dvec3, 3>& corners) {
-    return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-}
-
-/// A body in model space, and straightened.
-class Straightener {
+/// A body in model space: as it is, and turned about its center line by quarter turns.
+class TurnedBody {
 public:
-    Straightener(const Body& body, const Cylinder& cylinder) : cylinder_(cylinder), straightening_(cylinder) {
+    TurnedBody(const Body& body, const Cylinder& cylinder)
+        : slack_(1e-9 * cylinder.length), straightening_(cylinder) {
         for (const Vector3d& point : body.points) {
-            bent_.push_back(from_eigen(body.middle + body.size * point));
-            straight_.push_back(paper::from_cylindrical(straightening_.vertex(bent_.back())));
+            places_[0].push_back(from_eigen(body.middle + body.size * point));
+            paper::Cylindrical at = straightening_.vertex(places_[0].back());
+            heights_.push_back(at.z);
+            for (std::size_t turn = 1; turn < places_.size(); ++turn) {
+                at.beta += std::numbers::pi / 2;
+                places_[turn].push_back(straightening_.bent(at));
+            }
         }
     }
 
-    /// Whether an edge lies between the heights of its ends, and not across a gap between two arcs.
-    [[nodiscard]] bool leads_along(std::uint32_t a, std::uint32_t b) const {
-        const double slack = 1e-9 * cylinder_.length;
-        const auto [low, high] = std::minmax(straight_[a].z, straight_[b].z);
-        const double middle = straightening_.height((bent_[a] + bent_[b]) / 2.0);
-        return middle >= low - slack && middle <= high + slack;
+    /// Whether no edge leads across a gap between ends of arcs.
+    [[nodiscard]] bool leads_along(const Corners& t) const {
+        const auto leads = [&](std::uint32_t a, std::uint32_t b) {
+            const glm::dvec3 middle = (places_[0][a] + places_[0][b]) / 2.0;
+            return straightening_.leads_along(middle, heights_[a], heights_[b], slack_);
+        };
+        return leads(t[0], t[1]) && leads(t[1], t[2]) && leads(t[2], t[0]);
     }
 
-    [[nodiscard]] double area(const std::array<std::uint32_t, 3>& t) const {
-        return glm::length(normal_of({bent_[t[0]], bent_[t[1]], bent_[t[2]]}));
-    }
+    [[nodiscard]] double area(const Corners& t) const { return area_of(places_[0], t); }
 
-    /// The area that the triangle would have if it lay on the axis of the arc: the mean of those that it has
-    /// all around the axis.
-    [[nodiscard]] double mean_area(const std::array<std::uint32_t, 3>& t) const {
-        const std::array corners{straight_[t[0]], straight_[t[1]], straight_[t[2]]};
-        const glm::dvec3 normal = normal_of(corners);
-        const double z = (corners[0].z + corners[1].z + corners[2].z) / 3;
-        const double shrink = 1 - curvature_at(cylinder_, z) * cylinder_.radius;
-        return std::hypot(shrink * std::hypot(normal.x, normal.y), normal.z);
+    /// The mean of the areas that the triangle has all around the center line: that of quarter turns, since
+    /// what it is stretched by is the cosine of the turn and its square.
+    [[nodiscard]] double mean_area(const Corners& t) const {
+        double sum = 0;
+        for (const std::vector<glm::dvec3>& places : places_) sum += area_of(places, t);
+        return sum / static_cast<double>(places_.size());
     }
 
 private:
-    const Cylinder& cylinder_;
+    double slack_;
     const Straightening straightening_;
-    std::vector<glm::dvec3> bent_, straight_;
+    std::array<std::vector<glm::dvec3>, 4> places_;
+    std::vector<double> heights_;
 };
 
 }  // namespace
 
 bool is_bent_tube(const Body& body, const Cylinder& cylinder) {
-    constexpr double most_across = 1e-3;  // share of the area
-    constexpr double most_aside = 0.035;  // likewise: what lies on one side of the arcs, times how much
-                                          // shorter it is there. Tubes have up to 0.007.
-    const Straightener straightener(body, cylinder);
+    constexpr double most_across = 1e-3;                        // share of the area
+    constexpr double most_inside = 0.035, most_outside = 0.07;  // likewise: modules/paper/README.md has why
+    const TurnedBody turned(body, cylinder);
     double area = 0, mean = 0, across = 0;
     for (std::size_t i = 0; i + 2 < body.triangles.size(); i += 3) {
-        const std::array t{body.triangles[i], body.triangles[i + 1], body.triangles[i + 2]};
-        const double own = straightener.area(t);
-        area += own;
-        mean += straightener.mean_area(t);
-        const bool along = straightener.leads_along(t[0], t[1]) && straightener.leads_along(t[1], t[2]) &&
-                           straightener.leads_along(t[2], t[0]);
-        if (!along) across += own;
+        const Corners t{body.triangles[i], body.triangles[i + 1], body.triangles[i + 2]};
+        const double own = turned.area(t);
+        if (turned.leads_along(t)) {
+            area += own;
+            mean += turned.mean_area(t);
+        } else {
+            across += own;
+        }
     }
-    return across <= most_across * area && std::fabs(area / mean - 1) <= most_aside;
+    return across <= most_across * area && area >= (1 - most_inside) * mean &&
+           area <= (1 + most_outside) * mean;
 }
 
 }  // namespace goffer::fit

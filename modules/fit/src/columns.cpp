@@ -119,8 +119,8 @@ double ColumnCutter::need(Edge edge) const {
     if (!(its > most_off)) return 0;
     const glm::vec3 half = half_way(edge);
     if (half == positions_[edge.a] || half == positions_[edge.b]) return 0;
-    const double z = straightening_.height(half), slack = 5e-4 * radius_.length();
-    return z < -slack || z > radius_.length() + slack ? 0 : its;
+    const double slack = 5e-4 * radius_.length();  // edges around the body have ends of one height
+    return straightening_.leads_along(half, spots_[edge.a].z, spots_[edge.b].z, slack) ? its : 0;
 }
 
 /// The vertex in the middle of an edge.

@@ -64,7 +64,7 @@ std::vector<glm::dvec3> corner_normals(std::span<const std::uint32_t> triangles,
     constexpr double crease = 0.42262;  // cosine of 65 degrees
     constexpr std::size_t most = 1000;  // triangles at a place that are compared with each other
     std::vector<std::vector<std::uint32_t>> corners(places.size());
-    for (std::uint32_t c = 0; c < triangles.size(); ++c) corners[places[triangles[c]]].push_back(c);
+    for (std::uint32_t c = 0; c < 3 * facets.size(); ++c) corners[places[triangles[c]]].push_back(c);
     std::vector<glm::dvec3> normals(triangles.size(), glm::dvec3(0));
     for (const std::vector<std::uint32_t>& here : corners) {
         for (const std::uint32_t c : here) {

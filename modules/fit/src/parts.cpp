@@ -25,7 +25,6 @@ constexpr double most_wobble = 0.1;  // of a part's size that its center may mov
 constexpr double most_depth = 0.35;  // of the size of a part beside the axis that its wrinkle may be deep
 constexpr double spread = 0.3;       // radii along the body that a weight passes into others in
 constexpr double blend = 1.5;        // greatest depths of a wrinkle over which it does so across the body
-constexpr double least_apart = 0.25, apart = 0.75;  // of what weights blend over: see priority_of()
 // By these, a wrinkle leaves a part of every distance away from the axis in any pose, so that no surface
 // passes through another.
 
@@ -184,7 +183,7 @@ double share_of(double radius) {
 /// the sake of hairs. What lies on a thick part, such as a grip, goes with it: `distance` is how far away
 /// that is on average, in the length that weights blend over.
 double priority_of(double weight, double share, double distance) {
-    constexpr double least = 0.1, power = 2.5;
+    constexpr double least = 0.1, power = 2.5, least_apart = 0.25, apart = 0.75;
     return std::pow(least + weight,
                     -power * std::sqrt(share) * glm::smoothstep(least_apart, apart, distance));
 }

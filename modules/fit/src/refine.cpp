@@ -135,13 +135,10 @@ std::uint32_t Refiner::first_between(Edge edge, std::uint32_t count) {
     return entry->second;
 }
 
-/// Whether an edge lies between the heights of its ends. One that leads from one end of a bent body to the
-/// other across the gap between them does not, and is not cut: its middle is of no height of the body.
+/// An edge across a gap is not cut: what is between its ends is of no height of the body.
 bool Refiner::leads_along(Edge edge) const {
-    if (arc_ == nullptr) return true;
-    const auto [low, high] = std::minmax(heights_[edge.a], heights_[edge.b]);
-    const double middle = arc_->height((points_[edge.a] + points_[edge.b]) / 2.0);
-    return low <= middle && middle <= high;
+    return arc_ == nullptr || arc_->leads_along((points_[edge.a] + points_[edge.b]) / 2.0, heights_[edge.a],
+                                                heights_[edge.b], 0);
 }
 
 /// Where an edge, from a up to b, reaches a height, as a share of the edge. About an arc's center a straight
@@ -194,13 +191,15 @@ bool Refiner::left_next(std::size_t i, std::size_t j) const {
 
 /// One side of an upright triangle is the edge from low to high, the other side is the other two edges.
 /// Pieces fill the space between from the bottom up, like a zipper: each has an edge of one side and a vertex
-/// of the other side that is within a row of both its ends.
+/// of the other side that is within a row of both its ends. Where only the side from low to high leads across
+/// a gap, and is not cut, the pieces meet at its ends.
 void Refiner::cut(std::size_t triangle) {
     const Upright corners = upright(triangle);
     left_.clear();
     right_.clear();
     append_inner(left_, {corners.low, corners.high});
     append_inner(right_, {corners.low, corners.middle});
+    const std::size_t middle = right_.size();
     right_.push_back(corners.middle);
     append_inner(right_, {corners.middle, corners.high});
     if (left_.empty() && right_.size() == 1) {
@@ -209,10 +208,15 @@ void Refiner::cut(std::size_t triangle) {
         out_.parents.push_back(static_cast<std::uint32_t>(triangle));
         return;
     }
-    if (left_.empty()) {  // a fan: only the edge on the left crosses a gap
-        for (std::size_t j = 0; j + 1 < right_.size(); ++j)
-            emit(triangle, corners, {corners.low, right_[j], right_[j + 1]});
-        emit(triangle, corners, {corners.low, right_.back(), corners.high});
+    if (left_.empty()) {
+        std::uint32_t last = corners.low;
+        for (std::size_t j = 0; j < middle; ++j) {
+            emit(triangle, corners, {last, right_[j], corners.high});
+            last = right_[j];
+        }
+        for (std::size_t j = middle; j + 1 < right_.size(); ++j)
+            emit(triangle, corners, {last, right_[j], right_[j + 1]});
+        emit(triangle, corners, {last, right_.back(), corners.high});
         return;
     }
     emit(triangle, corners, {corners.low, right_[0], left_[0]});

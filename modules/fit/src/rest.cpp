@@ -255,6 +255,11 @@ double Straightening::height(const glm::dvec3& position) const {
     return pieces_.size() == 1 && pieces_[0].rest.angle == 0 ? in_body(position).z : vertex(position).z;
 }
 
+bool Straightening::leads_along(const glm::dvec3& middle, double from, double to, double slack) const {
+    const double z = height(middle);
+    return z >= std::min(from, to) - slack && z <= std::max(from, to) + slack;
+}
+
 const Straightening::Piece& Straightening::piece_at(double z) const {
     return pieces_[stretch_at(std::span(pieces_), z)];
 }

@@ -101,6 +101,9 @@ public:
     [[nodiscard]] paper::Cylindrical vertex(const glm::dvec3& position) const;
     /// vertex(position).z, at less cost where the body is straight anyway.
     [[nodiscard]] double height(const glm::dvec3& position) const;
+    /// Whether an edge between vertices at the heights `from` and `to` lies between these, as far as `slack`.
+    /// One that leads across the gap between two ends of arcs does not: its middle is of another height.
+    [[nodiscard]] bool leads_along(const glm::dvec3& middle, double from, double to, double slack) const;
     /// A normal, or a tangent, at the vertex `at`; the result has unit length.
     [[nodiscard]] bend::RestVector normal(const glm::dvec3& vector, const paper::Cylindrical& at) const;
     [[nodiscard]] bend::RestVector tangent(const glm::dvec3& vector, const paper::Cylindrical& at) const;

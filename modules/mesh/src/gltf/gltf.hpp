@@ -174,8 +174,8 @@ template <class T>
 /// Sets the fields `min` and `max` of an accessor of positions.
 void set_bounds(Json& accessor, const std::vector<float>& values, std::size_t components);
 
-/// Where a node stands in the scene: maps its positions, normals and tangents to world space, and back.
-/// Normals and tangents get unit length, unless the placement is the identity, which changes no bit.
+/// Where a node, or a skin, stands in the scene: maps its positions, normals and tangents to world space, and
+/// back. Normals and tangents get unit length, unless the placement is the identity, which changes no bit.
 class Placement {
 public:
     Placement() : Placement(glm::dmat4(1.0)) {}
@@ -246,7 +246,9 @@ struct SkinPlace {
     bool as_bound = true;    ///< all joints place it so: they stand as they did when it was bound
 };
 
-/// `worlds`: the matrices of the scene's nodes. A joint that is not in the scene counts as not moved.
+/// Returns where the joints of `skin` that are in the scene place its meshes: the identity, exactly, where
+/// that is meant, and where there is none. `worlds`: the matrices of the scene's nodes. Throws Error if a
+/// joint is no node, or its inverse bind matrices are fewer or of another type.
 [[nodiscard]] SkinPlace place_of_skin(const Document& document, const Value& skin,
                                       const std::map<std::size_t, glm::dmat4>& worlds);
 

@@ -38,7 +38,8 @@ std::size_t claim_mesh(Json& json, std::size_t node);
 [[nodiscard]] Json& shown_scene(Json& json);
 
 /// Takes out what moves the nodes of `blocks` in another way: animations and skins. A mesh that had a skin
-/// moves to another node, and its blocks with it. Returns a warning for each kind.
+/// moves to another node, where its joints placed it, and its blocks with it. Returns a warning for each
+/// kind.
 [[nodiscard]] std::vector<std::string> let_go_of_motion(Json& json, std::vector<Block>& blocks);
 
 /// Adds the animation of `morphing`: its weights at `nodes`, whose meshes have all of its targets, and the

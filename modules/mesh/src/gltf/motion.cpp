@@ -10,8 +10,9 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-/// Without its skin a mesh would stand where its node does, rather than where it was bound, at `place`. So it
-/// moves to a new node there. Returns that node.
+/// Without its skin a mesh would stand where its node does, rather than where its joints placed it. So it
+/// moves to a new node at `place`, which its parent has, since a node that is animated must have no matrix.
+/// Returns that node.
 std::size_t unskin(Json& json, std::size_t node, const glm::dmat4& place) {
     const std::size_t mesh = claim_mesh(json, node);
     each(json["meshes"][mesh], "primitives", [](Json& primitive) {
@@ -24,14 +25,17 @@ std::size_t unskin(Json& json, std::size_t node, const glm::dmat4& place) {
     Json& old = json["nodes"][node];
     if (old.contains("name")) moved["name"] = old["name"];
     if (old.contains("weights")) moved["weights"] = old["weights"];
-    if (place != glm::dmat4(1.0)) {
-        moved["matrix"] = Json::array();
-        for (int i = 0; i < 16; ++i) moved["matrix"].push_back(place[i / 4][i % 4]);
-    }
     for (const char* key : {"mesh", "skin", "weights"}) old.erase(key);
     json["nodes"].push_back(std::move(moved));
     const std::size_t number = json["nodes"].size() - 1;
-    shown_scene(json)["nodes"].push_back(number);
+    std::size_t root = number;
+    if (place != glm::dmat4(1.0)) {
+        Json parent = {{"children", {number}}, {"matrix", Json::array()}};
+        for (int i = 0; i < 16; ++i) parent["matrix"].push_back(place[i / 4][i % 4]);
+        json["nodes"].push_back(std::move(parent));
+        root = number + 1;
+    }
+    shown_scene(json)["nodes"].push_back(root);
     return number;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 namespace goffer::mesh::gltf {
 namespace {
@@ -66,7 +67,8 @@ private:
     std::uint64_t done_ = 0;                             ///< of these, before the ones that are being read
     std::uint64_t unbacked_ = 0;                         ///< elements that have no bytes behind them
     std::map<std::size_t, std::uint64_t> entry_memory_;  ///< of entries of the document's meshes
-    std::map<std::size_t, glm::dmat4> worlds_;           ///< of the scene's nodes
+    std::span<const PlacedNode> nodes_;                  ///< of the scene, and, where there are skins,
+    std::map<std::size_t, glm::dmat4> worlds_;           ///< their matrices
     std::map<std::size_t, SkinPlace> skins_;             ///< those in use
     std::vector<std::pair<std::string, std::size_t>> skinned_;  ///< paths of nodes, and their skins
 };
@@ -123,6 +125,8 @@ const SkinPlace& SceneReader::skin_of(const Value& node) {
     if (is_new) {
         const Value skin = document_.entry("skins", node["skin"]);
         if (skin.has("inverseBindMatrices")) spend(skin["inverseBindMatrices"], 16);
+        if (worlds_.empty())
+            for (const PlacedNode& placed : nodes_) worlds_.emplace(placed.node, placed.world);
         place->second = place_of_skin(document_, skin, worlds_);
     }
     return place->second;
@@ -384,7 +388,7 @@ Scene SceneReader::read() && {
     mesh_.materials = materials_of(document_);
     const std::vector<PlacedNode> nodes = nodes_of_scene(document_);
     if (share_.is_heard()) share_ = share_.part(0, 1, work_of(document_, nodes));
-    for (const PlacedNode& placed : nodes) worlds_.emplace(placed.node, placed.world);
+    nodes_ = nodes;
     for (const PlacedNode& placed : nodes) read_node(placed);
     warn_of_skins();
     if (mesh_.positions.empty()) {

@@ -16,9 +16,10 @@ double largest(const glm::dmat4& m, int first, int last) {
     return most;
 }
 
-/// Whether two matrices place vertices alike, as far as floats of the size `reach` tell.
+/// Whether two matrices place vertices alike. Exporters invert the matrices of joints in float, and what they
+/// are multiplied with cancels: `reach` is how large coordinates are on the way.
 bool alike(const glm::dmat4& a, const glm::dmat4& b, double reach) {
-    constexpr double close = 1e-4;
+    constexpr double close = 1e-5;
     const glm::dmat4 off = a - b;
     return largest(off, 0, 3) <= close * largest(a, 0, 3) && largest(off, 3, 4) <= close * reach;
 }
@@ -30,35 +31,47 @@ bool finite(const glm::dmat4& m) {
     return true;
 }
 
+/// The inverse bind matrices of a skin's joints, 16 numbers each; none where all are the identity.
+std::vector<float> inverse_binds(const Document& document, const Value& skin) {
+    if (!skin.has("inverseBindMatrices")) return {};
+    const Value reference = skin["inverseBindMatrices"];
+    std::vector<float> inverse = read_floats(document, reference, 16);
+    if (inverse.size() / 16 < skin["joints"].size())
+        reference.fail("has " + std::to_string(inverse.size() / 16) + " elements for " +
+                       std::to_string(skin["joints"].size()) + " joints; export the file again");
+    return inverse;
+}
+
 }  // namespace
 
 SkinPlace place_of_skin(const Document& document, const Value& skin,
                         const std::map<std::size_t, glm::dmat4>& worlds) {
     const Value joints = skin["joints"];
-    std::vector<float> inverse;
-    if (skin.has("inverseBindMatrices")) {
-        inverse = read_floats(document, skin["inverseBindMatrices"], 16);
-        inverse.resize(16 * joints.size());
-    }
-    SkinPlace first;
-    double reach = 1e-30;  // of coordinates that cancel in the products
+    const std::vector<float> inverse = inverse_binds(document, skin);
+    std::optional<glm::dmat4> first;
+    bool as_bound = true;
+    double reach = 1e-30;
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const auto world = worlds.find(document.number("nodes", joints[i]));
-        glm::dmat4 place = world != worlds.end() ? world->second : glm::dmat4(1.0);
+        if (world == worlds.end()) continue;
+        glm::dmat4 place = world->second;
         if (!inverse.empty()) {
             glm::dmat4 bind(glm::make_mat4(&inverse[16 * i]));
             for (int c = 0; c < 4; ++c) bind[c][3] = c == 3 ? 1.0 : 0.0;
             reach = std::max(reach, largest(place, 3, 4));
             place = place * bind;
         }
-        if (!finite(place)) return {};
-        if (i == 0) first.matrix = place;
+        if (!finite(place)) {
+            as_bound = false;
+            continue;
+        }
         reach = std::max(reach, largest(place, 3, 4));
-        first.as_bound = first.as_bound && alike(first.matrix, place, reach);
+        if (!first) first = place;
+        as_bound = as_bound && alike(*first, place, reach);
     }
     const glm::dmat4 identity(1.0);
-    if (alike(identity, first.matrix, reach)) first.matrix = identity;
-    return first;
+    if (!first || alike(identity, *first, reach)) return {identity, as_bound};
+    return {*first, as_bound};
 }
 
 }  // namespace goffer::mesh::gltf

@@ -29,7 +29,7 @@ bool has_room(const Header& header, std::size_t vertices) {
                                                          : 128u));
 }
 
-/// Elements with a row for each face, other than the faces: texture coordinates of some scanners.
+/// Elements with as many rows as there are faces: texture coordinates of some scanners.
 std::vector<const Element*> beside_faces(const Header& header) {
     const Element *vertex = header.find("vertex"), *face = header.find("face");
     std::vector<const Element*> found;
@@ -221,11 +221,13 @@ private:
             const std::string_view before = rest;
             std::string_view line = next_line(rest);
             const std::string_view word = next_token(line);
-            const bool begins = word == "element";
-            const std::string_view name = begins ? next_token(line) : word, count = next_token(line);
-            if (begins || word == "end_header") leaves_out = begins && is_left_out(header_.find(name));
+            if (word != "element" && word != "property") continue;
+            std::string_view name, count;
+            if (word == "element") {
+                name = next_token(line), count = next_token(line);
+                leaves_out = is_left_out(header_.find(name));
+            }
             if (leaves_out) out.replace(before.substr(0, before.size() - rest.size()), "");
-            if (!begins) continue;
             if (name == "vertex") out.replace(count, std::to_string(now_.positions.size()));
             if (name == "face") out.replace(count, std::to_string(face_->count + more_faces_));
         }
@@ -264,7 +266,8 @@ std::optional<Mesh> refined_ply(const Cut& cut, const Mesh& alone, const Share& 
     out.warnings = cut.mesh().warnings;
     for (const Element* element : beside_faces(header))
         out.warnings.push_back("element " + std::string(element->name) +
-                               " is left out: it has a row for each face, and the faces are others now");
+                               " is left out: it has as many rows as there are faces, and these are others "
+                               "now; do not refine the mesh to keep it");
     return out;
 }
 

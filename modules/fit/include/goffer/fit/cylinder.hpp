@@ -75,31 +75,33 @@ public:
 /// The direction from base to tip is that of the arc's chord, which is found; an `axis` that is given decides
 /// which end is the base. An arc is taken if its sections are circles about it within 0.3 of the radius, or
 /// 0.2 beyond a half turn, and within 0.8 of what they are about the best straight line (rms of rho within
-/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; if the body is as
-/// large as a tube that was bent along it, within 3.5 % of its area, and no faces lead across the gap between
-/// its ends; and if a given `axis` is within about 45 degrees of its chord. Otherwise the result is that of
-/// RestPose::straight, and rest_angle is exactly 0.
+/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; if the body is a
+/// tube that was bent along it (as much surface on the inner side as on the outer one, within 3.5 and 7 % of
+/// the area, and no more than a thousandth of it across the gap between the ends); and if a given `axis` is
+/// within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and rest_angle
+/// is exactly 0.
 ///
 /// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
 /// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
 /// than half a turn), and its body as many regions: if its sections lie all around the chain, and are circles
 /// about it within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the
-/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; if its
-/// area and its faces are as those about an arc; and if a given `axis` is within about 45 degrees of its
+/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; if it
+/// is a tube that was bent along it; and if a given `axis` is within about 45 degrees of its
 /// chord, which is signed as the long axis is otherwise. A mesh without a long axis may get one, too. How
 /// many arcs follow a body best may change with a small change of its mesh.
 ///
 /// `arcs`, 2..bend::max_regions, says how many with RestPose::chain: the result is then a chain of so many,
-/// whatever else would be better. Where fewer follow the body, the longest ones are halved. 0: as above.
+/// whatever else would be better, if the body is a tube or not. Where fewer follow the body, the longest ones
+/// are halved. 0: as above.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
 ///
 /// Throws Error as check(geometry) does, and if an axis is zero or not finite, no triangle has an area,
 /// `arcs` is given without RestPose::chain or is outside 2..bend::max_regions, or the body does not follow a
-/// chain of `arcs`. Throws AxisError if no axis is given and the mesh has no long one, nor a chain if it may
-/// have one; if it has no surface around the axis or no extent along it; or if the body is too thin for float
-/// at its coordinates. Thread-safe.
+/// chain of `arcs` (and names a number that it follows). Throws AxisError if no axis is given and the mesh
+/// has no long one, nor a chain if it may have one; if it has no surface around the axis or no extent along
+/// it; or if the body is too thin for float at its coordinates. Thread-safe.
 [[nodiscard]] Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis = std::nullopt,
                                     RestPose rest = RestPose::automatic, std::size_t arcs = 0);
 

@@ -22,7 +22,8 @@
 /// row. Edges of the result are then cut in half where a wrinkle that is linear along it would be off in
 /// its middle by more than 4.4 % of its depth: on the skin, where the edge spans more than 34 degrees. So a
 /// body of 11 equal sides or more gets no columns. Neither do edges near the axis, where wrinkles fade, those
-/// within 1.3 rows of either end, as of a flat cap, and those in a stretch without folds.
+/// within 1.3 rows of either end, as of a flat cap, and those in a stretch without folds. Nothing is cut that
+/// leads across the gap between two ends of a body that is bent at rest.
 ///
 /// Only the places of its two ends decide where an edge is cut, so that both triangles at it agree, even
 /// where vertices are duplicated along a seam: what was closed stays closed, and the surface at rest stays as
@@ -120,10 +121,11 @@ struct RefineOptions {
                                                        const Refinement& refinement);
 
 /// Makes the normals of a refined mesh, one per vertex, that shade it as the mesh was shaded before:
-/// interpolated over each triangle from its corners, with edges of more than 65 degrees kept sharp. Normals
-/// made of the pieces alone would show the flat triangles that they come from. `refinement` must be of the
-/// mesh with these positions and triangles; the order is that of refined_positions(). Vertices at one place
-/// agree, and one without a direction gets (0, 0, 1), as with make_normals(). Thread-safe.
+/// interpolated over each triangle from its corners, each of which counts the triangles around it within 65
+/// degrees (itself alone, where more than 1000 meet). Normals made of the pieces alone would show the flat
+/// triangles that they come from. `refinement` must be of the mesh with these positions and triangles, whose
+/// indices must be in range; the order is that of refined_positions(). Vertices at one place get their mean,
+/// and one without a direction gets (0, 0, 1), as with make_normals(). Thread-safe.
 [[nodiscard]] std::vector<glm::vec3> make_refined_normals(std::span<const glm::vec3> positions,
                                                           std::span<const std::uint32_t> triangles,
                                                           const Refinement& refinement);

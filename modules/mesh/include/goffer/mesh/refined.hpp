@@ -33,8 +33,8 @@ struct Subdivision {
 };
 
 /// Returns `mesh` cut up by `pieces`. A face of which nothing is cut stays as it is, polygons too; the pieces
-/// of another stand in its place, so that parts, groups and materials go on as before. Without new vertices
-/// the mesh comes back unchanged.
+/// of another stand in its place, so that parts, groups and materials go on as before, and triangles() of the
+/// result are the pieces in their order. Without new vertices the mesh comes back unchanged.
 ///
 /// Vertices keep their values and their order. New ones follow behind all others, with two exceptions: in a
 /// glTF scene, which has several vertex arrays, behind those of their own array; in an STL, which has no
