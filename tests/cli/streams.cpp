@@ -7,6 +7,16 @@
 
 using namespace goffer::test;
 
+namespace {
+
+bool has_full_device() {
+    const bool is_there = std::filesystem::exists("/dev/full");
+    if (!is_there) MESSAGE("skipped: there is no /dev/full");
+    return is_there;
+}
+
+}  // namespace
+
 TEST_CASE("streams: nothing on standard error where all is well") {
     const Folder folder;
     base(folder);
@@ -41,10 +51,7 @@ TEST_CASE("streams: help and version") {
 TEST_CASE("streams: a full standard output is an error") {
     const Folder folder;
     base(folder);
-    if (!std::filesystem::exists("/dev/full")) {
-        MESSAGE("skipped: there is no /dev/full");
-        return;
-    }
+    if (!has_full_device()) return;
     for (const std::string more : {"", " --json -"}) {
         const std::string line = std::string("'") + GOFFER_COMMAND + "' inspect '" +
                                  (folder / "base.ply").string() + "'" + more + " >/dev/full 2>/dev/null";
@@ -55,10 +62,7 @@ TEST_CASE("streams: a full standard output is an error") {
 TEST_CASE("streams: where a report cannot be printed, nothing is said to be written") {
     const Folder folder;
     base(folder);
-    if (!std::filesystem::exists("/dev/full")) {
-        MESSAGE("skipped: there is no /dev/full");
-        return;
-    }
+    if (!has_full_device()) return;
     const std::string line = "cd '" + (folder / ".").string() + "' && '" + GOFFER_COMMAND +
                              "' bend base.ply -o out.ply --json - >/dev/full 2>said.txt";
     CHECK(std::system(line.c_str()) != 0);

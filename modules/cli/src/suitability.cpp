@@ -34,18 +34,18 @@ std::string far_away(const BoundModel& model) {
            ", " + number(100 * step / radius) + " % of its radius; move it nearer to the origin";
 }
 
-/// How many vertices that no face uses bind() moves, since they lie beyond an end of the body.
+/// How many vertices that no face uses lie beyond an end of the body, by more than bind() leaves alone.
 std::size_t stray_vertices(const BoundModel& model) {
-    constexpr double slack = 1e-3;  // of the length: what bind() allows the others, too
+    constexpr double slack = 1e-3;  // of the length
     std::vector<bool> used(model.rest.positions.size());
     for (const std::uint32_t vertex : model.rest.triangles) used[vertex] = true;
-    const std::vector<double> heights = fit::heights(model.rest.positions, model.cylinder);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        const double share = heights[i] / model.cylinder.length;
-        if (!used[i] && (share < -slack || share > 1 + slack)) ++count;
-    }
-    return count;
+    std::vector<glm::vec3> loose;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i]) loose.push_back(model.rest.positions[i]);
+    const double length = model.cylinder.length;
+    return static_cast<std::size_t>(std::ranges::count_if(fit::heights(loose, model.cylinder), [&](double z) {
+        return z < -slack * length || z > (1 + slack) * length;
+    }));
 }
 
 std::string warning(const fit::Suitability& found, double residual) {

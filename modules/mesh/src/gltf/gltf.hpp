@@ -231,6 +231,9 @@ struct Scene {
     std::vector<Block> blocks;
 };
 
+/// The matrix with the last row of an affine one, whatever a file has there.
+[[nodiscard]] glm::dmat4 affine(glm::dmat4 matrix);
+
 /// A node of the scene, and the matrix from its space to the scene's.
 struct PlacedNode {
     std::size_t node;

@@ -7,14 +7,19 @@
 #include <algorithm>
 
 namespace goffer::mesh::gltf {
+
+glm::dmat4 affine(glm::dmat4 matrix) {
+    for (int i = 0; i < 4; ++i) matrix[i][3] = i == 3 ? 1.0 : 0.0;
+    return matrix;
+}
+
 namespace {
 
 glm::dmat4 local_matrix(const Value& node) {
     glm::dmat4 matrix(1.0);
     if (node.has("matrix")) {
         matrix = glm::make_mat4(node["matrix"].numbers(16).data());
-        for (int i = 0; i < 4; ++i) matrix[i][3] = i == 3 ? 1.0 : 0.0;  // affine, whatever the file says
-        return matrix;
+        return affine(matrix);
     }
     if (node.has("rotation")) {
         const std::vector<double> q = node["rotation"].numbers(4);

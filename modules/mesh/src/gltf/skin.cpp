@@ -56,10 +56,8 @@ SkinPlace place_of_skin(const Document& document, const Value& skin,
         if (world == worlds.end()) continue;
         glm::dmat4 place = world->second;
         if (!inverse.empty()) {
-            glm::dmat4 bind(glm::make_mat4(&inverse[16 * i]));
-            for (int c = 0; c < 4; ++c) bind[c][3] = c == 3 ? 1.0 : 0.0;
             reach = std::max(reach, largest(place, 3, 4));
-            place = place * bind;
+            place = place * affine(glm::dmat4(glm::make_mat4(&inverse[16 * i])));
         }
         if (!finite(place)) {
             as_bound = false;
