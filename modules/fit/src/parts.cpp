@@ -256,11 +256,12 @@ void Parts::measure_distances(Slice& slice) {
         const auto end = std::ranges::find_if(
             slice.parts, [&](const Part& other) { return other.disc.radius <= thicker * part.disc.radius; });
         if (end == slice.parts.begin()) continue;
+        const std::span<const Part> thick(slice.parts.data(),
+                                          static_cast<std::size_t>(end - slice.parts.begin()));
         double sum = 0;
         for (const OutlinePoints& points : part.outline) {
             for (std::size_t i = 0; i < points.count; ++i)
-                sum += distance(std::span(slice.parts.begin(), end), static_cast<double>(points.x[i]),
-                                static_cast<double>(points.y[i]));
+                sum += distance(thick, static_cast<double>(points.x[i]), static_cast<double>(points.y[i]));
         }
         part.distance = sum / static_cast<double>(part.outline.size() * OutlinePoints::count);
     }
