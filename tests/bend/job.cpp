@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "kernel/direction.hpp"
 #include "support/bodies.hpp"
 
 #include <goffer/bend/rest_vertex.hpp>
 #include <goffer/engine/parallel.hpp>
+#include <goffer/simd/scalar_lanes.hpp>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -150,6 +154,31 @@ TEST_CASE("angles and directions of any finite size give finite results") {
                     for (const float value : out.columns[c]) REQUIRE(std::isfinite(value));
                 }
             }
+        }
+    }
+}
+
+TEST_CASE("directions are taken to a half turn either way, and stay as they are there") {
+    using Lanes = simd::ScalarLanes;
+    const float half_turn = std::numbers::pi_v<float>;
+    const auto wrapped = [](float direction) {
+        return bend::wrapped_direction<Lanes>(bend::usable_direction(direction));
+    };
+    for (const float direction : {0.0f, -0.0f, 1e-40f, -1e-30f, half_turn, -half_turn}) {
+        CHECK(std::bit_cast<std::uint32_t>(wrapped(direction)) == std::bit_cast<std::uint32_t>(direction));
+    }
+    Random random(13);
+    const double turn = 2 * std::numbers::pi;
+    for (const float size : {3.0f, 7.0f, 100.0f, bend::max_direction, 1e6f, 1e20f, 3e38f}) {
+        for (int i = 0; i < 10'000; ++i) {
+            const auto direction = static_cast<float>(uniform(random, -1, 1)) * size;
+            const float result = wrapped(direction);
+            CAPTURE(direction);
+            REQUIRE(std::fabs(result) <= half_turn);
+            if (std::fabs(direction) <= half_turn) REQUIRE(result == direction);
+            const double off =
+                std::remainder(static_cast<double>(direction), turn) - static_cast<double>(result);
+            REQUIRE(std::fabs(std::remainder(off, turn)) < 4e-7);
         }
     }
 }

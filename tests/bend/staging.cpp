@@ -28,7 +28,7 @@ TEST_CASE("a staging buffer has room for whole units behind every plane") {
         CHECK(stage.capacity() % bend::line_floats == 0);
         std::vector<const float*> planes;
         for (const bend::PassPlan& pass : plan.passes()) {
-            const bend::PlaneOutput output = stage.output(pass, 0);
+            const bend::PlaneOutput output = stage.output(pass.pass);
             for (const float* const plane : output.position) planes.push_back(plane);
             for (const float* const plane : output.normal) planes.push_back(plane);
             for (const float* const plane : output.tangent) planes.push_back(plane);

@@ -17,17 +17,6 @@ constexpr std::size_t block_vertices = 512;
 /// go through the stage, together with the joints beside them.
 constexpr std::size_t min_direct = 48;
 
-PlaneOutput behind(const PlaneOutput& out, std::size_t vertices) noexcept {
-    PlaneOutput moved = {};
-    const auto move = [&](float* plane) { return plane == nullptr ? nullptr : plane + vertices; };
-    for (std::size_t c = 0; c < 3; ++c) {
-        moved.position[c] = move(out.position[c]);
-        moved.normal[c] = move(out.normal[c]);
-    }
-    for (std::size_t c = 0; c < 4; ++c) moved.tangent[c] = move(out.tangent[c]);
-    return moved;
-}
-
 /// Makes positions come out in steps of the box, 0..65535, which the packed kernel rounds. On an axis where
 /// the box is too thin or too long for float to count its steps, all are at its low side.
 void quantize(Coefficients& k, const Bounds& bounds) noexcept {
@@ -263,8 +252,8 @@ void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size
     each_call(member, WriteMode::planes, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
                   kernels_.plane_kernel(input.squeeze, pass.streams)(
-                      *input.columns, *input.k, behind(pass.planes, members_[member].vertex + begin),
-                      input.first, end - begin, plan_.non_temporal() ? Write::non_temporal : Write::cached);
+                      *input.columns, *input.k, pass.planes, members_[member].vertex + begin, input.first,
+                      end - begin, plan_.non_temporal() ? Write::non_temporal : Write::cached);
               });
 }
 
@@ -371,7 +360,7 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
             each_pass(member, mode, region, begin, piece_end,
                       [&](const PassPlan& pass, const KernelInput& input, std::size_t from, std::size_t to) {
                           kernels_.plane_kernel(input.squeeze, pass.streams)(
-                              *input.columns, *input.k, staging_.output(pass, from - first), input.first,
+                              *input.columns, *input.k, staging_.output(pass.pass), from - first, input.first,
                               to - from, Write::staged);
                       });
         });

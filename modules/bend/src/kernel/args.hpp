@@ -86,17 +86,19 @@ struct LaneCoefficients : CoefficientsOf<InstanceLanes> {
     InstanceLanes most_doublings;  ///< the largest of `doublings`, in each lane
 };
 
-/// Where a kernel call writes planes. Value j of a plane belongs to the j-th vertex of the call.
+/// Where kernels write planes; those of vectors that a kernel does not have may be null. What was written
+/// shortly before a call is slow to read: let it stay as it is from call to call.
 struct PlaneOutput {
     float* position[3];
     float* normal[3];
     float* tangent[4];
 };
 
-/// Deforms `count` vertices of one region from vertex `first` on. May read widest_batch rest vertices from
-/// any of them. With Write::non_temporal, all planes must begin their cache lines at the same vertices.
+/// Deforms `count` vertices of one region from vertex `first` on, and writes them from the planes' vertex
+/// `to` on. May read widest_batch rest vertices from any of them. With Write::non_temporal, all planes must
+/// begin their cache lines at the same vertices.
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
-                             std::size_t first, std::size_t count, Write write);
+                             std::size_t to, std::size_t first, std::size_t count, Write write);
 
 /// What lies between a kernel's vectors in a record.
 enum class RecordGaps : unsigned char {
@@ -182,7 +184,7 @@ struct SetupRegion {
 /// and unused ones must be finite.
 struct SetupColumns {
     const float* angle;                            ///< radians, finite
-    const float* direction;                        ///< radians, -pi..pi
+    const float* direction;                        ///< radians, max_direction at most
     const float* factor;                           ///< on the amplitude
     alignas(64) float transform[12][setup_width];  ///< the matrix, column after column
     /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region, if one follows.

@@ -141,11 +141,17 @@ void deform_units(const RestColumns& rest, const Coefficients& coefficients, std
 // arguments tell the compiler that no store changes them.
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
-                                     const PlaneOutput& output, std::size_t first, std::size_t vertices,
-                                     Write write) {
-    const RestColumns rest = columns;
-    const Coefficients k = coefficients;
-    const PlaneOutput out = output;
+                                     const PlaneOutput& output, std::size_t to, std::size_t first,
+                                     std::size_t vertices, Write write) {
+    PlaneOutput out = {};
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.position[c] = output.position[c] + to;
+        if constexpr (has_normals(streams) && streams != StreamSet::packed)
+            out.normal[c] = output.normal[c] + to;
+    }
+    if constexpr (has_tangents(streams)) {
+        for (std::size_t c = 0; c < 4; ++c) out.tangent[c] = output.tangent[c] + to;
+    }
     std::size_t peeled = 0;
     if (write == Write::non_temporal) {
         peeled = floats_to_line<L>(out.position[0]);
@@ -156,6 +162,8 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
             if constexpr (has_tangents(streams)) prefetch_ends<L>(out.tangent[c], vertices);
         }
     }
+    const RestColumns rest = columns;
+    const Coefficients k = coefficients;
     deform_units<L, squeeze, streams, planes_reread<L, streams>>(
         rest, k, first, vertices, peeled != 0 ? peeled : unit<L>,
         [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {

@@ -3,6 +3,7 @@
 
 #include "kernel/amplitude_rows.hpp"
 #include "kernel/args.hpp"
+#include "kernel/direction.hpp"
 #include "kernel/setup_result.hpp"
 #include "kernel/sin_cos.hpp"
 #include "kernel/vector3.hpp"
@@ -105,7 +106,7 @@ private:
     /// A negative angle turns the direction by pi, and half the direction by pi / 2, which swaps sine and
     /// cosine.
     void set_direction(Vec angle) {
-        const SinCos<L> half = half_of(L::load(columns_.direction + first_));
+        const SinCos<L> half = half_of(wrapped_direction<L>(L::load(columns_.direction + first_)));
         const Vec zero = L::splat(0.0f);
         half_.sine = L::where_less(angle, zero, half.cosine, half.sine);
         half_.cosine = L::where_less(angle, zero, zero - half.sine, half.cosine);

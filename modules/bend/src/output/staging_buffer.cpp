@@ -16,11 +16,13 @@ StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     const std::size_t room = max_floats / plan.value_count() - spare;
     capacity_ = std::min(max_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
+    for (const PassPlan& pass : plan.passes())
+        outputs_[static_cast<std::size_t>(pass.pass)] = output_of(pass);
 }
 
-PlaneOutput StagingBuffer::output(const PassPlan& pass, std::size_t vertex) noexcept {
+PlaneOutput StagingBuffer::output_of(const PassPlan& pass) noexcept {
     PlaneOutput out = {};
-    const auto plane = [&](std::size_t value) { return planes_ + (pass.value + value) * stride_ + vertex; };
+    const auto plane = [&](std::size_t value) { return planes_ + (pass.value + value) * stride_; };
     for (std::size_t c = 0; c < 3; ++c) out.position[c] = plane(c);
     if (pass.streams == StreamSet::positions_normals || pass.streams == StreamSet::positions_normals_tangents)
         for (std::size_t c = 0; c < 3; ++c) out.normal[c] = plane(3 + c);

@@ -51,13 +51,17 @@ public:
     /// The number of vertices that it holds: a multiple of a cache line.
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
-    /// The planes of a pass from the block's vertex `vertex` on, for a kernel to fill.
-    [[nodiscard]] PlaneOutput output(const PassPlan& pass, std::size_t vertex) noexcept;
+    /// The planes of a pass of the plan, for a kernel to fill.
+    [[nodiscard]] const PlaneOutput& output(Pass pass) const noexcept {
+        return outputs_[static_cast<std::size_t>(pass)];
+    }
 
     [[nodiscard]] StagedPlanes planes() const noexcept { return {planes_, stride_}; }
 
 private:
-    static constexpr std::size_t max_floats = 3392;
+    [[nodiscard]] PlaneOutput output_of(const PassPlan& pass) noexcept;
+
+    static constexpr std::size_t max_floats = 3328;
     static constexpr std::size_t max_vertices = 256;
     // For the whole units that kernels write, and so that planes begin at different places of the cache.
     static constexpr std::size_t spare = max_unit + line_floats;
@@ -66,6 +70,7 @@ private:
 
     std::size_t capacity_;
     std::size_t stride_;  // floats from one plane to the next
+    PlaneOutput outputs_[pass_count];
     alignas(64) float planes_[max_floats];
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pose/posed_group.hpp"
 
-#include "body/direction.hpp"
+#include "kernel/direction.hpp"
 #include "pose/matrix_layout.hpp"
 
 #include <algorithm>
@@ -17,16 +17,22 @@ float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
 }
 
-/// The state of `poses`; `regions` are those of the body. Inline, since a call for each instance takes time.
+/// The state of a pose. Inline, since a call for each instance takes time.
+inline PoseState state_in(const Region& region, const Pose& pose) noexcept {
+    const bool at_rest =
+        !(pose.angle * 0.0f + pose.direction * 0.0f == 0);  // x * 0 is NaN if x is not finite
+    return {.clamped = std::fabs(pose.angle) > region.max_angle && !at_rest, .at_rest = at_rest};
+}
+
+/// The state of `poses`; `regions` are those of the body.
 inline PoseState state_in(const Region* regions, std::span<const Pose> poses) noexcept {
-    float sum = 0;  // x * 0 is 0 if x is finite, else NaN
-    bool clamped = false;
+    PoseState state;
     for (std::size_t r = 0; r < poses.size(); ++r) {
-        sum += poses[r].angle * 0.0f + poses[r].direction * 0.0f;
-        clamped |= std::fabs(poses[r].angle) > regions[r].max_angle;
+        const PoseState own = state_in(regions[r], poses[r]);
+        state.clamped |= own.clamped;
+        state.at_rest |= own.at_rest;
     }
-    const bool finite = sum == 0;
-    return {.clamped = clamped && finite, .at_rest = !finite};
+    return {.clamped = state.clamped && !state.at_rest, .at_rest = state.at_rest};
 }
 
 /// Sets a vector, which a 0 follows, in all lanes.
@@ -78,7 +84,7 @@ inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Po
     const RegionData& details = body_.details[region];
     const bool wrinkled = details.setup.rows != nullptr && weight > 0;
     angle_[place] = pose.angle;
-    direction_[place] = wrapped_direction(pose.direction);
+    direction_[place] = usable_direction(pose.direction);
     factor_[place] = weight;
     wrinkled_[place] = wrinkled;
     if (wrinkled && !details.factors->empty()) [[unlikely]]
@@ -90,11 +96,13 @@ inline PoseState PosedGroup::add(std::span<const Pose> poses, const TransformCol
     const std::size_t i = count_++;
     if (i == 0 && region_count_ > 1) set_frames();  // set-up replaced them
     const float usable = usable_weight(weight);
-    poses = poses.first(std::min(poses.size(), region_count_));
-    const PoseState state = state_in(body_.regions.data(), poses);
-    if (region_count_ == 1 && !poses.empty() && !state.at_rest) {  // the usual case, without a loop
-        set_pose(0, i, poses[0], usable);
+    PoseState state;
+    if (region_count_ == 1 && !poses.empty()) {  // the usual case, without loops
+        state = state_in(body_.regions[0], poses[0]);
+        set_pose(0, i, state.at_rest ? body_.regions[0].rest : poses[0], usable);
     } else {
+        poses = poses.first(std::min(poses.size(), region_count_));
+        state = state_in(body_.regions.data(), poses);
         set_poses(state.at_rest ? poses.first(0) : poses, i, usable);
     }
     if (!transforms.empty()) {

@@ -46,7 +46,7 @@ void Sockets::frames(const DeformJob& job, std::span<SocketFrame> frames) const 
                                           ? KernelInput{&body.columns, &posed.k[r], posed.squeezes[r], first}
                                           : blending.blend(body, set, r, *joint, {posed.k, posed.squeezes},
                                                            streams, first, count, true);
-            set.plane_kernel(input.squeeze, streams)(*input.columns, *input.k, out, input.first, count,
+            set.plane_kernel(input.squeeze, streams)(*input.columns, *input.k, out, 0, input.first, count,
                                                      Write::staged);
             for (std::size_t i = 0; i < count; ++i) {
                 const glm::vec3 normal = vector(3, i), tangent = vector(6, i);
