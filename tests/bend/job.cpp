@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "kernel/direction.hpp"
 #include "support/bodies.hpp"
 
+#include <goffer/bend/kernel_input.hpp>
 #include <goffer/bend/rest_vertex.hpp>
 #include <goffer/engine/parallel.hpp>
-#include <goffer/simd/scalar_lanes.hpp>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -158,46 +155,83 @@ TEST_CASE("angles and directions of any finite size give finite results") {
     }
 }
 
-TEST_CASE("directions are taken to a half turn either way, and stay as they are there") {
-    using Lanes = simd::ScalarLanes;
-    const float half_turn = std::numbers::pi_v<float>;
-    const auto wrapped = [](float direction) {
-        return bend::wrapped_direction<Lanes>(bend::usable_direction(direction));
-    };
-    for (const float direction : {0.0f, -0.0f, 1e-40f, -1e-30f, half_turn, -half_turn}) {
-        CHECK(std::bit_cast<std::uint32_t>(wrapped(direction)) == std::bit_cast<std::uint32_t>(direction));
-    }
-    Random random(13);
+/// The direction of a pose in that direction, as kernels see it.
+double direction_of(const bend::Body& body, float direction, Isa isa) {
+    bend::Pose pose{1, direction};
+    bend::Batch batch;
+    batch.body = &body;
+    batch.count = 1;
+    batch.poses = {.data = &pose, .count = 1};
+    bend::Coefficients k;
+    bend::set_up(batch, {&k, 1}, isa);
+    return 2 *
+           std::atan2(static_cast<double>(k.sin_half_direction), static_cast<double>(k.cos_half_direction));
+}
+
+TEST_CASE("directions of any size are taken to a half turn either way") {
     const double turn = 2 * std::numbers::pi;
-    for (const float size : {3.0f, 7.0f, 100.0f, bend::max_direction, 1e6f, 1e20f, 3e38f}) {
-        for (int i = 0; i < 10'000; ++i) {
-            const auto direction = static_cast<float>(uniform(random, -1, 1)) * size;
-            const float result = wrapped(direction);
+    const float half_turn = std::numbers::pi_v<float>;
+    Random random(13);
+    const bend::Body body = loose_body(random, 1);
+    for (const Isa isa : isas_here()) {
+        for (const float size : {3.0f, 7.0f, 100.0f, 1e5f, 4e5f, 5e5f, 1e20f, 3e38f}) {
+            for (int i = 0; i < 2000; ++i) {
+                const auto direction = static_cast<float>(uniform(random, -1, 1)) * size;
+                const double off =
+                    std::remainder(static_cast<double>(direction), turn) - direction_of(body, direction, isa);
+                CAPTURE(direction);
+                REQUIRE(std::fabs(std::remainder(off, turn)) < 1e-6);
+            }
+        }
+        CHECK(direction_of(body, half_turn, isa) > 3);
+        CHECK(direction_of(body, -half_turn, isa) < -3);
+        CHECK(direction_of(body, -1e-30f, isa) < 0);
+    }
+}
+
+TEST_CASE("a body that is bent at rest has no wrinkles there, whatever its direction") {
+    Random random(14);
+    for (const float direction : {3.0f, -4.0f, 100.0f, -999.0f}) {
+        bend::RegionInput region = loose_region(100);
+        region.rest_angle = 1.2;
+        region.rest_direction = static_cast<double>(direction);
+        const bend::Body body = LooseVertices(random, 100, 0.11).body({&region, 1});
+        Output out(100), half(100);
+        for (const Isa isa : isas_here()) {
+            bend::DeformJob job = make_job(body, {1.2f, direction}, isa, out);
+            bend::run(job);
+            job = make_job(body, {1.2f, direction}, isa, half);
+            job.wrinkle_weight = 0.5f;
+            bend::run(job);
             CAPTURE(direction);
-            REQUIRE(std::fabs(result) <= half_turn);
-            if (std::fabs(direction) <= half_turn) REQUIRE(result == direction);
-            const double off =
-                std::remainder(static_cast<double>(direction), turn) - static_cast<double>(result);
-            REQUIRE(std::fabs(std::remainder(off, turn)) < 4e-7);
+            CHECK(same_output_bits(out, half));
         }
     }
 }
 
 TEST_CASE("whole turns of a direction change nothing but roundings, at half turns too") {
     Random random(12);
-    const fit::Binding binding = bound_body(random);
-    Output out(binding.body.vertex_count()), wrapped(binding.body.vertex_count());
+    bend::RegionInput region = loose_region(200);
+    region.factors.max_angle = 4.9f;
+    region.factors.rows.resize(3);
+    for (auto& row : region.factors.rows)
+        for (float& square : row) square = static_cast<float>(uniform(random, 0.2, 2));
+    const bend::Body bodies[] = {bound_body(random).body,
+                                 LooseVertices(random, 200, 0.11).body({&region, 1})};
     const float half_turn = std::numbers::pi_v<float>;
-    for (const float near : {0.0f, 0.3f, half_turn, -half_turn, 2.0f}) {
-        for (const float turns : {0.0f, 1.0f, -1.0f, 3.0f, -100.0f, 1e5f, 1e8f}) {
-            const float direction = near + turns * 2 * half_turn;
-            const auto same =
-                static_cast<float>(std::remainder(static_cast<double>(direction), 2 * std::numbers::pi));
-            CAPTURE(direction);
-            bend::run(make_job(binding.body, {0.9f, direction}, Isa::automatic, out));
-            bend::run(make_job(binding.body, {0.9f, same}, Isa::automatic, wrapped));
-            for (std::size_t i = 0; i < binding.body.vertex_count(); ++i)
-                REQUIRE(glm::length(out.position(i) - wrapped.position(i)) < 2e-6 * binding.body.length());
+    for (const bend::Body& body : bodies) {
+        Output out(body.vertex_count()), wrapped(body.vertex_count());
+        for (const float near : {0.0f, 0.3f, half_turn, -half_turn, 2.0f}) {
+            for (const float turns : {0.0f, 1.0f, -1.0f, 3.0f, -100.0f, 6e4f, 1e5f, 1e8f}) {
+                const float direction = near + turns * 2 * half_turn;
+                const auto same =
+                    static_cast<float>(std::remainder(static_cast<double>(direction), 2 * std::numbers::pi));
+                CAPTURE(direction);
+                bend::run(make_job(body, {0.9f, direction}, Isa::automatic, out));
+                bend::run(make_job(body, {0.9f, same}, Isa::automatic, wrapped));
+                for (std::size_t i = 0; i < body.vertex_count(); ++i)
+                    REQUIRE(glm::length(out.position(i) - wrapped.position(i)) < 2e-6 * body.length());
+            }
         }
     }
 }

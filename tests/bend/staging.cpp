@@ -22,8 +22,11 @@ TEST_CASE("a staging buffer has room for whole units behind every plane") {
                                            "xyzuvwabcdpqr", "xyzuvwabcdpqr123", "pqr123"}) {
         CAPTURE(picture);
         OutputBuffer out(picture, test_mesh.count());
-        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), bend::kernels(Isa::automatic), false);
-        bend::StagingBuffer stage(plan);
+        const bool past_the_cache = true;  // where lines that regions share are staged
+        const bend::OutputPlan plan(bend::batch_of(test_mesh.job(out)), bend::kernels(Isa::automatic),
+                                    past_the_cache);
+        REQUIRE(plan.stages());
+        const bend::StagingBuffer stage(plan);
         REQUIRE(stage.capacity() > 0);
         CHECK(stage.capacity() % bend::line_floats == 0);
         std::vector<const float*> planes;

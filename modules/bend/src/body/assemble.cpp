@@ -2,8 +2,6 @@
 #include "body/body_data.hpp"
 #include "kernel/direction.hpp"
 
-#include <goffer/simd/scalar_lanes.hpp>
-
 namespace goffer::bend {
 namespace {
 
@@ -42,8 +40,7 @@ SetupRegion setup_of(const RegionInput& region, double radius, bool shape) {
     setup.shaped = shape;
     setup.onset = static_cast<float>(region.onset);
     setup.rest_angle = static_cast<float>(region.rest_angle);
-    setup.rest_direction =
-        wrapped_direction<simd::ScalarLanes>(usable_direction(static_cast<float>(region.rest_direction)));
+    setup.rest_direction = wrappable_direction(static_cast<float>(region.rest_direction));
     if (region.table.empty()) return setup;
     setup.rows = reinterpret_cast<const float(*)[amplitude_terms]>(region.table.rows.front().data());
     setup.row_count = region.table.rows.size();

@@ -86,19 +86,20 @@ struct LaneCoefficients : CoefficientsOf<InstanceLanes> {
     InstanceLanes most_doublings;  ///< the largest of `doublings`, in each lane
 };
 
-/// Where kernels write planes; those of vectors that a kernel does not have may be null. What was written
-/// shortly before a call is slow to read: let it stay as it is from call to call.
+/// Where kernels write planes; those of vectors that a kernel does not have may be null. Kernels load several
+/// of these pointers at a time, which waits for whatever was stored just before: set them once, not for each
+/// call.
 struct PlaneOutput {
     float* position[3];
     float* normal[3];
     float* tangent[4];
 };
 
-/// Deforms `count` vertices of one region from vertex `first` on, and writes them from the planes' vertex
-/// `to` on. May read widest_batch rest vertices from any of them. With Write::non_temporal, all planes must
-/// begin their cache lines at the same vertices.
+/// Deforms `count` vertices of one region from vertex `first` on, and writes them from vertex `out_first` of
+/// the planes on. May read widest_batch rest vertices from any of them. With Write::non_temporal, all planes
+/// must begin their cache lines at the same vertices.
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
-                             std::size_t to, std::size_t first, std::size_t count, Write write);
+                             std::size_t out_first, std::size_t first, std::size_t count, Write write);
 
 /// What lies between a kernel's vectors in a record.
 enum class RecordGaps : unsigned char {
@@ -177,14 +178,14 @@ struct SetupRegion {
     bool relative;
     bool last;    ///< no region follows it
     bool shaped;  ///< kernels evaluate amplitudes even where there is no wrinkle: set-up sets them to 0
-    float onset, rest_angle, rest_direction;  ///< used if relative; the direction is within -pi..pi
+    float onset, rest_angle, rest_direction;  ///< used if relative; the direction as in SetupColumns
 };
 
 /// What up to setup_width instances are set up from, one value per instance. There are setup_width of each,
 /// and unused ones must be finite.
 struct SetupColumns {
     const float* angle;                            ///< radians, finite
-    const float* direction;                        ///< radians, max_direction at most
+    const float* direction;                        ///< radians, within +-max_wrapped (direction.hpp)
     const float* factor;                           ///< on the amplitude
     alignas(64) float transform[12][setup_width];  ///< the matrix, column after column
     /// e1, e2, e3 and origin of the region. Set-up replaces them by those of the next region, if one follows.

@@ -141,16 +141,16 @@ void deform_units(const RestColumns& rest, const Coefficients& coefficients, std
 // arguments tell the compiler that no store changes them.
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
-                                     const PlaneOutput& output, std::size_t to, std::size_t first,
+                                     const PlaneOutput& output, std::size_t out_first, std::size_t first,
                                      std::size_t vertices, Write write) {
     PlaneOutput out = {};
     for (std::size_t c = 0; c < 3; ++c) {
-        out.position[c] = output.position[c] + to;
+        out.position[c] = output.position[c] + out_first;
         if constexpr (has_normals(streams) && streams != StreamSet::packed)
-            out.normal[c] = output.normal[c] + to;
+            out.normal[c] = output.normal[c] + out_first;
     }
     if constexpr (has_tangents(streams)) {
-        for (std::size_t c = 0; c < 4; ++c) out.tangent[c] = output.tangent[c] + to;
+        for (std::size_t c = 0; c < 4; ++c) out.tangent[c] = output.tangent[c] + out_first;
     }
     std::size_t peeled = 0;
     if (write == Write::non_temporal) {

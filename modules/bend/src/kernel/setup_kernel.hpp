@@ -98,7 +98,9 @@ private:
         L::store(table_place, L::sqrt(fraction) * L::splat(static_cast<float>(region_.row_count - 1)));
     }
 
-    static SinCos<L> half_of(Vec direction) { return doubled<L>(sin_cos<L>(direction * L::splat(0.25f))); }
+    static SinCos<L> half_of(Vec direction) {
+        return doubled<L>(sin_cos<L>(wrapped_direction<L>(direction) * L::splat(0.25f)));
+    }
     static SinCos<L> whole_of(SinCos<L> half) {
         return {(half.sine + half.sine) * half.cosine, (half.cosine - half.sine) * (half.cosine + half.sine)};
     }
@@ -106,7 +108,7 @@ private:
     /// A negative angle turns the direction by pi, and half the direction by pi / 2, which swaps sine and
     /// cosine.
     void set_direction(Vec angle) {
-        const SinCos<L> half = half_of(wrapped_direction<L>(L::load(columns_.direction + first_)));
+        const SinCos<L> half = half_of(L::load(columns_.direction + first_));
         const Vec zero = L::splat(0.0f);
         half_.sine = L::where_less(angle, zero, half.cosine, half.sine);
         half_.cosine = L::where_less(angle, zero, zero - half.sine, half.cosine);

@@ -94,6 +94,11 @@ public:
     [[nodiscard]] bool in_lines(WriteMode mode) const noexcept {
         return in_lines_[static_cast<std::size_t>(mode)];
     }
+    /// Whether anything may go through a stage: a pass, vertices near joints, or lines that regions share.
+    [[nodiscard]] bool stages() const noexcept {
+        return has(WriteMode::staged) || has(WriteMode::pairs) || in_lines(WriteMode::planes) ||
+               in_lines(WriteMode::records);
+    }
     /// The number of vertices from vertex `vertex` of the buffer to the first one that begins a cache line,
     /// in the first plane or record that is written as whole lines. 0 if there is no such plane, record or
     /// vertex.

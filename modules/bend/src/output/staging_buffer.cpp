@@ -16,6 +16,7 @@ StagingBuffer::StagingBuffer(const OutputPlan& plan) noexcept {
     const std::size_t room = max_floats / plan.value_count() - spare;
     capacity_ = std::min(max_vertices, room / line_floats * line_floats);
     stride_ = capacity_ + spare;
+    if (!plan.stages()) return;
     for (const PassPlan& pass : plan.passes())
         outputs_[static_cast<std::size_t>(pass.pass)] = output_of(pass);
 }

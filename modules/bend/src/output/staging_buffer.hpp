@@ -51,7 +51,7 @@ public:
     /// The number of vertices that it holds: a multiple of a cache line.
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
-    /// The planes of a pass of the plan, for a kernel to fill.
+    /// The planes of a pass, for a kernel to fill. The plan has it, and stages something.
     [[nodiscard]] const PlaneOutput& output(Pass pass) const noexcept {
         return outputs_[static_cast<std::size_t>(pass)];
     }
@@ -61,7 +61,7 @@ public:
 private:
     [[nodiscard]] PlaneOutput output_of(const PassPlan& pass) noexcept;
 
-    static constexpr std::size_t max_floats = 3328;
+    static constexpr std::size_t max_floats = 3328;  // 160 vertices of 16 values, with what they spare
     static constexpr std::size_t max_vertices = 256;
     // For the whole units that kernels write, and so that planes begin at different places of the cache.
     static constexpr std::size_t spare = max_unit + line_floats;
@@ -69,8 +69,8 @@ private:
     static_assert(max_vertices + spare <= StagedPlanes::max_stride);
 
     std::size_t capacity_;
-    std::size_t stride_;  // floats from one plane to the next
-    PlaneOutput outputs_[pass_count];
+    std::size_t stride_;               // floats from one plane to the next
+    PlaneOutput outputs_[pass_count];  // set where output() may be asked for them
     alignas(64) float planes_[max_floats];
 };
 

@@ -4,6 +4,8 @@
 #include "kernel/direction.hpp"
 #include "pose/matrix_layout.hpp"
 
+#include <goffer/simd/scalar_lanes.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -84,7 +86,7 @@ inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Po
     const RegionData& details = body_.details[region];
     const bool wrinkled = details.setup.rows != nullptr && weight > 0;
     angle_[place] = pose.angle;
-    direction_[place] = usable_direction(pose.direction);
+    direction_[place] = wrappable_direction(pose.direction);
     factor_[place] = weight;
     wrinkled_[place] = wrinkled;
     if (wrinkled && !details.factors->empty()) [[unlikely]]
@@ -138,9 +140,10 @@ PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) no
 void PosedGroup::take_factor(std::size_t region, std::size_t place, const Pose& pose) noexcept {
     const Region& limits = body_.regions[region];
     const FactorTable& factors = *body_.details[region].factors;
+    const float direction = wrapped_direction<simd::ScalarLanes>(direction_[place]);
     const float turned = pose.angle < 0 ? std::numbers::pi_v<float> : 0.0f;
     factor_[place] *= factors.at(std::min(std::fabs(pose.angle), limits.max_angle),
-                                 direction_[place] - limits.rest.direction + turned);
+                                 direction - limits.rest.direction + turned);
 }
 
 const RegionData& PosedGroup::take_region(std::size_t region) noexcept {
