@@ -137,8 +137,8 @@ void deform_units(const RestColumns& rest, const Coefficients& coefficients, std
     }
 }
 
-// Flattened into one loop, so that constants stay in registers as far as these suffice. The copies of the
-// arguments tell the compiler that no store changes them.
+// Flattened into one loop, so that constants stay in registers as far as these suffice. The copies of
+// arguments tell the compiler that no store changes them; those that are read again would gain nothing.
 template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
                                      const PlaneOutput& output, std::size_t out_first, std::size_t first,
@@ -163,18 +163,22 @@ GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficie
         }
     }
     const RestColumns rest = columns;
-    const Coefficients k = coefficients;
-    deform_units<L, squeeze, streams, planes_reread<L, streams>>(
-        rest, k, first, vertices, peeled != 0 ? peeled : unit<L>,
-        [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
-            store_planes<L>(results, &Results<L>::position, out.position, j, count, write);
-            if constexpr (has_normals(streams) && streams != StreamSet::packed)
-                store_planes<L>(results, &Results<L>::normal, out.normal, j, count, write);
-            if constexpr (has_tangents(streams)) {
-                store_planes<L>(results, &Results<L>::tangent, out.tangent, j, count, write);
-                store_signs<L>(results, out.tangent[3], j, count, write);
-            }
-        });
+    const auto store = [&](const Results<L>(&results)[batches<L>], std::size_t j, std::size_t count) {
+        store_planes<L>(results, &Results<L>::position, out.position, j, count, write);
+        if constexpr (has_normals(streams) && streams != StreamSet::packed)
+            store_planes<L>(results, &Results<L>::normal, out.normal, j, count, write);
+        if constexpr (has_tangents(streams)) {
+            store_planes<L>(results, &Results<L>::tangent, out.tangent, j, count, write);
+            store_signs<L>(results, out.tangent[3], j, count, write);
+        }
+    };
+    const std::size_t next = peeled != 0 ? peeled : unit<L>;
+    if constexpr (planes_reread<L, streams>) {
+        deform_units<L, squeeze, streams, true>(rest, coefficients, first, vertices, next, store);
+    } else {
+        const Coefficients k = coefficients;
+        deform_units<L, squeeze, streams, false>(rest, k, first, vertices, next, store);
+    }
 }
 
 }  // namespace goffer::bend
