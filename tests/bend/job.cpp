@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/bodies.hpp"
 
+#include <goffer/bend/crowd.hpp>
 #include <goffer/bend/kernel_input.hpp>
 #include <goffer/bend/rest_vertex.hpp>
 #include <goffer/engine/parallel.hpp>
@@ -157,11 +158,11 @@ TEST_CASE("angles and directions of any finite size give finite results") {
 
 /// The direction of a pose in that direction, as kernels see it.
 double direction_of(const bend::Body& body, float direction, Isa isa) {
-    bend::Pose pose{1, direction};
+    bend::Pose toward{1, direction};
     bend::Batch batch;
     batch.body = &body;
     batch.count = 1;
-    batch.poses = {.data = &pose, .count = 1};
+    batch.poses = {.data = &toward, .count = 1};
     bend::Coefficients k;
     bend::set_up(batch, {&k, 1}, isa);
     return 2 *

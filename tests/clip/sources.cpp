@@ -11,6 +11,13 @@ namespace {
 
 constexpr std::size_t frame_count = 40;
 
+/// Two frames, the second of which is larger.
+MadeFrames growing(const mesh::Mesh& mesh) {
+    return {mesh, 2, [](std::size_t frame, const glm::vec3&, bool, const glm::vec3& v) {
+                return v * (1.0f + static_cast<float>(frame));
+            }};
+}
+
 MadeFrames walking(const mesh::Mesh& mesh) {
     return {mesh, frame_count, bending, circling};
 }
@@ -131,6 +138,68 @@ TEST_CASE("clip: a skin is left out, with a warning, and its mesh stands where i
     const clip::GltfReport report = check_clip(mesh, frames);
     REQUIRE(report.warnings.size() == 1);
     CHECK(report.warnings[0].find("skins") != std::string::npos);
+}
+
+TEST_CASE("clip: a skinned mesh whose joints shear it stands so without a matrix that does") {
+    for (const double across : {2.0, -2.0}) {  // a mirror, too
+        Document document = skinned();
+        document.json["nodes"] = Json::parse(
+            R"([{"mesh": 0, "skin": 0}, {"children": [2], "translation": [5, -1, 2]}, {"rotation": [0.1, 0.3, 0.2, 0.9273618495495704]}])");
+        document.json["nodes"][1]["scale"] = {1, across, 0.5};
+        document.json["skins"][0]["joints"] = {2};
+        const mesh::Mesh mesh = load_document(document);
+        MadeFrames frames = walking(mesh);
+        (void)check_clip(mesh, frames);
+        MadeFrames two = growing(mesh);
+        const Folder folder;
+        (void)saved_clip(mesh, two, folder / "clip.glb");
+        const Player player(bytes_of(folder / "clip.glb"));
+        REQUIRE(player.json["nodes"].size() == 5);
+        for (const auto& node : player.json["nodes"]) CHECK_FALSE(node.contains("matrix"));
+        const mesh::Mesh back = mesh::load(folder / "clip.glb");
+        REQUIRE(back.positions.size() == mesh.positions.size());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            CHECK(glm::length(back.positions[i] - mesh.positions[i]) < 1e-5f);
+    }
+}
+
+TEST_CASE("clip: a skinned mesh is in all scenes that showed it, and once where there was none") {
+    Document two = skinned();
+    two.json["nodes"].push_back({{"children", {0}}});
+    two.json["scenes"] = Json::parse(R"([{"nodes": [2, 1]}, {"nodes": [1]}, {"nodes": [1, 2]}])");
+    Document none = skinned();
+    none.json.erase("scene");
+    none.json.erase("scenes");
+    const auto scenes_of = [](const Document& document) {
+        const mesh::Mesh mesh = load_document(document);
+        MadeFrames frames = growing(mesh);
+        const Folder folder;
+        (void)saved_clip(mesh, frames, folder / "clip.glb");
+        CHECK(mesh::load(folder / "clip.glb").positions == mesh.positions);
+        const Player player(bytes_of(folder / "clip.glb"));
+        std::vector<std::vector<int>> scenes;
+        for (const auto& scene : player.json["scenes"]) scenes.push_back(scene["nodes"]);
+        return scenes;
+    };
+    CHECK(scenes_of(two) == std::vector<std::vector<int>>{{2, 1, 4}, {1}, {1, 2, 4}});
+    CHECK(scenes_of(none) == std::vector<std::vector<int>>{{0, 1, 3}});
+}
+
+TEST_CASE("clip: instances of one mesh take time in proportion to their number") {
+    Document document = skinned();
+    Json& nodes = document.json["nodes"];
+    for (int i = 0; i < 20'000; ++i) {
+        nodes.push_back(nodes[0]);
+        document.json["scenes"][0]["nodes"].push_back(2 + i);
+    }
+    const mesh::Mesh mesh = load_document(document);
+    MadeFrames frames = growing(mesh);
+    const Folder folder;
+    const auto start = std::chrono::steady_clock::now();
+    (void)saved_clip(mesh, frames, folder / "clip.glb");
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    MESSAGE(seconds << " s");
+    CHECK(seconds < 10);  // some two; with their square, 20
 }
 
 TEST_CASE("clip: morph targets of the file's own are left out, with a warning") {

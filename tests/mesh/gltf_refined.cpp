@@ -262,6 +262,20 @@ TEST_CASE("gltf: what cannot be refined is named") {
     Document lone = skinned(weights);
     primitive_of(lone)["attributes"].erase("WEIGHTS_0");
     CHECK(told(lone).find("attributes.JOINTS_0: has no WEIGHTS_0 beside it") != std::string::npos);
+    Document other = skinned(weights);
+    primitive_of(other)["attributes"].erase("JOINTS_0");
+    CHECK(told(other).find("attributes.WEIGHTS_0: is not one of JOINTS_0, WEIGHTS_0") != std::string::npos);
+    Document later = skinned(weights);
+    for (const char* name : {"JOINTS_", "WEIGHTS_"}) {
+        Json& attributes = primitive_of(later)["attributes"];
+        attributes[std::string(name) + "1"] = attributes[std::string(name) + "0"];
+        attributes.erase(std::string(name) + "0");
+    }
+    CHECK(told(later).find("attributes.JOINTS_1: is not one of") != std::string::npos);
+    Document many = skinned(weights);
+    primitive_of(many)["attributes"]["JOINTS_0"] = many.floats(std::vector<float>(16, 65536.0f), "VEC4");
+    CHECK(told(many).find("JOINTS_0: has a joint whose number is not 0..65535, for vertex 0") !=
+          std::string::npos);
     Document matrix = tetra();
     primitive_of(matrix)["attributes"]["_M"] =
         matrix.accessor(matrix.view(std::string(4 * 64, '\0')), 5126, "MAT4", 4);

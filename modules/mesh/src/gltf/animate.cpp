@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace goffer::mesh::gltf {
@@ -140,13 +141,14 @@ void Animator::carry() {
     if (at_rest(morphing_.translations, no_shift) && at_rest(morphing_.rotations, no_turn)) return;
     Json& json = document_.json;
     const Json roots = shown_scene(json)["nodes"];
+    const std::set<Json> carried(roots.begin(), roots.end());
     const std::size_t carrier = json["nodes"].size();
     json["nodes"].push_back({{"name", "carrier"}, {"children", roots}});
     each(json, "scenes", [&](Json& scene) {
         if (!scene.contains("nodes")) return;
         Json kept = Json::array();
         for (const Json& root : scene["nodes"])
-            if (std::find(roots.begin(), roots.end(), root) == roots.end()) kept.push_back(root);
+            if (!carried.contains(root)) kept.push_back(root);
         if (kept.size() != scene["nodes"].size()) kept.push_back(carrier);
         scene["nodes"] = std::move(kept);
     });

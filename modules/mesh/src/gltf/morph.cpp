@@ -62,7 +62,7 @@ private:
     [[nodiscard]] std::vector<float> turns(const Block& block, const MorphTarget& target,
                                            const std::vector<float>& normals) const;
     [[nodiscard]] Json targets_of(const Block& block, const Json& attributes);
-    void morph(std::size_t first, std::size_t last, std::vector<std::string>& warnings);
+    void morph(std::size_t first, std::size_t last, MeshUsers& users, std::vector<std::string>& warnings);
 
     [[nodiscard]] std::uint32_t entry(const Block& block, std::size_t i) const {
         const std::size_t vertex = block.first[position] + i;
@@ -145,8 +145,9 @@ Json Morpher::targets_of(const Block& block, const Json& attributes) {
 }
 
 /// Gives the blocks from `first` to `last`, which are all of one node, their targets.
-void Morpher::morph(std::size_t first, std::size_t last, std::vector<std::string>& warnings) {
-    const std::size_t own = claim_mesh(document_.json, scene_.blocks[first].node);
+void Morpher::morph(std::size_t first, std::size_t last, MeshUsers& users,
+                    std::vector<std::string>& warnings) {
+    const std::size_t own = users.claim(scene_.blocks[first].node);
     bool had_targets = false;
     for (std::size_t b = first; b < last; ++b) {
         const Block& block = scene_.blocks[b];
@@ -169,14 +170,15 @@ void Morpher::morph(std::size_t first, std::size_t last, std::vector<std::string
 }
 
 Output Morpher::run(std::vector<std::string>& warnings) && {
-    warnings = let_go_of_motion(document_.json, scene_.blocks);
+    MeshUsers users(document_.json);
+    warnings = let_go_of_motion(document_.json, users, scene_.blocks);
     std::vector<std::size_t> nodes;
     for (std::size_t first = 0, last = 0; first < scene_.blocks.size(); first = last) {
         const auto begin = scene_.blocks.begin();
         while (last < scene_.blocks.size() && scene_.blocks[last].node == scene_.blocks[first].node) ++last;
         const auto at = [&](std::size_t b) { return begin + static_cast<std::ptrdiff_t>(b); };
         if (std::none_of(at(first), at(last), [&](const Block& block) { return moves(block); })) continue;
-        morph(first, last, warnings);
+        morph(first, last, users, warnings);
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);

@@ -5,6 +5,7 @@
 
 #include <goffer/mesh/morph.hpp>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,16 +32,27 @@ private:
     std::size_t add_view(const std::string& bytes, bool of_vertices);
 };
 
-/// Gives `node` an entry of the meshes that no other node has, and returns its number.
-std::size_t claim_mesh(Json& json, std::size_t node);
+/// How many nodes have each entry of a document's meshes. Refers to the document.
+class MeshUsers {
+public:
+    explicit MeshUsers(Json& json);
+
+    /// Gives `node` an entry of the meshes that no other node has, and returns its number.
+    std::size_t claim(std::size_t node);
+
+private:
+    Json& json_;
+    std::map<std::size_t, std::size_t> users_;  // of each mesh that has one
+};
 
 /// Returns the scene that is shown. It is made where the document has none, and so shows all nodes.
 [[nodiscard]] Json& shown_scene(Json& json);
 
 /// Takes out what moves the nodes of `blocks` in another way: animations and skins. A mesh that had a skin
-/// moves to another node, where its joints placed it, and its blocks with it. Returns a warning for each
-/// kind.
-[[nodiscard]] std::vector<std::string> let_go_of_motion(Json& json, std::vector<Block>& blocks);
+/// moves to another node, where its joints placed it, in all scenes that showed it, and its blocks with it.
+/// Returns a warning for each kind.
+[[nodiscard]] std::vector<std::string> let_go_of_motion(Json& json, MeshUsers& users,
+                                                        std::vector<Block>& blocks);
 
 /// Adds the animation of `morphing`: its weights at `nodes`, whose meshes have all of its targets, and the
 /// placement at a new parent of the whole scene.

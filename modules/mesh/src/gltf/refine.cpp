@@ -79,6 +79,13 @@ std::string weights_name(std::size_t set) {
     return "WEIGHTS_" + std::to_string(set);
 }
 
+/// Whether an attribute is one of the first `sets` sets of joints and weights.
+bool is_of_set(const std::string& name, std::size_t sets) {
+    for (std::size_t set = 0; set < sets; ++set)
+        if (name == joints_name(set) || name == weights_name(set)) return true;
+    return false;
+}
+
 class SceneRefiner {
 public:
     SceneRefiner(const Document& document, const Cut& cut)
@@ -199,7 +206,18 @@ void SceneRefiner::refine_skin(const BlockCut& cut, const Value& attributes, Jso
             joints.fail("has no " + weights_name(sets) + " beside it; export the file again");
         const std::vector<float> who = values_of(cut, joints, 4);
         const std::vector<float> much = values_of(cut, attributes[weights_name(sets).c_str()], 4);
-        for (std::size_t i = 0; i < who.size(); ++i) all[i / 4].emplace_back(who[i], much[i]);
+        for (std::size_t i = 0; i < who.size(); ++i) {
+            if (!(who[i] >= 0 && who[i] <= std::numeric_limits<std::uint16_t>::max()))
+                joints.fail("has a joint whose number is not 0..65535, for vertex " + std::to_string(i / 4) +
+                            "; export the file again");
+            all[i / 4].emplace_back(who[i], much[i]);
+        }
+    }
+    for (const auto& [name, index] : attributes.json().items()) {
+        const bool of_skin = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+        if (of_skin && !is_of_set(name, sets))
+            attributes[name.c_str()].fail(
+                "is not one of JOINTS_0, WEIGHTS_0, JOINTS_1 and so on, in pairs; export the file again");
     }
     if (sets == 0) return;
     for (const auto& [a, b, t] : cut.vertices) all.push_back(mixed(all[a], all[b], t, 4 * sets));
