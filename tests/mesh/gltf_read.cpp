@@ -3,6 +3,7 @@
 #include "support/models.hpp"
 
 #include <algorithm>
+#include <limits>
 
 using namespace goffer::test;
 using goffer::mesh::Attribute;
@@ -389,6 +390,12 @@ TEST_CASE("gltf: joints that stand as they were bound place a mesh exactly, othe
     Document few = bound("{}");
     few.json["skins"][0]["joints"] = {1, 2, 0};
     CHECK(load_error("d.glb", few.glb()).find("has 2 elements for 3 joints") != std::string::npos);
+    Document no_number = bound("{}");
+    no_number.json["skins"][0]["inverseBindMatrices"] = no_number.accessor(
+        no_number.view(raw(std::vector<float>(32, std::numeric_limits<float>::quiet_NaN()))), 5126, "MAT4",
+        2);
+    CHECK(load_error("d.glb", no_number.glb()).find("inverseBindMatrices: has a number that is not finite") !=
+          std::string::npos);
     Document dangling = bound("{}");
     dangling.json["nodes"][0]["skin"] = 5;
     CHECK(load_error("d.glb", dangling.glb()).find("nodes[0].skin") != std::string::npos);

@@ -39,6 +39,8 @@ std::vector<float> inverse_binds(const Document& document, const Value& skin) {
     if (inverse.size() / 16 < skin["joints"].size())
         reference.fail("has " + std::to_string(inverse.size() / 16) + " elements for " +
                        std::to_string(skin["joints"].size()) + " joints; export the file again");
+    if (!std::ranges::all_of(inverse, [](float value) { return std::isfinite(value); }))
+        reference.fail("has a number that is not finite; export the file again");
     return inverse;
 }
 
