@@ -15,7 +15,7 @@ int main() try {
     bend::DeformJob job{.body = &worm.body, .pose = {.angle = 1.5f, .direction = 0.5f}};  // in radians
     job.positions = interleaved<3>(&shape.positions[0].x, shape.positions.size());
     if (!shape.normals.empty()) job.normals = interleaved<3>(&shape.normals[0].x, shape.normals.size());
-    bend::run(job);  // every frame: no allocation, no lock
+    bend::run(job);  // every frame: allocates nothing
     mesh::save(mesh::with_vertex_arrays(model, shape), "bent.glb");
 } catch (const std::exception& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 1;

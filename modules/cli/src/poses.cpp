@@ -278,14 +278,17 @@ std::string rest_words(const bend::Body& body) {
     double all = 0;
     bool same = true;
     const double toward = rest_direction(body);
-    std::string list;
+    std::string list, angles;
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const RestPose rest = rest_pose(body, i);
         all += rest.angle;
+        angles += (i == 0 ? "" : ",") + number(rest.angle);
         same = same && (rest.angle == 0 || rest.direction == toward);
         list += (i == 0 ? "" : ", ") + number(rest.angle) + " toward " + number(rest.direction);
     }
-    return same && !is_chain(body) ? number(all) + " degrees toward " + number(toward) : list + " degrees";
+    if (!same || is_chain(body)) return list + " degrees";
+    const std::string whole = number(all) + " degrees toward " + number(toward);
+    return body.region_count() == 1 ? whole : whole + " (by region " + angles + ")";
 }
 
 std::vector<Target> targets_from_straight(const PoseRequest& request) {
