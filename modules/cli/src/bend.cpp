@@ -137,14 +137,6 @@ void report_smooth(Report& report, const Request& request, const BoundModel& mod
                 where + ": area " + percent(change) + " there, " + percent(cost) + " elsewhere");
 }
 
-/// What was squeezed at rest is stretched where the body gets straighter, and wrinkles take no area away.
-void warn_of_stretch(Report& report, double change) {
-    constexpr double most = 0.01;
-    if (change > most)
-        report.warn("the area changes by " + percent(change) +
-                    ": straightening stretches the inner side, which wrinkles cannot make up for");
-}
-
 /// Whether nobody said how to wrinkle, so that area is to be kept.
 bool keeps_area(const Request& request, const BoundModel& model) {
     const BindRequest& bind = request.bind;

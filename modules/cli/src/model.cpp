@@ -165,10 +165,9 @@ void add_fit_words(CLI::App& command, FitWords& words) {
     command
         .add_option(
             "--rest", words.rest,
-            "Fit the center line: auto (an arc where that fits better, or a chain of arcs, each of which is "
-            "a "
-            "region; no chain with --regions, nor by crowd, cache and figures), arc (one, or straight), "
-            "straight")
+            "Fit the center line: auto (an arc where that fits better, or a chain of arcs, each of which "
+            "is a region; no chain with --regions, nor by crowd, cache and figures), arc (one, or "
+            "straight), straight")
         ->check(CLI::IsMember({"auto", "arc", "straight"}))
         ->capture_default_str();
     command

@@ -360,6 +360,13 @@ std::string capacity_words(int folds) {
     return folds >= fit::Stretch::max_folds ? "any number" : std::to_string(folds);
 }
 
+void warn_of_stretch(Report& report, double change, const std::string& when, const std::string& then) {
+    constexpr double most = 0.01;
+    if (change > most)
+        report.warn("the area changes by " + percent(change) + when +
+                    ": straightening stretches the inner side, which wrinkles cannot make up for" + then);
+}
+
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then) {
     report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " + number(limit) +

@@ -111,6 +111,11 @@ struct Target {
 /// How many folds a mesh carries.
 [[nodiscard]] std::string capacity_words(int folds);
 
+/// Warns where the area of a body that gets straighter than at rest grows: what was squeezed there is
+/// stretched, and wrinkles take no area away. `when` is put behind the change; `then` ends the line.
+void warn_of_stretch(Report& report, double change, const std::string& when = {},
+                     const std::string& then = {});
+
 /// Warns that an angle is beyond the largest, both in degrees. `which` begins the line; `then` ends it: what
 /// is done.
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,

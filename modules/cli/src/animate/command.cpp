@@ -42,14 +42,11 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
         report.line("path", "the center line is within " + number(survey.path_error) + " of it");
     report.line("area change", "at most " + percent(survey.worst_area_change) + ", in frame " +
                                    std::to_string(survey.worst_frame + 1));
-    constexpr double most_growth = 0.01;
-    if (model.cylinder.bent() && survey.worst_area_change > most_growth)
-        report.warn("the area changes by " + percent(survey.worst_area_change) + " in frame " +
-                    std::to_string(survey.worst_frame + 1) +
-                    ": straightening stretches the inner side, which wrinkles cannot make up for" +
-                    (options.swing && !options.from_rest
-                         ? "; to swing from the shape of the file, use --from-rest"
-                         : ""));
+    if (model.cylinder.bent())
+        warn_of_stretch(
+            report, survey.worst_area_change, " in frame " + std::to_string(survey.worst_frame + 1),
+            options.swing && !options.from_rest ? "; to swing from the shape of the file, use --from-rest"
+                                                : "");
     if (survey.clamped > 0)
         report.warn("in " + counted(survey.clamped, "frame") +
                     " a region is asked to bend further than it can, and is bent as far as it can");

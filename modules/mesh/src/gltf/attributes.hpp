@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What the primitives of a document have for each vertex, before any of it is read.
@@ -26,6 +27,11 @@ using AccessorSet = std::vector<std::size_t>;
 
 /// The attribute's name.
 [[nodiscard]] std::string uv_name(std::size_t set);
+
+/// Whether an attribute of that name is for skins: joints, or their weights.
+[[nodiscard]] inline bool is_of_skin(std::string_view name) {
+    return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+}
 
 /// How many values and indices there are to read for a primitive, or for the meshes of nodes; 0 where reading
 /// will refuse something.

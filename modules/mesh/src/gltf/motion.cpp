@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "attributes.hpp"
 #include "morph.hpp"
 
 #include <glm/geometric.hpp>
@@ -8,8 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
-#include <string_view>
+#include <vector>
 
 namespace goffer::mesh::gltf {
 
@@ -24,6 +26,15 @@ void each_number(const Json& owner, const char* key, std::size_t count, const Vi
     });
 }
 
+/// Of each node, whether it is another's child.
+std::vector<bool> children_of(const Json& json) {
+    std::vector<bool> is_child(json["nodes"].size(), false);
+    each(json, "nodes", [&](const Json& node) {
+        each_number(node, "children", is_child.size(), [&](std::size_t child) { is_child[child] = true; });
+    });
+    return is_child;
+}
+
 std::size_t number_of_shown_scene(const Json& json) {
     return json.contains("scene") ? json["scene"].get<std::size_t>() : 0;
 }
@@ -34,12 +45,8 @@ public:
     /// Makes the default scene where the document has none.
     explicit Scenes(Json& json) : json_(json), root_(json["nodes"].size()) {
         static_cast<void>(shown_scene(json));
-        std::vector<bool> is_child(root_.size(), false);
-        for (std::size_t n = 0; n < root_.size(); ++n) {
-            root_[n] = n;
-            each_number(json["nodes"][n], "children", root_.size(),
-                        [&](std::size_t child) { is_child[child] = true; });
-        }
+        std::iota(root_.begin(), root_.end(), std::size_t{0});
+        const std::vector<bool> is_child = children_of(json);
         for (std::size_t n = 0; n < root_.size(); ++n)
             if (!is_child[n]) set_root(n);
         for (std::size_t s = 0; s < json["scenes"].size(); ++s)
@@ -140,7 +147,7 @@ std::size_t unskin(Json& json, MeshUsers& users, const Scenes& scenes, std::size
     each(json["meshes"][mesh], "primitives", [](Json& primitive) {
         Json kept = Json::object();
         for (const auto& [name, accessor] : primitive["attributes"].items())
-            if (!name.starts_with("JOINTS_") && !name.starts_with("WEIGHTS_")) kept[name] = accessor;
+            if (!is_of_skin(name)) kept[name] = accessor;
         primitive["attributes"] = std::move(kept);
     });
     auto [moved, parent] = nodes_at(place);
@@ -189,13 +196,10 @@ std::size_t MeshUsers::claim(std::size_t node) {
 
 Json& shown_scene(Json& json) {
     if (!json.contains("scenes") || !json["scenes"].is_array() || json["scenes"].empty()) {
-        std::set<std::size_t> children;
-        each(json, "nodes", [&](const Json& node) {
-            each(node, "children", [&](const Json& child) { children.insert(child.get<std::size_t>()); });
-        });
+        const std::vector<bool> is_child = children_of(json);
         Json roots = Json::array();
-        for (std::size_t i = 0; i < json["nodes"].size(); ++i)
-            if (!children.contains(i)) roots.push_back(i);
+        for (std::size_t i = 0; i < is_child.size(); ++i)
+            if (!is_child[i]) roots.push_back(i);
         Json scene = Json::object();
         scene["nodes"] = std::move(roots);
         json["scenes"] = Json::array();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refine.hpp"
 
+#include "attributes.hpp"
 #include "edit.hpp"
 #include "interpolate.hpp"
 
@@ -178,7 +179,7 @@ std::size_t SceneRefiner::refined(const BlockCut& cut, const Value& reference, K
 void SceneRefiner::refine_attributes(const BlockCut& cut, const Value& was, Json& primitive) {
     const Value attributes = was["attributes"];
     for (const auto& [name, index] : attributes.json().items()) {
-        if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) continue;
+        if (is_of_skin(name)) continue;
         const Value reference = attributes[name.c_str()];
         const Kind kind = kind_of(name, document_.entry("accessors", reference));
         primitive["attributes"][name] = refined(cut, reference, kind, name == stream_name[position]);
@@ -214,8 +215,7 @@ void SceneRefiner::refine_skin(const BlockCut& cut, const Value& attributes, Jso
         }
     }
     for (const auto& [name, index] : attributes.json().items()) {
-        const bool of_skin = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
-        if (of_skin && !is_of_set(name, sets))
+        if (is_of_skin(name) && !is_of_set(name, sets))
             attributes[name.c_str()].fail(
                 "is not one of JOINTS_0, WEIGHTS_0, JOINTS_1 and so on, in pairs; export the file again");
     }
