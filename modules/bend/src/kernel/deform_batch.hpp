@@ -11,6 +11,9 @@
 /// they give T = h^2 = 1 + c, sin(beta - theta) = h h', and sqrt(q) = sqrt(kappa) |h| without a square root,
 /// unless the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
 /// See modules/paper/README.md, "Bend".
+///
+/// Local vectors are not const: g++ 12 would write those of two registers to the stack, where nothing reads
+/// them, again and again, and stores past the cache wait for that.
 
 namespace goffer::bend {
 
@@ -24,7 +27,7 @@ typename L::Vec polynomial(const Number (&coefficients)[N], typename L::Vec x) {
 /// The same for an even N, with even and odd powers side by side: one operation more, but half the latency.
 template <class L, class Number, std::size_t N>
 typename L::Vec long_polynomial(const Number (&coefficients)[N], typename L::Vec x) {
-    const typename L::Vec xx = x * x;
+    typename L::Vec xx = x * x;
     typename L::Vec even = L::splat(coefficients[N - 2]);
     typename L::Vec odd = L::splat(coefficients[N - 1]);
     for (std::size_t n = N - 2; n > 0; n -= 2) {
@@ -54,8 +57,7 @@ struct Bent {
 /// root of two, carries over.
 template <class L, class Number>
 SinCos<L> rotated_by(SinCos<L> columns, const Number& cos_direction, const Number& sin_direction) {
-    const typename L::Vec ct = L::splat(cos_direction);
-    const typename L::Vec st = L::splat(sin_direction);
+    typename L::Vec ct = L::splat(cos_direction), st = L::splat(sin_direction);
     return {L::nmadd(columns.cosine, st, columns.sine * ct), L::madd(columns.sine, st, columns.cosine * ct)};
 }
 
@@ -80,18 +82,18 @@ void set_plain_column(const Rest& rest, const K& k, typename L::Vec scale, Bent<
     const auto [h_prime, h] =
         rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
                       k.cos_half_direction, k.sin_half_direction);
-    const Vec t = h * h;
+    Vec t = h * h;
     b.c = t - L::splat(1.0f);
     b.s = h * h_prime;
     Vec x = t;
     if constexpr (squeeze == Squeeze::shaped) x = t * scale;
     if constexpr (squeeze == Squeeze::none) return;
-    const Vec size = L::abs(h);
+    Vec size = L::abs(h);
     b.amplitude = size * long_polynomial<L>(k.amplitude, x);
     if constexpr (slope) {
         // A has a corner on the outer line, where h changes sign; the two slopes are blended across it.
-        const Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
-        const Vec per_turn = long_polynomial<L>(k.amplitude_slope, x);
+        Vec sign = L::clamp(h * L::splat(per_crease_width), L::splat(-1.0f), L::splat(1.0f));
+        Vec per_turn = long_polynomial<L>(k.amplitude_slope, x);
         b.slope = sign * h_prime * per_turn;
         if constexpr (squeeze == Squeeze::shaped) b.less_by_scale = size * per_turn;
     }
@@ -113,23 +115,23 @@ template <class L, bool slope, class K>
 void set_relative_wrinkle(const RestTerms<L>& rest, const K& k, Bent<L>& b) {
     using Vec = typename L::Vec;
     const auto& [rest_cosine, rest_sine, per_rest_scale] = rest;
-    const Vec zero = L::splat(0.0f);
-    const Vec q = L::max(
+    Vec zero = L::splat(0.0f);
+    Vec q = L::max(
         L::madd(L::splat(k.curl_change[1]), rest_sine,
                 L::madd(L::splat(k.curl_change[0]), rest_cosine, L::splat(k.kappa_change) * per_rest_scale)),
         zero);
-    const Vec per_root = L::rsqrt(q + L::splat(k.onset));
-    const Vec root = q * per_root;
-    const Vec x = root * root;
+    Vec per_root = L::rsqrt(q + L::splat(k.onset));
+    Vec root = q * per_root;
+    Vec x = root * root;
     b.amplitude = root * long_polynomial<L>(k.amplitude, x);
     if constexpr (slope) {
-        const Vec rest_slope =
+        Vec rest_slope =
             L::nmadd(L::splat(k.rest_curl[1]), rest_cosine, L::splat(k.rest_curl[0]) * rest_sine);
-        const Vec turned =
+        Vec turned =
             L::nmadd(L::splat(k.curl_change[0]), rest_sine, L::splat(k.curl_change[1]) * rest_cosine);
-        const Vec q_slope = L::nmadd(q, rest_slope, turned);
-        const Vec per_q = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
-                          long_polynomial<L>(k.amplitude_slope, x);
+        Vec q_slope = L::nmadd(q, rest_slope, turned);
+        Vec per_q = per_root * L::nmadd(L::splat(0.5f) * root, per_root, L::splat(1.0f)) *
+                    long_polynomial<L>(k.amplitude_slope, x);
         b.slope = L::madd(b.amplitude, rest_slope, per_q * L::where_less(zero, q, q_slope, zero));
         b.less_by_scale = per_q * q;
     }
@@ -138,8 +140,8 @@ void set_relative_wrinkle(const RestTerms<L>& rest, const K& k, Bent<L>& b) {
 /// Sets the directions of columns, and their wrinkle if the squeeze is relative to that at rest.
 template <class L, bool slope, class Rest, class K>
 void set_relative_column(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
-    const SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)},
-                                         k.cos_direction, k.sin_direction);
+    SinCos<L> turn = rotated_by<L>({L::load(rest.sin_beta + i), L::load(rest.cos_beta + i)}, k.cos_direction,
+                                   k.sin_direction);
     b.c = turn.cosine;
     b.s = turn.sine;
     set_relative_wrinkle<L, slope>(load_rest_terms<L>(rest, i), k, b);
@@ -167,7 +169,7 @@ template <class L>
 void double_arc(const Coefficients& k, Bent<L>& b) {
     float curvature = k.first_curvature;
     for (float n = 0; n < k.doublings; ++n) {  // cos 2x = 1 - 2 sin^2 x, sin 2x = 2 sin x cos x
-        const typename L::Vec cosine = L::nmadd(L::splat(curvature), b.arc_x, L::splat(1.0f));
+        typename L::Vec cosine = L::nmadd(L::splat(curvature), b.arc_x, L::splat(1.0f));
         b.arc_x = L::splat(curvature) * b.arc_z * b.arc_z;
         b.arc_z = b.arc_z * cosine;
         curvature += curvature;
@@ -181,7 +183,7 @@ void set_arc(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
     Vec v = L::load(rest.height + i);
     // To where a cylinder has the same arc angle.
     if (has_shape<squeeze>(rest)) v = L::nmadd(L::splat(k.curvature), L::load(rest.drift + i), v);
-    const Vec vv = v * v;
+    Vec vv = v * v;
     b.arc_x = vv * polynomial<L>(k.arc_x, vv);
     b.arc_z = v * polynomial<L>(k.arc_z, vv);
     double_arc<L>(k, b);
@@ -204,7 +206,7 @@ void fill_column_buffer(const RestColumns& rest, const Coefficients& k, std::siz
                         ColumnBuffer<L>& buffer) {
     for (std::size_t i = first; i < last; i += L::width) {
         const std::size_t at = i + L::width <= last ? i : last - L::width;
-        const Bent<L> b = turn_batch<L, squeeze, false>(rest, k, at);
+        Bent<L> b = turn_batch<L, squeeze, false>(rest, k, at);
         L::store(buffer.rho_c + (at - first), b.rho_c);
         L::store(buffer.rho_s + (at - first), b.rho_s);
     }
@@ -236,12 +238,12 @@ template <class L, class K, class Number>
 Vector<L> place_direction(const K& k, const Number* matrix, const Bent<L>& b, typename L::Vec n,
                           typename L::Vec bt, typename L::Vec t) {
     using Vec = typename L::Vec;
-    const Vec cosine = L::nmadd(L::splat(k.curvature), b.arc_x, L::splat(1.0f));
-    const Vec sine = L::splat(k.curvature) * b.arc_z;
-    const Vec p = L::nmadd(b.s, bt, b.c * n);
-    const Vec x = L::madd(p, cosine, t * sine);
-    const Vec y = L::madd(b.c, bt, b.s * n);
-    const Vec z = L::nmadd(p, sine, t * cosine);
+    Vec cosine = L::nmadd(L::splat(k.curvature), b.arc_x, L::splat(1.0f));
+    Vec sine = L::splat(k.curvature) * b.arc_z;
+    Vec p = L::nmadd(b.s, bt, b.c * n);
+    Vec x = L::madd(p, cosine, t * sine);
+    Vec y = L::madd(b.c, bt, b.s * n);
+    Vec z = L::nmadd(p, sine, t * cosine);
     return place<L, Number>(matrix, nullptr, x, y, z);
 }
 
@@ -251,7 +253,7 @@ template <class L>
 Vector<L> normalized(const Vector<L>& v) {
     using Vec = typename L::Vec;
     const auto& [x, y, z] = v.component;
-    const Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::splat(1e-37f));
+    Vec inverse = L::rsqrt(L::madd(x, x, L::madd(y, y, z * z)) + L::splat(1e-37f));
     return {{x * inverse, y * inverse, z * inverse}};
 }
 
@@ -273,31 +275,31 @@ struct Jacobian {
 /// the body is thick.
 template <class L, class Rest, class K>
 void set_shaped_stretch(const Rest& rest, const K& k, Bent<L>& b, std::size_t i) {
-    const typename L::Vec kappa = L::splat(1.0f) - L::splat(k.one_minus_kappa);
+    typename L::Vec kappa = L::splat(1.0f) - L::splat(k.one_minus_kappa);
     b.stretch = b.stretch * L::nmadd(kappa, L::load(rest.scale + i), L::splat(1.0f) + kappa);
 }
 
 /// A times d(g w)/dz, and what the body's shape adds.
 template <class L, Squeeze squeeze, class Rest>
 typename L::Vec along(const Rest& rest, const Bent<L>& bent, std::size_t i) {
-    const typename L::Vec plain = bent.amplitude * L::load(rest.slope + i);
+    typename L::Vec plain = bent.amplitude * L::load(rest.slope + i);
     return has_shape<squeeze>(rest) ? L::nmadd(bent.less_by_scale, L::load(rest.taper + i), plain) : plain;
 }
 
 template <class L, Squeeze squeeze, class Rest, class K>
 typename L::Vec half_radius(const Rest& rest, const K& k, std::size_t i) {
-    const typename L::Vec half = L::splat(k.half_radius);
+    typename L::Vec half = L::splat(k.half_radius);
     return has_shape<squeeze>(rest) ? half * L::load(rest.scale + i) : half;
 }
 
 template <class L, Squeeze squeeze, class Rest, class K>
 Jacobian<L> jacobian(const Rest& rest, const K& k, const Bent<L>& bent, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec wrinkle = L::load(rest.wrinkle + i);
-    const Vec around = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
+    Vec wrinkle = L::load(rest.wrinkle + i);
+    Vec around = L::madd(bent.amplitude, wrinkle, L::splat(1.0f));
     // Below half the radius the depth weight is proportional to rho, so the wrinkle stretches rho as much as
     // the circle.
-    const Vec outward =
+    Vec outward =
         L::where_less(L::load(rest.rho + i), half_radius<L, squeeze>(rest, k, i), around, L::splat(1.0f));
     return {outward, bent.slope * wrinkle, along<L, squeeze>(rest, bent, i), around};
 }
@@ -305,15 +307,15 @@ Jacobian<L> jacobian(const Rest& rest, const K& k, const Bent<L>& bent, std::siz
 template <class L, Squeeze squeeze, class Rest, class K>
 Vector<L> bend_normals(const Rest& rest, const K& k, const Bent<L>& b, const Jacobian<L>& j, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec rho = L::load(rest.normal[0] + i);
-    const Vec beta = L::load(rest.normal[1] + i);
-    const Vec z = L::load(rest.normal[2] + i);
+    Vec rho = L::load(rest.normal[0] + i);
+    Vec beta = L::load(rest.normal[1] + i);
+    Vec z = L::load(rest.normal[2] + i);
     if constexpr (squeeze == Squeeze::none) {
         return place_direction<L>(k, k.normal_matrix, b, b.stretch * rho, b.stretch * beta, z);
     } else {
-        const Vec n = b.stretch * (j.around * rho);  // in this order, as blend_batch has it
-        const Vec bt = b.stretch * L::nmadd(j.across, rho, j.outward * beta);
-        const Vec t = j.around * L::nmadd(j.along, rho, j.outward * z);
+        Vec n = b.stretch * (j.around * rho);  // in this order, as blend_batch has it
+        Vec bt = b.stretch * L::nmadd(j.across, rho, j.outward * beta);
+        Vec t = j.around * L::nmadd(j.along, rho, j.outward * z);
         return place_direction<L>(k, k.normal_matrix, b, n, bt, t);
     }
 }
@@ -321,13 +323,13 @@ Vector<L> bend_normals(const Rest& rest, const K& k, const Bent<L>& b, const Jac
 template <class L, Squeeze squeeze, class Rest, class K>
 Vector<L> bend_tangents(const Rest& rest, const K& k, const Bent<L>& b, const Jacobian<L>& j, std::size_t i) {
     using Vec = typename L::Vec;
-    const Vec rho = L::load(rest.tangent[0] + i);
-    const Vec beta = L::load(rest.tangent[1] + i);
-    const Vec z = L::load(rest.tangent[2] + i);
+    Vec rho = L::load(rest.tangent[0] + i);
+    Vec beta = L::load(rest.tangent[1] + i);
+    Vec z = L::load(rest.tangent[2] + i);
     if constexpr (squeeze == Squeeze::none) {
         return place_direction<L>(k, k.matrix, b, rho, beta, b.stretch * z);
     } else {
-        const Vec n = L::madd(j.outward, rho, L::madd(j.across, beta, j.along * z));
+        Vec n = L::madd(j.outward, rho, L::madd(j.across, beta, j.along * z));
         return place_direction<L>(k, k.matrix, b, n, j.around * beta, b.stretch * z);
     }
 }
@@ -337,16 +339,16 @@ Vector<L> bend_tangents(const Rest& rest, const K& k, const Bent<L>& b, const Ja
 template <class L>
 Vector<L> pack(const Vector<L>& position, const Vector<L>& normal) {
     using Vec = typename L::Vec;
-    const Vec zero = L::splat(0.0f);
+    Vec zero = L::splat(0.0f);
     const auto step = [&](Vec value) { return L::clamp(value, zero, L::splat(65535.0f)); };
     const auto& [x, y, z] = normal.component;
     // Projects the normal onto the octahedron |x| + |y| + |z| = 1. Below z = 0 it is folded outward: both |x|
     // and |y| grow by |z|.
-    const Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::splat(1e-30f);
-    const Vec scale = L::reciprocal(sum) * L::splat(32767.0f);
-    const Vec below = L::max(L::nmadd(z, scale, zero), zero);
-    const Vec u = x * scale;
-    const Vec v = y * scale;
+    Vec sum = L::abs(x) + L::abs(y) + L::abs(z) + L::splat(1e-30f);
+    Vec scale = L::reciprocal(sum) * L::splat(32767.0f);
+    Vec below = L::max(L::nmadd(z, scale, zero), zero);
+    Vec u = x * scale;
+    Vec v = y * scale;
     return {{L::pack_int16(step(position.component[0]), step(position.component[1])),
              L::word(step(position.component[2])),
              L::pack_int16(u + L::with_sign(below, u), v + L::with_sign(below, v))}};
