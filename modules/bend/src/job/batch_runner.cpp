@@ -17,6 +17,9 @@ constexpr std::size_t block_vertices = 512;
 /// go through the stage, together with the joints beside them.
 constexpr std::size_t min_direct = 48;
 
+/// So many vertices near a joint go through the stage with it: about as many as it holds.
+constexpr std::size_t max_staged_joint = 224;
+
 /// Makes positions come out in steps of the box, 0..65535, which the packed kernel rounds. On an axis where
 /// the box is too thin or too long for float to count its steps, all are at its low side.
 void quantize(Coefficients& k, const Bounds& bounds) noexcept {
@@ -158,16 +161,27 @@ std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) con
                                               : before + line_floats;
 }
 
-/// The end of a stretch that goes through the stage and begins at `first` in `region`. It ends behind a line
-/// that regions share, if enough whole lines of one region follow for a kernel call of their own.
+/// The joint behind a region: an empty span, or the vertices near it if these are few, which are then
+/// blended in one go for each of its sides, not once more in the line that both share.
+BatchRunner::Span BatchRunner::joint_behind(std::size_t region) const noexcept {
+    const std::size_t at = body_.regions[region].last;
+    if (region + 1 == regions_) return {at, at};
+    const Span near = {std::min(at, body_.details[region].joints.above.first),
+                       std::max(at, body_.details[region + 1].joints.below.last)};
+    return near.last - near.first <= max_staged_joint ? near : Span{at, at};
+}
+
+/// The end of a stretch that goes through the stage and begins at `first`, at the joint behind `region` or
+/// before it. It ends behind a line that is the joint's in part, if enough whole lines that are of one region
+/// follow for a kernel call of their own.
 std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std::size_t first,
                                     std::size_t last) const noexcept {
     std::size_t end = first;
     for (;; ++region) {
-        end = std::max(end, std::min(line_behind(member, body_.regions[region].last), last));
+        end = std::max(end, std::min(line_behind(member, joint_behind(region).last), last));
         if (end == last) return end;
         while (body_.regions[region + 1].last <= end) ++region;
-        const std::size_t next = std::min(body_.regions[region + 1].last, last);
+        const std::size_t next = std::min(joint_behind(region + 1).first, last);
         if (line_before(member, next) >= end + min_direct) return end;
     }
 }
@@ -233,10 +247,7 @@ void BatchRunner::each_piece(std::size_t first, std::size_t last, const Deform& 
 /// The end of a block that begins at `first`: where a line ends, after at most `most` vertices.
 std::size_t BatchRunner::block_end(std::size_t member, std::size_t first, std::size_t last,
                                    std::size_t most) const noexcept {
-    const std::size_t peeled = members_[member].peeled;
-    const std::size_t end =
-        first < peeled ? peeled + most - line_floats : peeled + ((first - peeled) / most + 1) * most;
-    return std::min(end, last);
+    return last - first <= most ? last : line_before(member, first + most);
 }
 
 void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last) noexcept {
@@ -313,7 +324,7 @@ void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t f
         while (body_.regions[region].last <= first) ++region;
         const std::size_t region_end = std::min(body_.regions[region].last, last);
         const bool whole = region_end == last || !in_lines;
-        const std::size_t end = whole ? region_end : line_before(member, region_end);
+        const std::size_t end = whole ? region_end : line_before(member, joint_behind(region).first);
         if (!whole && end < first + min_direct) {
             const std::size_t joints = joints_end(member, region, first, last);
             deform_staged(member, mode, first, joints);

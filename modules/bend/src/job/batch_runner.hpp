@@ -102,6 +102,7 @@ private:
                                       std::size_t last) const noexcept;
     template <class Deform>
     void each_piece(std::size_t first, std::size_t last, const Deform& deform) noexcept;
+    [[nodiscard]] Span joint_behind(std::size_t region) const noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
                                          std::size_t last) const noexcept;
     [[nodiscard]] std::size_t line_before(std::size_t member, std::size_t vertex) const noexcept;
