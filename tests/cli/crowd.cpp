@@ -3,11 +3,14 @@
 #include "support/models.hpp"
 #include "support/sanitized.hpp"
 
+#include <goffer/mesh/mesh.hpp>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <string>
 
+using namespace goffer;
 using namespace goffer::test;
 using nlohmann::json;
 
@@ -59,6 +62,8 @@ TEST_CASE("crowd: every field, with its type") {
     CHECK(all["models"][0]["max_angle"].get<double>() > 180);
     REQUIRE(all["models"][0]["regions"].size() == 1);
     CHECK(all["models"][0]["regions"][0]["folds"] == 10);
+    CHECK(all["models"][0]["straightens"] == false);
+    CHECK(all["models"][0]["suitability"]["shells"] == 1);
     const std::string bits = all["hash"];
     CHECK(bits.size() == 16);
     CHECK(bits.find_first_not_of("0123456789abcdef") == bits.npos);
@@ -199,6 +204,45 @@ TEST_CASE("crowd: a warning says which of several models is meant") {
     const json all = report(folder, {"crowd", "base.ply", "coarse.ply", "--instances", "2", "--frames", "1"});
     REQUIRE(all["warnings"].size() == 1);
     CHECK(all["warnings"][0].get<std::string>().starts_with("coarse.ply: bent without wrinkles"));
+}
+
+TEST_CASE("crowd: a body that is bent at rest") {
+    const Folder folder;
+    small_base(folder, "straight.ply");
+    well(folder, {"bend", "straight.ply", "--angle", "70", "--direction", "30", "--amplitude", "none", "-o",
+                  "base.ply"});
+    const json straightened = crowd(folder, {});
+    REQUIRE(straightened["warnings"].size() == 1);
+    CHECK(straightened["warnings"][0].get<std::string>().find("the swing straightens it") !=
+          std::string::npos);
+    CHECK(straightened["models"][0]["straightens"] == true);
+    const json further = crowd(folder, {"--from-rest"});
+    CHECK(further["warnings"] == json::array());
+    CHECK(further["models"][0]["straightens"] == false);
+    CHECK(further["hash"] != straightened["hash"]);
+    // Not at all from the rest pose is one pose, from straight to it and back another.
+    const std::string still = hash(folder, {"--from-rest", "--angle", "0"});
+    CHECK(report(folder, {"crowd", "base.ply", "--instances", "20", "--frames", "50", "--from-rest",
+                          "--angle", "0"})["hash"] == still);
+    CHECK(hash(folder, {"--angle", "0"}) != still);
+    const json beyond = crowd(folder, {"--from-rest", "--angle", "2000"});
+    REQUIRE(beyond["warnings"].size() == 1);
+    CHECK(beyond["warnings"][0].get<std::string>().starts_with("the angle of 2070 degrees is beyond"));
+    CHECK(beyond["clamped"] == 0);
+}
+
+TEST_CASE("crowd: says which model is no cylinder") {
+    const Folder folder;
+    small_base(folder);
+    mesh::Mesh flat = mesh::load(folder / "base.ply");
+    for (glm::vec3& p : flat.positions) p.y /= 6;
+    flat.normals = {};
+    mesh::save(flat, folder / "flat.ply");
+    const json all = report(folder, {"crowd", "base.ply", "flat.ply", "--instances", "2", "--frames", "1"});
+    CHECK(std::ranges::count_if(all["warnings"], [](const json& warning) {
+              return warning.get<std::string>().starts_with("flat.ply: the body is no cylinder");
+          }) == 1);
+    CHECK(all["models"][1]["suitability"]["flatness"].get<double>() > 3);
 }
 
 TEST_CASE("crowd: one instance, one frame") {

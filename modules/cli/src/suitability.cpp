@@ -69,23 +69,25 @@ std::string warning(const fit::Suitability& found, double residual) {
 
 }  // namespace
 
-bool report_suitability(Report& report, const BoundModel& model) {
+bool report_suitability(Report& report, const BoundModel& model, nlohmann::ordered_json& json,
+                        const std::string& where) {
     const fit::Geometry geometry{model.rest.positions, model.rest.triangles};
     const fit::Suitability found = fit::suitability_of(geometry, model.cylinder);
-    report.json["suitability"] = {{"shells", found.shells},
-                                  {"side_by_side", found.side_by_side},
-                                  {"side_by_side_share", found.side_by_side_share},
-                                  {"flatness", found.flatness}};
+    json["suitability"] = {{"shells", found.shells},
+                           {"side_by_side", found.side_by_side},
+                           {"side_by_side_share", found.side_by_side_share},
+                           {"flatness", found.flatness}};
     const bool round = !model.cylinder.arcs.empty();  // about its chain, or it would have none
     const std::string why = warning(found, round ? 0 : model.cylinder.residual);
-    if (const std::string far = far_away(model); !far.empty()) report.warn(far);
+    if (const std::string far = far_away(model); !far.empty()) report.warn(where + far);
     if (const std::size_t stray = stray_vertices(model); stray > 0)
-        report.warn((stray == 1 ? "a vertex that no face uses lies"
+        report.warn(where +
+                    (stray == 1 ? "a vertex that no face uses lies"
                                 : std::to_string(stray) + " vertices that no face uses lie") +
                     std::string(" beyond the ends of the body, and the output has ") +
                     (stray == 1 ? "it" : "them") +
                     " at its ends; take out loose points and lines, or give them faces");
-    if (!why.empty()) report.warn("the body is no cylinder and may look odd when bent: " + why);
+    if (!why.empty()) report.warn(where + "the body is no cylinder and may look odd when bent: " + why);
     return !why.empty();
 }
 

@@ -4,10 +4,13 @@
 #include "model.hpp"
 #include "report.hpp"
 
+#include <string>
+
 namespace goffer::cli {
 
-/// Warns, in one line, of a body that is no cylinder: it is bent all the same, but may look odd. Puts what
-/// was found into the JSON, as "suitability". Returns whether it is none.
-bool report_suitability(Report& report, const BoundModel& model);
+/// Warns, in one line that `where` begins, of a body that is no cylinder: it is bent all the same, but may
+/// look odd. Puts what was found into `json`, as "suitability". Returns whether it is none.
+bool report_suitability(Report& report, const BoundModel& model, nlohmann::ordered_json& json,
+                        const std::string& where = {});
 
 }  // namespace goffer::cli

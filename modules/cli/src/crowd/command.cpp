@@ -9,12 +9,14 @@
 #include "poses.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "suitability.hpp"
 #include "threads.hpp"
 
 #include <goffer/io/atomic_file.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -29,6 +31,7 @@ struct CrowdOptions {
     std::size_t instances = 1000;
     std::size_t frames = 100;
     PoseWords pose;
+    bool from_rest = false;
     BindWords bind;
     std::string streams = "planar";
     bool normals = false;
@@ -64,6 +67,7 @@ struct CrowdRequest {
           bind(BindRequest(options.bind, pose.regions).with_one_arc()),
           plan{.instances = options.instances,
                .poses = {},
+               .from_rest = options.from_rest,
                .layout = parse_layout(options.streams, options.normals),
                .isa = parse_isa_option(options.isa),
                .stores = parse_stores(options.stores)},
@@ -76,6 +80,7 @@ struct CrowdRequest {
         for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
         check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}});
         picture = picture_settings(options.picture);
+        pose.from_rest = options.from_rest;
     }
 
     /// Sets the targets and the plan's poses. The arcs of a chain share an angle by the lengths that they
@@ -106,12 +111,27 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
     const std::vector<Target>& targets = request.targets;
     std::vector<double> used;
     for (std::size_t r = 0; r < targets.size(); ++r) {
-        used.push_back(used_angle(body, r, targets[r].pose));
-        if (std::fabs(targets[r].pose.angle) <= body.max_angle(r) || std::isinf(targets[r].angle)) continue;
-        warn_of_angle(report, where + region_words(r, targets.size()), targets[r].angle,
-                      degrees(static_cast<double>(body.max_angle(r))), "it is bent so far at most");
+        const double rest = request.pose.from_rest ? rest_pose(body, r).angle : 0;
+        const double limit = degrees(static_cast<double>(body.max_angle(r)));
+        const double asked = std::fabs(targets[r].angle) + rest;
+        used.push_back(radians(std::min(asked, limit)));
+        if (asked <= limit || std::isinf(asked)) continue;
+        warn_of_angle(report, where + region_words(r, targets.size()), std::copysign(asked, targets[r].angle),
+                      limit, "it is bent so far at most");
     }
     if (!model.baked) warn_of_folds(report, request.bind, model, used, where);
+}
+
+/// Warns of a swing that straightens a body which is bent at rest. Returns whether it does.
+bool warn_of_straightening(Report& report, const CrowdRequest& request, const bend::Body& body,
+                           const std::string& where) {
+    const bool straightens =
+        !request.pose.from_rest &&
+        std::ranges::any_of(body.region_inputs(), [](const auto& region) { return region.rest_angle != 0; });
+    if (straightens)
+        report.warn(where + "the body is bent at rest by " + rest_words(body) +
+                    ", and the swing straightens it; to swing from there, use --from-rest");
+    return straightens;
 }
 
 void report_models(Report& report, const CrowdRequest& request, std::span<const BoundModel> models) {
@@ -129,14 +149,18 @@ void report_models(Report& report, const CrowdRequest& request, std::span<const 
             folds += model.binding.folds(r);
             limit += own;
         }
-        report.json["models"].push_back({{"file", model.file.string()},
-                                         {"vertices", body.vertex_count()},
-                                         {"folds", folds},
-                                         {"max_angle", limit},
-                                         {"regions", regions}});
+        report.json["models"].push_back(
+            {{"file", model.file.string()},
+             {"vertices", body.vertex_count()},
+             {"folds", folds},
+             {"max_angle", limit},
+             {"regions", regions},
+             {"straightens", warn_of_straightening(report, request, body, where)}});
+        nlohmann::ordered_json& json = report.json["models"].back();
+        if (!model.baked) report_suitability(report, model, json, where);
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +
                                  " vertices, " + counted(static_cast<std::size_t>(folds), "fold"));
-        if (model.growth) report_growth(report, *model.growth, report.json["models"].back());
+        if (model.growth) report_growth(report, *model.growth, json);
     }
 }
 
@@ -253,6 +277,8 @@ void add_crowd(CLI::App& app, Action& action) {
         *command, options->pose,
         "Swing between straight and this many degrees; negative: the other way; max: as far as each "
         "model can");
+    command->add_flag("--from-rest", options->from_rest,
+                      "Swing between the rest pose and this many degrees beyond, instead of from straight");
     options->bind.amplitude = "paper";  // the factors of `mesh` cost time in each frame
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "off");

@@ -3,6 +3,7 @@
 
 #include "memory.hpp"
 
+#include <goffer/bend/body_input.hpp>
 #include <goffer/measure/fill.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -89,12 +90,23 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
+/// A pose that is added to the region's rest pose, as vectors (alpha cos theta, alpha sin theta), but not
+/// beyond `limit`.
+bend::Pose beyond_rest(const bend::RegionInput& region, const bend::Pose& pose, float limit) {
+    const auto x = static_cast<float>(region.rest_angle * std::cos(region.rest_direction)) +
+                   pose.angle * std::cos(pose.direction);
+    const auto y = static_cast<float>(region.rest_angle * std::sin(region.rest_direction)) +
+                   pose.angle * std::sin(pose.direction);
+    return {std::min(std::hypot(x, y), limit), std::atan2(y, x)};
+}
+
 }  // namespace
 
 Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
     : columns_(columns_for(plan.instances, models.size())),
       spacing_(spacing_for(models)),
       farthest_(plan.poses),
+      from_rest_(plan.from_rest),
       memory_(memory_for(models, plan)),
       scene_(groups_of(models, plan.instances), plan.layout, memory_[0]) {
     members_.reserve(plan.instances);
@@ -141,6 +153,7 @@ void Crowd::set_poses(std::size_t frame) noexcept {
             const float limit = body.max_angle(r);
             const float angle = std::clamp(farthest_[r].angle, -limit, limit);
             poses[r] = {static_cast<float>(static_cast<double>(angle) * swing), direction};
+            if (from_rest_) poses[r] = beyond_rest(body.region_inputs()[r], poses[r], limit);
             start += static_cast<double>(body.regions()[r].length);
         }
     });

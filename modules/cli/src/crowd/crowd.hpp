@@ -20,13 +20,14 @@ struct CrowdPlan {
     std::size_t instances = 0;
     /// The farthest, one per region; a region that cannot be bent so far goes as far as it can.
     std::vector<bend::Pose> poses;
+    bool from_rest = false;  ///< swing between these added to the rest pose and that, not from straight
     measure::StreamLayout layout;
     Isa isa = Isa::automatic;
     bend::Stores stores = bend::Stores::automatic;
     std::string option = "--instances";  ///< that their number was given by
 };
 
-/// From straight to the farthest, and back.
+/// From straight (or the rest pose) to the farthest, and back.
 inline constexpr double frames_per_swing = 120;
 
 /// Where an instance stands: row 0 is in front.
@@ -79,6 +80,7 @@ private:
     std::size_t columns_;
     double spacing_;
     std::vector<bend::Pose> farthest_;  // of a body's regions
+    bool from_rest_;
     Columns memory_;
     measure::CrowdScene scene_;
     std::vector<Member> members_;
