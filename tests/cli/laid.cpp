@@ -51,3 +51,18 @@ TEST_CASE("bend: a path that is too short for the body is said to be, with the s
     folder.write("short.txt", "0 0 0\n0 0 4e-9\n");  // 2.5e9 would be more than the option takes
     CHECK(run(folder, words).err.find("give a longer one") != std::string::npos);
 }
+
+TEST_CASE("bend: a path that is many times as long as the body") {
+    const Folder folder;
+    base(folder);
+    folder.write("far.txt", "0 0 0\n0 0 10\n0 4 20\n");
+    const auto said = [&](const char* scale) {
+        const Result result =
+            run(folder, {"bend", "base.ply", "-o", "out.ply", "--path", "far.txt", "--path-scale", scale});
+        CHECK(result.code == 0);
+        return result.out.find("times as long as the body") != std::string::npos;
+    };
+    CHECK_FALSE(said("fit"));
+    CHECK_FALSE(said("3"));
+    CHECK(said("20"));
+}

@@ -59,6 +59,7 @@ Laid lay(const bend::Body& body, const PathOptions& words) {
                                       : read_path_scale(words.scale);
     const Path path(read_path(document, laid.scale, where), where);
     laid.length = path.length();
+    laid.body_length = body.length();
     if (!path.closed() && words.start > path.length())
         throw InputError("--path-start: " + number(words.start) + " is beyond the end of a path of " +
                          number(path.length()) + "; give less");
@@ -82,6 +83,11 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
                            {"transform", rows_of(laid.fit.transform)}};
     report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
                             number(words.start) + ": the center line is within " + number(error) + " of it");
+    constexpr double much_longer = 8;
+    if (const double ratio = laid.length / laid.body_length; ratio > much_longer)
+        report.line("", "the path is " + number(ratio) +
+                            " times as long as the body, which follows its beginning alone; --path-scale fit "
+                            "makes both as long");
     constexpr double noticeable = 1e-3;
     if (laid.beyond > noticeable * laid.length) {
         const double enough = laid.scale * (laid.length + laid.beyond) / laid.length;

@@ -42,6 +42,7 @@ struct Laid {
     std::vector<Target> targets;  ///< one per region
     bend::PathFit fit;
     double length = 0;  ///< of the path, scaled
+    double body_length = 0;
     double scale = 1;
     double beyond = 0;  ///< how much of the body lies behind the path's end, straight on
 };

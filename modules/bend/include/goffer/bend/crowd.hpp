@@ -73,11 +73,14 @@ struct Batch {
     /// Empty, or one per instance: the element that it reads, in pools that other bodies' instances share.
     std::span<const std::uint32_t> indices = {};
 
-    /// Each element is the pose of the first region; those of the other regions follow it in memory, so that
-    /// the stride is at least region_count() poses, or 0: the same for all. Must be given. (A member of type
-    /// Pose has one: for a body of n regions the struct needs Pose[n], or an array that is as long as that of
-    /// the body with the most regions. For a plain array of n poses for each instance, `count` is the number
-    /// of instances, and the stride n times that of strided().)
+    /// Must be given. An element is the first of an instance's region_count() poses, from base to tip, and
+    /// the others follow it in memory. A body of n regions can have them in a member, or in a plain array:
+    ///
+    ///     struct Worm { bend::Pose poses[n]; };  // or more than n
+    ///     batch.poses = strided(std::span(worms), &Worm::poses);
+    ///     batch.poses = {.data = array, .count = instances, .stride = n * sizeof(bend::Pose)};
+    ///
+    /// With a stride of 0 all instances have the same poses.
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};           ///< as DeformJob::transform; default: the identity
     StridedView<float> wrinkle_weights = {};   ///< as DeformJob::wrinkle_weight; default: 1

@@ -13,7 +13,7 @@ struct Pose {
     float angle = 0;
 
     /// Direction theta that the region bends toward, radians about the axis, from e1 toward e2 of the frame
-    /// in which the region begins. Any finite value.
+    /// in which the region begins: for the first region, of Body::axes(). Any finite value.
     float direction = 0;
 
     [[nodiscard]] bool operator==(const Pose&) const noexcept = default;

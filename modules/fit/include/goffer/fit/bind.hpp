@@ -113,9 +113,9 @@ struct Binding {
 /// Amplitude::paper; its factors are solved by bind(). Empty for folds = 0 or Amplitude::none.
 ///
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
-/// Profile::even 0..2 max_folds), roundness is outside 0..0.5, max_scale is not a finite number of 1 or more,
-/// max_angle is not above 0 and below length / (2 radius max_scale), or `rows` is out of range. Thread-safe.
-/// See modules/paper/README.md, "Wrinkle table".
+/// Profile::even 0..2 max_folds), the profile's roundness is outside 0..0.5, max_scale is not a finite number
+/// of 1 or more, max_angle is not above 0 and below length / (2 radius max_scale), or `rows` is out of range.
+/// Thread-safe. See modules/paper/README.md, "Wrinkle table".
 [[nodiscard]] bend::WrinkleTable make_wrinkle_table(Profile profile, Amplitude amplitude,
                                                     paper::FoldRange folds, double length, double radius,
                                                     double max_angle,
@@ -130,8 +130,8 @@ struct Binding {
 /// `factor` >= 0 multiplies the amplitude, beside the factor of Amplitude::area.
 ///
 /// Throws Error if length or radius is not a finite number above 0, folds is outside 0..max_folds (with
-/// Profile::even 0..2 max_folds), roundness is outside 0..0.5, or rho_max
-/// is negative or not finite. Thread-safe. See modules/paper/README.md, "Limits".
+/// Profile::even 0..2 max_folds), the profile's roundness is outside 0..0.5, or rho_max is negative or not
+/// finite. Thread-safe. See modules/paper/README.md, "Limits".
 [[nodiscard]] double largest_angle(Profile profile, Amplitude amplitude, paper::FoldRange folds,
                                    double length, double radius, double rho_max, double factor = 1);
 
