@@ -74,13 +74,9 @@ struct Batch {
     std::span<const std::uint32_t> indices = {};
 
     /// Must be given. An element is the first of an instance's region_count() poses, from base to tip, and
-    /// the others follow it in memory. A body of n regions can have them in a member, or in a plain array:
-    ///
-    ///     struct Worm { bend::Pose poses[n]; };  // or more than n
-    ///     batch.poses = strided(std::span(worms), &Worm::poses);
-    ///     batch.poses = {.data = array, .count = instances, .stride = n * sizeof(bend::Pose)};
-    ///
-    /// With a stride of 0 all instances have the same poses.
+    /// the others follow it in memory: in an array that is a member, Pose[n] with n regions or more, or in a
+    /// plain array, n poses for each instance, whose stride is n * sizeof(Pose) and whose `count` is the
+    /// number of instances. With a stride of 0 all instances have the same poses.
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};           ///< as DeformJob::transform; default: the identity
     StridedView<float> wrinkle_weights = {};   ///< as DeformJob::wrinkle_weight; default: 1
