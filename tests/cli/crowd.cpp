@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include "crowd/crowd.hpp"
+
 #include "command.hpp"
+#include "model.hpp"
 #include "support/models.hpp"
 #include "support/sanitized.hpp"
 
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 using namespace goffer;
 using namespace goffer::test;
@@ -227,8 +234,51 @@ TEST_CASE("crowd: a body that is bent at rest") {
     CHECK(hash(folder, {"--angle", "0"}) != still);
     const json beyond = crowd(folder, {"--from-rest", "--angle", "2000"});
     REQUIRE(beyond["warnings"].size() == 1);
-    CHECK(beyond["warnings"][0].get<std::string>().starts_with("the angle of 2070 degrees is beyond"));
+    CHECK(
+        beyond["warnings"][0].get<std::string>().starts_with("2000 degrees from the rest pose, which is 70"));
     CHECK(beyond["clamped"] == 0);
+    CHECK(crowd(folder, {"--from-rest", "--angle", "max"})["hash"] == beyond["hash"]);
+    CHECK(hash(folder, {"--from-rest", "--angle", "-40"}) != hash(folder, {"--from-rest", "--angle", "40"}));
+    well(folder, {"bake", "base.ply", "-o", "baked.goffer"});
+    const json baked = report(folder, {"crowd", "baked.goffer", "--instances", "20", "--frames", "9"});
+    CHECK(baked["models"][0]["straightens"] == true);
+    CHECK_FALSE(baked["models"][0].contains("suitability"));
+}
+
+TEST_CASE("crowd: from rest, instances are at the rest pose and as far from it as was asked") {
+    const Folder folder;
+    small_base(folder, "straight.ply");
+    well(folder, {"bend", "straight.ply", "--angle", "70", "--direction", "30", "--amplitude", "none", "-o",
+                  "bent.ply"});
+    std::vector<cli::BoundModel> models;
+    models.push_back(cli::bind_model(folder / "bent.ply", cli::BindRequest({}, {})));
+    const bend::Region& region = models[0].binding.body.regions()[0];
+    for (const float asked : {0.5f, -0.5f, 100.0f}) {
+        cli::Crowd moving(models, {.instances = 50,
+                                   .poses = {{asked, 0}},
+                                   .from_rest = true,
+                                   .layout = measure::stream_layout("positions")});
+        float nearest = 1e9f, farthest = 0;
+        for (std::size_t frame = 0; frame < 120; ++frame) {
+            moving.set_poses(frame);
+            for (std::size_t i = 0; i < 50; ++i) {
+                const bend::Pose pose = moving.job().batches[0].poses[i];
+                CHECK(pose.angle <= region.max_angle);
+                const glm::vec2 from = region.rest.angle * glm::vec2(std::cos(region.rest.direction),
+                                                                     std::sin(region.rest.direction));
+                const glm::vec2 to =
+                    pose.angle * glm::vec2(std::cos(pose.direction), std::sin(pose.direction));
+                nearest = std::min(nearest, glm::distance(from, to));
+                farthest = std::max(farthest, glm::distance(from, to));
+            }
+        }
+        CHECK(nearest < 1e-3f);
+        if (std::fabs(asked) < 1) {
+            CHECK(farthest == doctest::Approx(std::fabs(asked)).epsilon(1e-3));
+        } else {  // straight through, to the largest angle on the other side
+            CHECK(farthest > 0.98f * (region.max_angle + region.rest.angle));
+        }
+    }
 }
 
 TEST_CASE("crowd: says which model is no cylinder") {

@@ -115,9 +115,7 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
         for (std::size_t i = 0; i < regions.size() && !again; ++i) {
             if (full[i]) continue;
             const double direction = directions[directions.size() == 1 ? 0 : i].value_or(toward);
-            const RestPose rest = rest_pose(body, i);
-            const double room = room_from(curvature(rest.angle, rest.direction),
-                                          curvature(std::copysign(1.0, by), direction), largest(body, i));
+            const double room = room_from_rest(body, i, by < 0 ? direction + 180 : direction);
             shares[i] = left * regions[i].length / length;
             if (shares[i] <= room) continue;
             shares[i] = room;
@@ -240,6 +238,11 @@ void PoseRequest::share_out(const bend::Body& body) {
 RestPose rest_pose(const bend::Body& body, std::size_t region) {
     const bend::RegionInput& input = body.region_inputs()[region];
     return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
+}
+
+double room_from_rest(const bend::Body& body, std::size_t region, double direction) {
+    const RestPose rest = rest_pose(body, region);
+    return room_from(curvature(rest.angle, rest.direction), curvature(1, direction), largest(body, region));
 }
 
 double share_of(const bend::Body& body, std::size_t region) {

@@ -61,6 +61,10 @@ struct RestPose {
 
 [[nodiscard]] RestPose rest_pose(const bend::Body& body, std::size_t region);
 
+/// How far a region can be bent from its rest pose in `direction`, both in degrees, until its angle is the
+/// largest.
+[[nodiscard]] double room_from_rest(const bend::Body& body, std::size_t region, double direction);
+
 /// What a region is of the length of its body.
 [[nodiscard]] double share_of(const bend::Body& body, std::size_t region);
 

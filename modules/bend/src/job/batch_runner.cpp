@@ -17,7 +17,7 @@ constexpr std::size_t block_vertices = 512;
 /// go through the stage, together with the joints beside them.
 constexpr std::size_t min_direct = 48;
 
-/// So many vertices near a joint go through the stage with it: about as many as it holds.
+/// A joint goes through the stage whole if at most this many vertices are near it.
 constexpr std::size_t max_staged_joint = 224;
 
 /// Makes positions come out in steps of the box, 0..65535, which the packed kernel rounds. On an axis where
@@ -161,19 +161,18 @@ std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) con
                                               : before + line_floats;
 }
 
-/// The joint behind a region: an empty span, or the vertices near it if these are few, which are then
-/// blended in one go for each of its sides, not once more in the line that both share.
+/// The vertices near the joint behind a region if they are few, so that each side is blended in one call;
+/// else an empty span.
 BatchRunner::Span BatchRunner::joint_behind(std::size_t region) const noexcept {
     const std::size_t at = body_.regions[region].last;
     if (region + 1 == regions_) return {at, at};
-    const Span near = {std::min(at, body_.details[region].joints.above.first),
-                       std::max(at, body_.details[region + 1].joints.below.last)};
+    const Span near = {body_.details[region].joints.above.first, body_.details[region + 1].joints.below.last};
     return near.last - near.first <= max_staged_joint ? near : Span{at, at};
 }
 
-/// The end of a stretch that goes through the stage and begins at `first`, at the joint behind `region` or
-/// before it. It ends behind a line that is the joint's in part, if enough whole lines that are of one region
-/// follow for a kernel call of their own.
+/// The end of a stretch that goes through the stage: it begins at `first` in `region`, holds the joint behind
+/// that region, and ends where a line does. Joints that follow are part of it too, unless enough whole lines
+/// of one region lie before them for a kernel call of their own.
 std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std::size_t first,
                                     std::size_t last) const noexcept {
     std::size_t end = first;
@@ -258,7 +257,7 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
     if (plan_.has(WriteMode::planes)) deform_planes(member, first, last);
 }
 
-/// Kernels write the caller's planes. Past the cache, lines that regions share go through the stage.
+/// Kernels write the caller's planes. Past the cache, what each_stretch leaves out goes through the stage.
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_call(member, WriteMode::planes, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
@@ -313,8 +312,8 @@ void BatchRunner::deform_pair(std::size_t member, std::size_t region, Span verti
 }
 
 /// Calls deform(region, begin, end) for each stretch of vertices of one region. Into the cache, a stretch is
-/// all of the region. Past the cache it is whole lines, except at `first` and `last`, and lines that regions
-/// share go through the stage.
+/// all of the region. Past the cache it is whole lines, except at `first` and `last`; lines that regions
+/// share go through the stage, and joints that few vertices are near.
 template <class Deform>
 void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {

@@ -12,8 +12,8 @@
 /// unless the squeeze is relative to a rest arc. At alpha = 0 every term that bends vanishes exactly.
 /// See modules/paper/README.md, "Bend".
 ///
-/// Local vectors are not const: g++ 12 would write those of two registers to the stack, where nothing reads
-/// them, again and again, and stores past the cache wait for that.
+/// Local vectors are not const: g++ 12 stores const ones that are two registers wide to the stack in every
+/// iteration, where nothing reads them, and stores past the cache wait for that.
 
 namespace goffer::bend {
 
@@ -79,9 +79,8 @@ typename L::Vec load_scale(const Rest& rest, std::size_t i) {
 template <class L, Squeeze squeeze, bool slope, class Rest, class K>
 void set_plain_column(const Rest& rest, const K& k, typename L::Vec scale, Bent<L>& b, std::size_t i) {
     using Vec = typename L::Vec;
-    const auto [h_prime, h] =
-        rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
-                      k.cos_half_direction, k.sin_half_direction);
+    auto [h_prime, h] = rotated_by<L>({L::load(rest.sin_half_beta + i), L::load(rest.cos_half_beta + i)},
+                                      k.cos_half_direction, k.sin_half_direction);
     Vec t = h * h;
     b.c = t - L::splat(1.0f);
     b.s = h * h_prime;

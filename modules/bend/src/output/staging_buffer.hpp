@@ -39,8 +39,8 @@ private:
 };
 
 /// A block of one instance's vertices as planes in the first-level cache. Kernels write it where they cannot
-/// write the outputs themselves: planes that cannot be written side by side, lines that two regions share,
-/// records of several passes or with gaps, components in another order.
+/// write the outputs themselves: planes that cannot be written side by side, lines that two regions share
+/// and vertices near their joint, records of several passes or with gaps, components in another order.
 class StagingBuffer {
 public:
     /// Has a plane for each value of the plan.

@@ -80,7 +80,6 @@ struct CrowdRequest {
         for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
         check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}});
         picture = picture_settings(options.picture);
-        pose.from_rest = options.from_rest;
     }
 
     /// Sets the targets and the plan's poses. The arcs of a chain share an angle by the lengths that they
@@ -111,13 +110,22 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
     const std::vector<Target>& targets = request.targets;
     std::vector<double> used;
     for (std::size_t r = 0; r < targets.size(); ++r) {
-        const double rest = request.pose.from_rest ? rest_pose(body, r).angle : 0;
+        const double rest = request.plan.from_rest ? rest_pose(body, r).angle : 0;
         const double limit = degrees(static_cast<double>(body.max_angle(r)));
         const double asked = std::fabs(targets[r].angle) + rest;
+        constexpr double rounding = 1 + 1e-6;
         used.push_back(radians(std::min(asked, limit)));
-        if (asked <= limit || std::isinf(asked)) continue;
-        warn_of_angle(report, where + region_words(r, targets.size()), std::copysign(asked, targets[r].angle),
-                      limit, "it is bent so far at most");
+        if (asked <= rounding * limit || std::isinf(asked)) continue;
+        const std::string which = where + region_words(r, targets.size());
+        const std::string then = "it is bent so far at most";
+        if (rest == 0) {
+            warn_of_angle(report, which, targets[r].angle, limit, then);
+        } else {
+            report.warn(which + number(std::fabs(targets[r].angle)) +
+                        " degrees from the rest pose, which is " + number(rest) +
+                        ", are beyond the largest angle, " + number(limit) +
+                        ", where some instances swing; " + then);
+        }
     }
     if (!model.baked) warn_of_folds(report, request.bind, model, used, where);
 }
@@ -126,7 +134,7 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
 bool warn_of_straightening(Report& report, const CrowdRequest& request, const bend::Body& body,
                            const std::string& where) {
     const bool straightens =
-        !request.pose.from_rest &&
+        !request.plan.from_rest &&
         std::ranges::any_of(body.region_inputs(), [](const auto& region) { return region.rest_angle != 0; });
     if (straightens)
         report.warn(where + "the body is bent at rest by " + rest_words(body) +
@@ -278,7 +286,7 @@ void add_crowd(CLI::App& app, Action& action) {
         "Swing between straight and this many degrees; negative: the other way; max: as far as each "
         "model can");
     command->add_flag("--from-rest", options->from_rest,
-                      "Swing between the rest pose and this many degrees beyond, instead of from straight");
+                      "Swing from the rest pose by this many degrees, instead of from straight");
     options->bind.amplitude = "paper";  // the factors of `mesh` cost time in each frame
     add_bind_words(*command, options->bind);
     add_refine_word(*command, options->bind, "off");

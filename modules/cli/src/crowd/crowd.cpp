@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/crowd.hpp"
 
+#include "arguments.hpp"
 #include "memory.hpp"
+#include "poses.hpp"
 
 #include <goffer/bend/body_input.hpp>
 #include <goffer/measure/fill.hpp>
@@ -90,14 +92,18 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
-/// A pose that is added to the region's rest pose, as vectors (alpha cos theta, alpha sin theta), but not
-/// beyond `limit`.
-bend::Pose beyond_rest(const bend::RegionInput& region, const bend::Pose& pose, float limit) {
-    const auto x = static_cast<float>(region.rest_angle * std::cos(region.rest_direction)) +
-                   pose.angle * std::cos(pose.direction);
-    const auto y = static_cast<float>(region.rest_angle * std::sin(region.rest_direction)) +
-                   pose.angle * std::sin(pose.direction);
-    return {std::min(std::hypot(x, y), limit), std::atan2(y, x)};
+/// The pose that is `share` of the way from a region's rest pose to the one that is `angle` from it in
+/// `direction`, or as far as it can. Angles are vectors (alpha cos theta, alpha sin theta).
+bend::Pose pose_from_rest(const bend::Body& body, std::size_t region, const bend::Pose& farthest,
+                          double share) {
+    const bend::RegionInput& input = body.region_inputs()[region];
+    const double direction = static_cast<double>(farthest.direction) + (farthest.angle < 0 ? turn / 2 : 0);
+    const double room = radians(room_from_rest(body, region, degrees(direction)));
+    const double reach = share * std::min(std::fabs(static_cast<double>(farthest.angle)), room);
+    const double x = input.rest_angle * std::cos(input.rest_direction) + reach * std::cos(direction);
+    const double y = input.rest_angle * std::sin(input.rest_direction) + reach * std::sin(direction);
+    return {std::min(static_cast<float>(std::hypot(x, y)), body.max_angle(region)),
+            static_cast<float>(std::atan2(y, x))};
 }
 
 }  // namespace
@@ -152,8 +158,9 @@ void Crowd::set_poses(std::size_t frame) noexcept {
             const double swing = 0.5 - 0.5 * std::cos(turn * phase);
             const float limit = body.max_angle(r);
             const float angle = std::clamp(farthest_[r].angle, -limit, limit);
-            poses[r] = {static_cast<float>(static_cast<double>(angle) * swing), direction};
-            if (from_rest_) poses[r] = beyond_rest(body.region_inputs()[r], poses[r], limit);
+            poses[r] = from_rest_
+                           ? pose_from_rest(body, r, {farthest_[r].angle, direction}, swing)
+                           : bend::Pose{static_cast<float>(static_cast<double>(angle) * swing), direction};
             start += static_cast<double>(body.regions()[r].length);
         }
     });

@@ -20,7 +20,7 @@ struct CrowdPlan {
     std::size_t instances = 0;
     /// The farthest, one per region; a region that cannot be bent so far goes as far as it can.
     std::vector<bend::Pose> poses;
-    bool from_rest = false;  ///< swing between these added to the rest pose and that, not from straight
+    bool from_rest = false;  ///< swing from the rest pose, by `poses` at most, instead of from straight
     measure::StreamLayout layout;
     Isa isa = Isa::automatic;
     bend::Stores stores = bend::Stores::automatic;

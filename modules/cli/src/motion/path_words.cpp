@@ -86,8 +86,8 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
     constexpr double much_longer = 8;
     if (const double ratio = laid.length / laid.body_length; ratio > much_longer)
         report.line("", "the path is " + number(ratio) +
-                            " times as long as the body, which follows its beginning alone; --path-scale fit "
-                            "makes both as long");
+                            " times as long as the body, which follows only a part of it; --path-scale fit "
+                            "makes them equally long");
     constexpr double noticeable = 1e-3;
     if (laid.beyond > noticeable * laid.length) {
         const double enough = laid.scale * (laid.length + laid.beyond) / laid.length;

@@ -24,7 +24,7 @@ struct BodyInput;
 /// do not allocate unless they say so.
 ///
 /// Vertices keep the order that they were given in: vertex i of the body is vertex i of every output stream.
-/// (fit::bind() gives those of several regions region by region: see Binding::order.)
+/// (fit::bind() sorts the vertices of several regions by region: see Binding::order.)
 /// A body that was default-constructed or moved from is empty: it has no vertices and no regions, and
 /// validate() refuses it.
 class Body {

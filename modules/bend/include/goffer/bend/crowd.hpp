@@ -74,9 +74,9 @@ struct Batch {
     std::span<const std::uint32_t> indices = {};
 
     /// Must be given. An element is the first of an instance's region_count() poses, from base to tip, and
-    /// the others follow it in memory: in an array that is a member, Pose[n] with n regions or more, or in a
-    /// plain array, n poses for each instance, whose stride is n * sizeof(Pose) and whose `count` is the
-    /// number of instances. With a stride of 0 all instances have the same poses.
+    /// the others follow it in memory. They may be an array in a struct: Pose[n], of n regions or more. They
+    /// may be one plain array, n for each instance: the stride is then n * sizeof(Pose), and `count` the
+    /// number of instances. The stride is at least region_count() poses, or 0: the same for all.
     StridedView<Pose> poses = {};
     TransformColumn transforms = {};           ///< as DeformJob::transform; default: the identity
     StridedView<float> wrinkle_weights = {};   ///< as DeformJob::wrinkle_weight; default: 1
