@@ -116,16 +116,17 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
         constexpr double rounding = 1 + 1e-6;
         used.push_back(radians(std::min(asked, limit)));
         if (asked <= rounding * limit || std::isinf(asked)) continue;
-        const std::string which = where + region_words(r, targets.size());
+        std::string line = where + region_words(r, targets.size());
         const std::string then = "it is bent so far at most";
         if (rest == 0) {
-            warn_of_angle(report, which, targets[r].angle, limit, then);
-        } else {
-            report.warn(which + number(std::fabs(targets[r].angle)) +
-                        " degrees from the rest pose, which is " + number(rest) +
-                        ", are beyond the largest angle, " + number(limit) +
-                        ", where some instances swing; " + then);
+            warn_of_angle(report, line, targets[r].angle, limit, then);
+            continue;
         }
+        line += number(std::fabs(targets[r].angle));
+        line += " degrees from the rest pose, which is " + number(rest);
+        line += ", are beyond the largest angle, " + number(limit);
+        line += ", where some instances swing; " + then;
+        report.warn(line);
     }
     if (!model.baked) warn_of_folds(report, request.bind, model, used, where);
 }
