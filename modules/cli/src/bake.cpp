@@ -259,7 +259,7 @@ void run_bake(const BakeOptions& options) {
     report_model(report, options.model, finest.mesh,
                  fit::surface_area(finest.rest.positions, finest.rest.triangles));
     report_fit(report, finest.cylinder);
-    report_suitability(report, finest, report.json);
+    report_suitability(report, finest);
     if (finest.growth) report_growth(report, *finest.growth);
     report_body(report, levels, bytes.size(), options);
     report_sockets(report, finest, request.sockets, sockets);

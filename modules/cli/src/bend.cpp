@@ -227,7 +227,7 @@ void run_bend(const BendOptions& options) {
     const double area_before = fit::surface_area(model.rest.positions, model.rest.triangles);
     report_model(report, options.model, model.mesh, area_before);
     if (!model.baked) report_fit(report, model.cylinder);
-    const bool suitable = model.baked || !report_suitability(report, model, report.json);
+    const bool suitable = model.baked || !report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
     const bool explained = report_bend(report, request, model, targets, bent, area_before) || !suitable;
     if (along_path) report_path(report, laid, options.path);

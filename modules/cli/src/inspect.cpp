@@ -168,7 +168,7 @@ void run_inspect(const InspectOptions& options) {
     report_model(report, options.model, model.mesh,
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
-    report_suitability(report, model, report.json);
+    report_suitability(report, model);
     if (options.fit.rest != "straight") report_rest(report, request, model);
     report_bends(report, model.binding);
     io::AtomicFiles outputs;

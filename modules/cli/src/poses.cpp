@@ -115,7 +115,9 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
         for (std::size_t i = 0; i < regions.size() && !again; ++i) {
             if (full[i]) continue;
             const double direction = directions[directions.size() == 1 ? 0 : i].value_or(toward);
-            const double room = room_from_rest(body, i, by < 0 ? direction + 180 : direction);
+            const RestPose rest = rest_pose(body, i);
+            const double room = room_from(curvature(rest.angle, rest.direction),
+                                          curvature(std::copysign(1.0, by), direction), largest(body, i));
             shares[i] = left * regions[i].length / length;
             if (shares[i] <= room) continue;
             shares[i] = room;
@@ -240,9 +242,16 @@ RestPose rest_pose(const bend::Body& body, std::size_t region) {
     return {degrees(input.rest_angle), input.rest_angle == 0 ? 0 : degrees(input.rest_direction)};
 }
 
-double room_from_rest(const bend::Body& body, std::size_t region, double direction) {
+bend::Pose pose_from_rest(const bend::Body& body, std::size_t region, double by, double direction,
+                          double share) {
     const RestPose rest = rest_pose(body, region);
-    return room_from(curvature(rest.angle, rest.direction), curvature(1, direction), largest(body, region));
+    const Curvature from = curvature(rest.angle, rest.direction);
+    const double limit = largest(body, region);
+    const double room = room_from(from, curvature(std::copysign(1.0, by), direction), limit);
+    const double reach = std::copysign(share * std::min(std::fabs(by), room), by);
+    bend::Pose pose = moved_from(from, reach, direction, limit).pose;
+    pose.angle = std::min(pose.angle, body.max_angle(region));  // beyond it by rounding alone
+    return pose;
 }
 
 double share_of(const bend::Body& body, std::size_t region) {

@@ -61,9 +61,10 @@ struct RestPose {
 
 [[nodiscard]] RestPose rest_pose(const bend::Body& body, std::size_t region);
 
-/// How far a region can be bent from its rest pose in `direction`, both in degrees, until its angle is the
-/// largest.
-[[nodiscard]] double room_from_rest(const bend::Body& body, std::size_t region, double direction);
+/// Returns the pose of a region that is `share` of the way from its rest pose to the one that is `by` degrees
+/// from there in `direction`, or as far as it can. Does not allocate.
+[[nodiscard]] bend::Pose pose_from_rest(const bend::Body& body, std::size_t region, double by,
+                                        double direction, double share);
 
 /// What a region is of the length of its body.
 [[nodiscard]] double share_of(const bend::Body& body, std::size_t region);

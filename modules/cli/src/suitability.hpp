@@ -12,6 +12,9 @@ namespace goffer::cli {
 /// may look odd. Warns likewise of one that is far from the origin, and of stray vertices. Puts what was
 /// found into `json`, as "suitability". Returns whether it is none.
 bool report_suitability(Report& report, const BoundModel& model, nlohmann::ordered_json& json,
-                        const std::string& where = {});
+                        const std::string& where);
+inline bool report_suitability(Report& report, const BoundModel& model) {
+    return report_suitability(report, model, report.json, {});
+}
 
 }  // namespace goffer::cli

@@ -88,7 +88,7 @@ void run_animate(const AnimateOptions& options) {
     if (request.pattern) request.pattern->check_places(request.frames);
     const Survey seen = survey(frames, request.pictures ? &*request.pictures : nullptr);
     report_model(report, options.model, model.mesh, seen.area_before);
-    if (!model.baked) report_suitability(report, model, report.json);
+    if (!model.baked) report_suitability(report, model);
     if (model.growth) report_growth(report, *model.growth);
     report_motion(report, request, options, seen, model);
     io::AtomicFiles outputs;

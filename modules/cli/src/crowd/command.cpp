@@ -132,13 +132,11 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
 }
 
 /// Warns of a swing that straightens a body which is bent at rest. Returns whether it does.
-bool warn_of_straightening(Report& report, const CrowdRequest& request, const bend::Body& body,
+bool warn_of_straightening(Report& report, const CrowdRequest& request, const BoundModel& model,
                            const std::string& where) {
-    const bool straightens =
-        !request.plan.from_rest &&
-        std::ranges::any_of(body.region_inputs(), [](const auto& region) { return region.rest_angle != 0; });
+    const bool straightens = !request.plan.from_rest && model.cylinder.bent();
     if (straightens)
-        report.warn(where + "the body is bent at rest by " + rest_words(body) +
+        report.warn(where + "the body is bent at rest by " + rest_words(model.binding.body) +
                     ", and the swing straightens it; to swing from there, use --from-rest");
     return straightens;
 }
@@ -164,7 +162,7 @@ void report_models(Report& report, const CrowdRequest& request, std::span<const 
              {"folds", folds},
              {"max_angle", limit},
              {"regions", regions},
-             {"straightens", warn_of_straightening(report, request, body, where)}});
+             {"straightens", warn_of_straightening(report, request, model, where)}});
         nlohmann::ordered_json& json = report.json["models"].back();
         if (!model.baked) report_suitability(report, model, json, where);
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +

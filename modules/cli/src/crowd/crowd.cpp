@@ -5,7 +5,6 @@
 #include "memory.hpp"
 #include "poses.hpp"
 
-#include <goffer/bend/body_input.hpp>
 #include <goffer/measure/fill.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -92,20 +91,6 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
-/// The pose that is `share` of the way from a region's rest pose to the one that is `angle` from it in
-/// `direction`, or as far as it can. Angles are vectors (alpha cos theta, alpha sin theta).
-bend::Pose pose_from_rest(const bend::Body& body, std::size_t region, const bend::Pose& farthest,
-                          double share) {
-    const bend::RegionInput& input = body.region_inputs()[region];
-    const double direction = static_cast<double>(farthest.direction) + (farthest.angle < 0 ? turn / 2 : 0);
-    const double room = radians(room_from_rest(body, region, degrees(direction)));
-    const double reach = share * std::min(std::fabs(static_cast<double>(farthest.angle)), room);
-    const double x = input.rest_angle * std::cos(input.rest_direction) + reach * std::cos(direction);
-    const double y = input.rest_angle * std::sin(input.rest_direction) + reach * std::sin(direction);
-    return {std::min(static_cast<float>(std::hypot(x, y)), body.max_angle(region)),
-            static_cast<float>(std::atan2(y, x))};
-}
-
 }  // namespace
 
 Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
@@ -150,17 +135,18 @@ void Crowd::set_poses(std::size_t frame) noexcept {
     scene_.set_poses([&](std::size_t index, std::span<bend::Pose> poses) {
         const Member& member = members_[index];
         const bend::Body& body = *job_.batches[member.model].body;
-        const auto direction = static_cast<float>(turn * (time / frames_per_turn + member.direction));
+        const double direction = turn * (time / frames_per_turn + member.direction);
         double start = 0;
         for (std::size_t r = 0; r < poses.size(); ++r) {
             const double phase =
                 time / frames_per_swing + member.phase - lag_per_length * start / body.length();
             const double swing = 0.5 - 0.5 * std::cos(turn * phase);
             const float limit = body.max_angle(r);
-            const float angle = std::clamp(farthest_[r].angle, -limit, limit);
+            const auto angle = static_cast<double>(std::clamp(farthest_[r].angle, -limit, limit));
             poses[r] = from_rest_
-                           ? pose_from_rest(body, r, {farthest_[r].angle, direction}, swing)
-                           : bend::Pose{static_cast<float>(static_cast<double>(angle) * swing), direction};
+                           ? pose_from_rest(body, r, degrees(static_cast<double>(farthest_[r].angle)),
+                                            degrees(direction), swing)
+                           : bend::Pose{static_cast<float>(angle * swing), static_cast<float>(direction)};
             start += static_cast<double>(body.regions()[r].length);
         }
     });

@@ -38,7 +38,7 @@ std::vector<std::string> warnings_of(const BoundModel& model, const Textures& te
     for (const std::string& warning : model.mesh.warnings) report.warn(warning);
     for (const std::string& warning : textures.warnings) report.warn(warning);
     if (!model.baked) {
-        report_suitability(report, model, report.json);
+        report_suitability(report, model);
         warn_of_folds(report, request, model, right_angle_of(model.binding.body));
     }
     return report.warnings();
