@@ -53,6 +53,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
     bool streams = false;
     for (const PassPlan& pass : plan_.passes()) {
         streams |= pass.pass == Pass::current;
+        normals_ |= pass.streams != StreamSet::positions;
         if (pass.pass == Pass::previous) set_of(Pass::previous) = set_count_++;
     }
     posed_now_ = streams || bounded_;
@@ -87,7 +88,7 @@ void BatchRunner::finish() noexcept {
 }
 
 /// Adds an instance to the group that is being gathered.
-void BatchRunner::gather(std::size_t element, bool count_pose) noexcept {
+inline void BatchRunner::gather(std::size_t element, bool count_pose) noexcept {
     const PoseState state = posed_now_ ? posed_.add(batch_, element, Time::now)
                                        : state_of(body_, {batch_.poses.at(element), regions_});
     if (count_pose) count(state, result_);
@@ -115,11 +116,11 @@ void BatchRunner::set_up(bool sets_bounds) noexcept {
     std::swap(members_, gathered_);
     member_count_ = std::exchange(gathered_count_, 0);
     const std::size_t current = set_of(Pass::current);
-    if (posed_now_) set_up_poses(current);
+    if (posed_now_) set_up_poses(current, normals_);
     for (const PassPlan& pass : plan_.passes()) {
         if (pass.pass != Pass::previous) continue;
         for (std::size_t i = 0; i < member_count_; ++i) posed_.add(batch_, members_[i].element, Time::before);
-        set_up_poses(set_of(Pass::previous));
+        set_up_poses(set_of(Pass::previous), false);
     }
     if (!bounded_) return;
     for (std::size_t i = 0; i < member_count_; ++i) {
@@ -130,9 +131,9 @@ void BatchRunner::set_up(bool sets_bounds) noexcept {
 }
 
 /// Sets up the poses that were added, and makes room for others.
-void BatchRunner::set_up_poses(std::size_t set) noexcept {
+void BatchRunner::set_up_poses(std::size_t set, bool normals) noexcept {
     for (std::size_t r = 0; r < regions_; ++r) {
-        posed_.set_up(r, kernels_.setup, coefficients(0, set) + r, set_count_ * regions_);
+        posed_.set_up(r, kernels_.setup, normals, coefficients(0, set) + r, set_count_ * regions_);
         for (std::size_t i = 0; i < member_count_; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
     }
     posed_.clear();
@@ -190,11 +191,13 @@ std::size_t BatchRunner::joints_end(std::size_t member, std::size_t region, std:
 template <class Deform>
 void BatchRunner::each_input(std::size_t member, const PassPlan& pass, std::size_t region, std::size_t first,
                              std::size_t last, const Deform& deform) noexcept {
-    const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
     const std::size_t set = set_of(pass.pass);
     const Squeeze squeeze = squeezes(member, set)[region];
-    if ((below.last > first || above.first < last) && squeeze != Squeeze::none) [[unlikely]]
-        return each_blended(member, pass, region, first, last, deform);
+    if (regions_ > 1 && squeeze != Squeeze::none) {
+        const Joint &below = body_.details[region].joints.below, &above = body_.details[region].joints.above;
+        if (below.last > first || above.first < last) [[unlikely]]
+            return each_blended(member, pass, region, first, last, deform);
+    }
     deform(KernelInput{&body_.columns, &coefficients(member, set)[region], squeeze, first}, first, last);
 }
 
@@ -317,6 +320,7 @@ void BatchRunner::deform_pair(std::size_t member, std::size_t region, Span verti
 template <class Deform>
 void BatchRunner::each_stretch(std::size_t member, WriteMode mode, std::size_t first, std::size_t last,
                                const Deform& deform) noexcept {
+    if (regions_ == 1) return deform(0, first, last);
     const bool in_lines = plan_.in_lines(mode);
     std::size_t region = 0;
     while (first < last) {

@@ -71,7 +71,7 @@ private:
 
     void gather(std::size_t element, bool count_pose) noexcept;
     void set_up(bool sets_bounds) noexcept;
-    void set_up_poses(std::size_t set) noexcept;
+    void set_up_poses(std::size_t set, bool normals) noexcept;
     void deform_group(std::size_t first, std::size_t last) noexcept;
     void set_up_packed(std::size_t member, const Bounds& bounds) noexcept;
     void deform(std::size_t member, std::size_t first, std::size_t last) noexcept;
@@ -116,6 +116,7 @@ private:
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones
+    bool normals_ = false;    // of current poses, more than positions are wanted
     std::size_t group_size_ = 0;
     CrowdResult result_;
     Member groups_[2][setup_width];

@@ -81,7 +81,8 @@ void LaneRunner::prefetch_ends() const noexcept {
 
 void LaneRunner::set_up(std::size_t region) noexcept {
     squeezes_[region % kept] =
-        posed_.set_up(region, kernels_.lane_setup, wrinkled_, coefficients_[region % kept]);
+        posed_.set_up(region, kernels_.lane_setup, wrinkled_, pass_.streams != StreamSet::positions,
+                      coefficients_[region % kept]);
 }
 
 /// Deforms the vertices of a region.

@@ -194,13 +194,13 @@ struct SetupColumns {
 
 /// Computes the coefficients of one region for `count` instances: all that depends on the pose and not on the
 /// vertex. Those of instance i go to k[i * step]. Sets amplitudes where wrinkled[i]; elsewhere to 0 if the
-/// region is shaped.
+/// region is shaped. `normals`: kernels compute more than positions; else the normal matrix is not set.
 using Setup = void (*)(const SetupRegion& region, SetupColumns& columns, std::size_t count,
-                       const bool* wrinkled, Coefficients* k, std::size_t step);
+                       const bool* wrinkled, bool normals, Coefficients* k, std::size_t step);
 
 /// The same of setup_width instances, for kernels that deform many at a time; unused ones are set up as well.
 /// `wrinkled`: all are.
-using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, bool wrinkled,
+using LaneSetup = void (*)(const SetupRegion& region, SetupColumns& columns, bool wrinkled, bool normals,
                            LaneCoefficients& k);
 
 /// Vertices in a tile, which holds some vertices of many instances: value c of vertex v is at

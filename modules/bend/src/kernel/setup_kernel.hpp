@@ -57,8 +57,9 @@ class SetupLanes {
 public:
     using Vec = typename L::Vec;
 
-    SetupLanes(const SetupRegion& region, SetupColumns& columns, std::size_t first, const Result& result)
-        : region_(region), columns_(columns), first_(first), result_(result) {}
+    SetupLanes(const SetupRegion& region, SetupColumns& columns, std::size_t first, bool normals,
+               const Result& result)
+        : region_(region), columns_(columns), first_(first), normals_(normals), result_(result) {}
 
     /// Sets everything but the amplitudes. For these it leaves, for each instance, the place of its row in
     /// the table and the scale that set_plain_amplitude or set_relative_amplitude takes.
@@ -223,13 +224,16 @@ private:
         put([](auto& k) { return &k.matrix[4]; }, b.x, b.y, b.z, zero);
         put([](auto& k) { return &k.matrix[8]; }, t.x, t.y, t.z, zero);
         put([](auto& k) { return &k.offset[0]; }, origin.x, origin.y, origin.z, zero);
-        set_normal_matrix(n, b, t);
+        const Vec handedness = normals_ ? set_normal_matrix(n, b, t) : L::splat(1.0f);
+        put([](auto& k) { return &k.first_curvature; }, part_ * L::splat(region_.per_length), doublings_,
+            L::splat(region_.radius * 0.5f), handedness);
     }
 
     // Normals are transformed by the cofactors: the inverse transpose times the determinant, which turns them
     // inward if it is negative. The result is scaled, since kernels add a small number to squared lengths.
-    // The matrix is scaled first if squares of its cofactors would leave float's range.
-    void set_normal_matrix(Vector3<L> n, Vector3<L> b, Vector3<L> t) {
+    // The matrix is scaled first if squares of its cofactors would leave float's range. Returns the sign of
+    // the determinant.
+    Vec set_normal_matrix(Vector3<L> n, Vector3<L> b, Vector3<L> t) {
         const Vec zero = L::splat(0.0f), one = L::splat(1.0f);
         const Vec size = L::max(L::max(largest(n), largest(b)), largest(t));
         const Vec inverse = one / L::max(size, L::splat(1e-37f));
@@ -248,8 +252,7 @@ private:
         put_column([](auto& k) { return &k.normal_matrix[0]; }, cofactors[0]);
         put_column([](auto& k) { return &k.normal_matrix[4]; }, cofactors[1]);
         put_column([](auto& k) { return &k.normal_matrix[8]; }, cofactors[2]);
-        put([](auto& k) { return &k.first_curvature; }, part_ * L::splat(region_.per_length), doublings_,
-            L::splat(region_.radius * 0.5f), handedness);
+        return handedness;
     }
 
     /// A column has the scale S = 1 - s (kappa + curl . u), where u = (cos beta, sin beta) and curl = kappa
@@ -271,6 +274,7 @@ private:
     const SetupRegion& region_;
     SetupColumns& columns_;
     std::size_t first_;
+    bool normals_;
     Result result_;
     Vec alpha_, part_, doublings_, curvature_, one_minus_kappa_;
     SinCos<L> half_, whole_;  // of half the direction, and of the direction
@@ -278,11 +282,12 @@ private:
 
 template <class L>
 GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, std::size_t count,
-                             const bool* wrinkled, Coefficients* k, std::size_t step) {
+                             const bool* wrinkled, bool normals, Coefficients* k, std::size_t step) {
     alignas(64) float place[setup_width], scale[setup_width];
     for (std::size_t first = 0; first < count; first += L::width) {
         const auto run = [&](auto result) {
-            SetupLanes<L, decltype(result)>(region, columns, first, result).run(place + first, scale + first);
+            SetupLanes<L, decltype(result)>(region, columns, first, normals, result)
+                .run(place + first, scale + first);
         };
         Coefficients* const to = k + first * step;
         const std::size_t left = count - first;
@@ -306,10 +311,11 @@ GOFFER_FLATTENED void set_up(const SetupRegion& region, SetupColumns& columns, s
 
 template <class L>
 GOFFER_FLATTENED void set_up_lanes(const SetupRegion& region, SetupColumns& columns, bool wrinkled,
-                                   LaneCoefficients& k) {
+                                   bool normals, LaneCoefficients& k) {
     alignas(64) float place[setup_width], scale[setup_width];
     for (std::size_t first = 0; first < setup_width; first += L::width)
-        SetupLanes<L, LaneResult<L>>(region, columns, first, {k, first}).run(place + first, scale + first);
+        SetupLanes<L, LaneResult<L>>(region, columns, first, normals, {k, first})
+            .run(place + first, scale + first);
     float most = 0;
     for (const float doublings : k.doublings) most = doublings > most ? doublings : most;
     for (float& lane : k.most_doublings) lane = most;

@@ -2,7 +2,6 @@
 #include "output/output_plan.hpp"
 
 #include "body/body_data.hpp"
-#include "kernel/lines.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -120,9 +119,8 @@ std::optional<PairOrder> order_of(std::span<const Component> components, std::si
 
 }  // namespace
 
-std::size_t Record::to_line(std::size_t vertex) const noexcept {
+std::size_t Record::record_to_line(std::size_t vertex) const noexcept {
     const float* at = first - lead + vertex * stride_floats();
-    if (plane()) return floats_to_line<Record>(at);
     for (std::size_t peeled = 0; peeled < line_floats; ++peeled, at += stride_floats())
         if (floats_to_line<Record>(at) == 0) return peeled;
     return line_floats;
@@ -262,11 +260,6 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (writes_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
     if (writes_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
     return !non_temporal_ || side_by_side(planes.all());
-}
-
-std::size_t OutputPlan::peeled(std::size_t vertex) const noexcept {
-    const std::size_t peeled = lines_ == nullptr ? line_floats : lines_->to_line(vertex);
-    return peeled == line_floats ? 0 : peeled;
 }
 
 std::size_t vertex_bytes(const Batch& batch) noexcept {

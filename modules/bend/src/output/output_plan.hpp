@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/args.hpp"
+#include "kernel/lines.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
@@ -58,7 +59,12 @@ struct Record {
     [[nodiscard]] std::size_t stride_floats() const noexcept { return stride / sizeof(float); }
     /// The number of vertices from `vertex` to the first one that begins a cache line; line_floats if none
     /// does.
-    [[nodiscard]] std::size_t to_line(std::size_t vertex) const noexcept;
+    [[nodiscard]] std::size_t to_line(std::size_t vertex) const noexcept {
+        return plane() ? floats_to_line<Record>(first + vertex) : record_to_line(vertex);
+    }
+
+private:
+    [[nodiscard]] std::size_t record_to_line(std::size_t vertex) const noexcept;
 };
 
 struct PassPlan {
@@ -102,7 +108,10 @@ public:
     /// The number of vertices from vertex `vertex` of the buffer to the first one that begins a cache line,
     /// in the first plane or record that is written as whole lines. 0 if there is no such plane, record or
     /// vertex.
-    [[nodiscard]] std::size_t peeled(std::size_t vertex) const noexcept;
+    [[nodiscard]] std::size_t peeled(std::size_t vertex) const noexcept {
+        const std::size_t peeled = lines_ == nullptr ? line_floats : lines_->to_line(vertex);
+        return peeled == line_floats ? 0 : peeled;
+    }
 
 private:
     template <std::size_t N>

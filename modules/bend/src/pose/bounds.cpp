@@ -275,7 +275,7 @@ void bounds(const Batch& batch, std::span<Bounds> result, Isa isa) noexcept {
     const Setup setup = kernels(isa).setup;
     const auto take = [&](PosedGroup& group, std::size_t first) {
         for (std::size_t r = 0; r < regions; ++r) {
-            group.set_up(r, setup, k + r, regions);
+            group.set_up(r, setup, false, k + r, regions);
             for (std::size_t i = 0; i < group.count(); ++i) squeezes[i * regions + r] = group.squeeze(i);
         }
         for (std::size_t i = 0; i < group.count(); ++i)

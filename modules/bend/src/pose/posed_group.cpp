@@ -157,16 +157,18 @@ const RegionData& PosedGroup::take_region(std::size_t region) noexcept {
     return details;
 }
 
-Squeeze PosedGroup::set_up(std::size_t region, LaneSetup setup, bool wrinkled, LaneCoefficients& k) noexcept {
+Squeeze PosedGroup::set_up(std::size_t region, LaneSetup setup, bool wrinkled, bool normals,
+                           LaneCoefficients& k) noexcept {
     const RegionData& details = take_region(region);
     wrinkled = wrinkled && details.setup.rows != nullptr;
-    setup(details.setup, columns_, wrinkled, k);
+    setup(details.setup, columns_, wrinkled, normals, k);
     return wrinkled ? squeeze_ : bare_;
 }
 
-void PosedGroup::set_up(std::size_t region, Setup setup, Coefficients* k, std::size_t step) noexcept {
+void PosedGroup::set_up(std::size_t region, Setup setup, bool normals, Coefficients* k,
+                        std::size_t step) noexcept {
     const RegionData& details = take_region(region);
-    setup(details.setup, columns_, count_, wrinkled_ + place_, k, step);
+    setup(details.setup, columns_, count_, wrinkled_ + place_, normals, k, step);
 }
 
 PosedInstance::PosedInstance(const BodyData& body, Setup setup, std::span<const Pose> poses,
@@ -174,7 +176,7 @@ PosedInstance::PosedInstance(const BodyData& body, Setup setup, std::span<const 
     PosedGroup group(body, 1);
     group.add(poses, transform, weight);
     for (std::size_t r = 0; r < body.regions.size(); ++r) {
-        group.set_up(r, setup, &k[r], 1);
+        group.set_up(r, setup, true, &k[r], 1);
         squeezes[r] = group.squeeze(0);
     }
 }

@@ -75,12 +75,13 @@ public:
     PoseState add(const Batch& batch, std::size_t element, Time time) noexcept;
 
     /// Sets up region `region` of all instances; call it for the regions in order, from 0. The coefficients
-    /// of instance i go to k[i * step].
-    void set_up(std::size_t region, Setup setup, Coefficients* k, std::size_t step) noexcept;
+    /// of instance i go to k[i * step]. `normals`: as in Setup.
+    void set_up(std::size_t region, Setup setup, bool normals, Coefficients* k, std::size_t step) noexcept;
 
     /// The same for kernels that deform several instances at a time, of which all wrinkle, or none does.
     /// Returns which kernels serve them.
-    Squeeze set_up(std::size_t region, LaneSetup setup, bool wrinkled, LaneCoefficients& k) noexcept;
+    Squeeze set_up(std::size_t region, LaneSetup setup, bool wrinkled, bool normals,
+                   LaneCoefficients& k) noexcept;
 
     /// Which kernels serve instance i in the region that was set up last.
     [[nodiscard]] Squeeze squeeze(std::size_t i) const noexcept {

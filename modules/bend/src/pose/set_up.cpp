@@ -34,7 +34,7 @@ void set_up(const Batch& batch, std::span<Coefficients> result, Isa isa, Time ti
     const auto take = [&](PosedGroup& group, std::size_t first) {
         Coefficients* const k = &result[first * regions];
         for (std::size_t r = 0; r < regions; ++r) {
-            group.set_up(r, setup, k + r, regions);
+            group.set_up(r, setup, true, k + r, regions);
             for (std::size_t i = 0; i < group.count(); ++i) set_unread(k[i * regions + r], group.squeeze(i));
         }
     };
