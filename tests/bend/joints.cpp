@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "body/body_data.hpp"
 #include "body/check.hpp"
 #include "body_files.hpp"
 #include "capsules.hpp"
@@ -140,6 +141,45 @@ TEST_CASE("P5: folds over joints have the same bits wherever lines and ranges be
             }
         }
     }
+}
+
+TEST_CASE("P5: joints with any number of vertices near them have the same bits past the cache") {
+    Random random(165);
+    std::vector<std::size_t> near;  // joints
+    for (int columns = 10; columns <= 80; ++columns) {
+        CAPTURE(columns);
+        TestMesh test_mesh = random_mesh(random, 12, 1, columns, 55);
+        const std::size_t count = test_mesh.positions.size();
+        fit::BindOptions options;
+        options.shape = fit::ShapeMode::cylinder;
+        options.regions = {{0.3, 1}, {0.4, 2}, {0.3, 1}};
+        fit::Binding binding = fit::bind(test_mesh.geometry(), test_mesh.cylinder, options);
+        const BoundCase one = {std::move(test_mesh), options, std::move(binding)};
+        const bend::Body& body = one.binding.body;
+        const bend::BodyData& data = *body.data();
+        for (std::size_t r = 0; r + 1 < data.details.size(); ++r)
+            near.push_back(data.details[r + 1].joints.below.last - data.details[r].joints.above.first);
+        const std::vector<bend::Pose> poses = random_poses(random, body);
+        Output whole(count);
+        bend::run(make_job(body, poses, Isa::automatic, whole));
+        for (std::size_t shift = 0; shift < 17; shift += 1 + random() % 5) {
+            CAPTURE(shift);
+            Shifted some;
+            bend::Batch batch = bend::batch_of(some.job(one, poses, Isa::automatic, shift, 1));
+            bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = bend::Stores::non_temporal});
+            for (std::size_t c = 0; c < 6; ++c)
+                REQUIRE(std::ranges::equal(some.columns[c].subspan(shift, count), whole.columns[c]));
+        }
+    }
+    // Up to 224 vertices go through the stage together.
+    const auto between = [&](std::size_t low, std::size_t high) {
+        return std::ranges::any_of(near, [&](std::size_t n) { return low < n && n <= high; });
+    };
+    MESSAGE("from ", std::ranges::min(near), " to ", std::ranges::max(near), " vertices near a joint");
+    CHECK(between(0, 150));
+    CHECK(between(208, 224));
+    CHECK(between(224, 240));
+    CHECK(between(300, 1000));
 }
 
 TEST_CASE("P9: with folds over joints, a chain of one curvature is one region, wrinkles and all") {
