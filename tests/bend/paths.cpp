@@ -182,6 +182,100 @@ TEST_CASE("repeated points are passed over") {
     }
 }
 
+TEST_CASE("a body that begins farther on lies as on the rest of the path") {
+    Random random(97);
+    for (int trial = 0; trial < 20; ++trial) {
+        const bend::Body body = body_of_regions(random, 1 + random() % 8);
+        Control control;
+        set_smooth(random, body.length(), control);
+        std::vector<glm::vec3> points;
+        for (int i = 0; i <= 60; ++i) points.emplace_back(point_of(control, i / 60.0));
+        const std::size_t first = random() % 40;
+        double before = 0;
+        for (std::size_t i = 0; i < first; ++i)
+            before += glm::distance(glm::dvec3(points[i]), glm::dvec3(points[i + 1]));
+        // A little behind the point: which of the pieces there it is on would be for rounding to say.
+        const glm::dvec3 piece(points[first + 1] - points[first]);
+        const double beyond = 0.01 * glm::length(piece);
+        std::vector<bend::Pose> poses(body.region_count()), rest(poses);
+        const bend::PathStart start{.distance = static_cast<float>(before + beyond)};
+        const bend::PathFit fit = bend::poses_along(body, points, poses, start);
+        points[first] += glm::vec3(0.01 * piece);
+        const bend::PathFit of_rest = bend::poses_along(body, std::span(points).subspan(first), rest);
+        for (int c = 0; c < 4; ++c)
+            CHECK(glm::distance(fit.transform[c], of_rest.transform[c]) < 1e-5 * body.length());
+        for (std::size_t r = 0; r < poses.size(); ++r)
+            CHECK(poses[r].angle == doctest::Approx(rest[r].angle).epsilon(1e-4));
+        CHECK(std::fabs(fit.error - of_rest.error) < 1e-5 * body.length());
+        // The curve is longer than its chords.
+        const bend::PathFit along = bend::poses_along_bezier(body, control, poses, start);
+        const glm::vec3 base = along.transform * glm::vec4(glm::vec3(body.origin()), 1);
+        CHECK(glm::distance(base, points[first]) < 1e-3 * body.length());
+    }
+}
+
+TEST_CASE("a body on a path is rolled so that its back is up, or not at all where there is no up") {
+    Random random(98);
+    for (int trial = 0; trial < 200; ++trial) {
+        const bend::Body body = body_of_regions(random, 3);
+        const glm::vec3 axis(body.axes()[2]);
+        const glm::vec3 model_up(random_vector(random)), up(random_vector(random)), from(1, 2, 3);
+        const glm::vec3 ends[] = {from, from + glm::vec3(random_vector(random))};
+        std::vector<bend::Pose> poses(3);
+        const auto turn_with = [&](const bend::PathStart& start) {
+            return glm::mat3(bend::poses_along(body, ends, poses, start).transform);
+        };
+        const glm::mat3 turn = turn_with({.model_up = model_up, .up = up});
+        const glm::vec3 heading = glm::normalize(ends[1] - ends[0]), back = turn * model_up;
+        CHECK(glm::distance(turn * axis, heading) < 1e-5f);
+        CHECK(std::fabs(glm::determinant(turn) - 1) < 1e-5f);
+        CHECK(std::fabs(glm::dot(glm::cross(heading, back), up)) < 1e-5f);
+        CHECK(glm::dot(back - glm::dot(back, heading) * heading, up) >= 0);
+        // Where the back is already, it stays.
+        const glm::mat3 same = turn_with({.model_up = model_up, .up = back});
+        const glm::mat3 shortest = turn_with({});
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        for (int c = 0; c < 3; ++c) {
+            CHECK(glm::distance(same[c], turn[c]) < 1e-5f);
+            CHECK(shortest[c] == turn_with({.model_up = axis, .up = up})[c]);
+            CHECK(shortest[c] == turn_with({.model_up = model_up, .up = {nan, 0, 0}})[c]);
+            CHECK(shortest[c] == turn_with({.model_up = model_up, .up = heading})[c]);
+        }
+    }
+}
+
+TEST_CASE("a body that walks, each frame turned from the one before, does not roll") {
+    Random random(99);
+    const bend::Body body = body_of_regions(random, 2);
+    const auto length = static_cast<float>(body.length());
+    std::vector<glm::vec3> circle;  // of one round and more, far from the axis at rest and back
+    for (int i = 0; i <= 500; ++i) {
+        const float angle = 6.2831853f * static_cast<float>(i) / 400;
+        circle.push_back(3 * length * glm::vec3(std::cos(angle), 0, std::sin(angle)));
+    }
+    std::vector<bend::Pose> poses(2);
+    // The component of the body's own direction across the plane: what a roll would change.
+    const auto across = [&](const glm::mat3& turn) { return (turn * glm::mat3(body.axes()))[0].y; };
+    bend::PathStart walking, fixed;
+    float least = 1, most = -1, first = 0;
+    for (int step = 0; step <= 400; ++step) {
+        walking.before = glm::mat3(bend::poses_along(body, circle, poses, walking).transform);
+        if (step == 0) first = across(walking.before);
+        CHECK(std::fabs(across(walking.before) - first) < 1e-4f);
+        const float own = across(glm::mat3(bend::poses_along(body, circle, poses, fixed).transform));
+        least = std::min(least, own);
+        most = std::max(most, own);
+        walking.distance = fixed.distance += 3 * length * 6.2831853f / 400;
+    }
+    CHECK(most - least > 0.2f);  // it would roll otherwise
+    const auto turn_from = [&](const glm::mat3& before) {
+        return bend::poses_along(body, circle, poses, {.before = before}).transform;
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const glm::mat3& none : {glm::mat3(0), glm::mat3(2), glm::mat3(-1), glm::mat3(nan)})
+        CHECK(turn_from(none) == turn_from(glm::mat3(1)));
+}
+
 TEST_CASE("a path may hold any bits") {
     Random random(94);
     const float some[] = {0, 1, 2, 1e-45f, -1e20f, 3e38f, -3e38f, std::numeric_limits<float>::quiet_NaN()};
@@ -195,9 +289,12 @@ TEST_CASE("a path may hold any bits") {
                     p[c] = i % 2 == 0 ? some[random() % (i % 4 == 0 ? 8 : 7)]
                                       : std::bit_cast<float>(static_cast<std::uint32_t>(random()));
             }
-            REQUIRE(is_sane(bend::poses_along_bezier(body, control, poses), poses));
+            bend::PathStart start;
+            if (i % 3 == 0)
+                start = {control[0].x, glm::mat3(control[3], control[2], control[1]), control[1], control[2]};
+            REQUIRE(is_sane(bend::poses_along_bezier(body, control, poses, start), poses));
             const std::span<const glm::vec3> points = std::span(control).first(random() % 5);
-            const bend::PathFit fit = bend::poses_along(body, points, poses);
+            const bend::PathFit fit = bend::poses_along(body, points, poses, start);
             REQUIRE(is_sane(fit, poses));
             const bend::PathFault fault = bend::check_path(points);
             if (fault == bend::PathFault::not_finite || fault == bend::PathFault::too_few_points)

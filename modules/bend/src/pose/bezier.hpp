@@ -95,10 +95,13 @@ inline Float4 BezierStretch::from_line(const Vec3x4& seen) const noexcept {
 /// finite; any of them may be equal.
 class Bezier {
 public:
-    explicit Bezier(const glm::vec3 (&control)[4]) noexcept;
+    /// Begins at the distance `start` >= 0 from the first point.
+    Bezier(const glm::vec3 (&control)[4], double start) noexcept;
 
-    /// The first point.
-    [[nodiscard]] glm::dvec3 start() const noexcept { return start_; }
+    /// The current place.
+    [[nodiscard]] glm::dvec3 place() const noexcept {
+        return here_.t > 1 ? point(1) + (here_.t - 1) * onward_ : point(here_.t);
+    }
     /// The direction at the distance `ahead` >= 0 in front of the current place, as a vector of any length.
     /// It is zero if the curve is a single point, and at the tip of a cusp.
     [[nodiscard]] glm::dvec3 heading(double ahead) noexcept {
@@ -132,12 +135,12 @@ private:
     double before_[pieces + 1];  // length of the curve up to the beginning of each piece, and of all of it
     double pace_[pieces + 1];    // the pace there
     int piece_ = 0;              // found last by at()
-    double gone_ = 0;            // length up to the current place
+    double gone_;                // length up to the current place
     Place here_;                 // the current place
     float drift_ = 0;            // of the last foot from where it was expected, in its region's parameter
 };
 
-inline Bezier::Bezier(const glm::vec3 (&control)[4]) noexcept {
+inline Bezier::Bezier(const glm::vec3 (&control)[4], double start) noexcept : gone_(start) {
     const glm::dvec3 a(control[0]), b(control[1]), c(control[2]), d(control[3]);
     start_ = a;
     linear_ = 3.0 * (b - a);
@@ -146,7 +149,7 @@ inline Bezier::Bezier(const glm::vec3 (&control)[4]) noexcept {
     first_ = b != a ? b - a : c != a ? c - a : d - a;
     onward_ = 3.0 * (d != c ? d - c : d != b ? d - b : d - a);
     measure();
-    here_ = at(0);
+    here_ = at(start);
 }
 
 /// Measures the length by Simpson's rule, piece by piece.

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -34,6 +35,52 @@ glm::dmat3 turned_to(const glm::dmat3& axes, const dvec3& direction) noexcept {
         return cosine * v + glm::cross(across, v) + glm::dot(across, v) / (1 + cosine) * across;
     };
     return {turn(axes[0]), turn(axes[1]), direction};
+}
+
+/// `axes` rolled about the third one, so that the direction `model_up`, which has the components (x, y) along
+/// the others, points as nearly to `up` as it can.
+glm::dmat3 rolled_to(const glm::dmat3& axes, const glm::dvec2& model_up, const dvec3& up) noexcept {
+    const glm::dvec2 wanted(glm::dot(axes[0], up), glm::dot(axes[1], up));
+    const double lengths = glm::length(model_up) * glm::length(wanted);
+    if (!(lengths > 0)) return axes;
+    const double cosine = glm::dot(model_up, wanted) / lengths;
+    const double sine = (model_up.x * wanted.y - model_up.y * wanted.x) / lengths;
+    return {cosine * axes[0] + sine * axes[1], cosine * axes[1] - sine * axes[0], axes[2]};
+}
+
+/// `v` with a length of 1, or zero if it has no direction, or hardly one across `axis`.
+dvec3 across(const glm::vec3& v, const dvec3& axis) noexcept {
+    constexpr double least = 1e-6;
+    if (!is_finite(v)) return dvec3(0);
+    const dvec3 unit = glm::dvec3(v) / std::max(glm::length(glm::dvec3(v)), 1e-300);
+    const dvec3 part = unit - glm::dot(unit, axis) * axis;
+    return glm::length(part) > least ? part : dvec3(0);
+}
+
+/// The rotation nearest to `m`, or the identity if `m` is hardly one.
+glm::dmat3 rotation_of(const glm::mat3& m) noexcept {
+    constexpr float most = 0.01f;
+    for (int c = 0; c < 3; ++c) {
+        for (int other = 0; other < 3; ++other) {
+            if (!(std::fabs(glm::dot(m[c], m[other]) - (c == other ? 1.0f : 0.0f)) < most))
+                return glm::dmat3(1);
+        }
+    }
+    if (glm::determinant(m) < 0) return glm::dmat3(1);
+    const dvec3 x = glm::normalize(dvec3(m[0]));
+    const dvec3 z = glm::normalize(glm::cross(x, dvec3(m[1])));
+    return {x, glm::cross(z, x), z};
+}
+
+/// The axes of `body` where its own one has the direction `heading`, turned and rolled as `start` has it.
+glm::dmat3 axes_along(const Body& body, const dvec3& heading, const PathStart& start) noexcept {
+    const glm::dmat3 axes = turned_to(rotation_of(start.before) * body.axes(), heading);
+    const dvec3 local = across(start.model_up, body.axes()[2]) * body.axes();
+    return rolled_to(axes, {local.x, local.y}, across(start.up, heading));
+}
+
+double distance_of(const PathStart& start) noexcept {
+    return start.distance > 0 && std::isfinite(start.distance) ? static_cast<double>(start.distance) : 0;
 }
 
 /// How a region bends: by `angle`, toward (`cosine`, `sine`) in its frame.
@@ -117,10 +164,10 @@ glm::mat4x3 transform_to(const MovingFrame& frame, const Body& body) noexcept {
 }
 
 template <class Path>
-PathFit follow(const Body& body, Path path, std::span<Pose> poses) noexcept {
+PathFit follow(const Body& body, Path path, std::span<Pose> poses, const PathStart& start) noexcept {
     const dvec3 heading = path.heading(0);
-    if (heading == dvec3(0)) return straight(body, path.start(), poses);
-    MovingFrame frame{path.start(), turned_to(body.axes(), glm::normalize(heading))};
+    if (heading == dvec3(0)) return straight(body, path.place(), poses);
+    MovingFrame frame{path.place(), axes_along(body, glm::normalize(heading), start)};
     PathFit fit{.transform = transform_to(frame, body)};
     double farthest = 0, share = 1;  // share: center line / length of the last region
     const std::span<const Region> regions = body.regions();
@@ -170,14 +217,18 @@ PathFault check_path(std::span<const glm::vec3> points) noexcept {
     return PathFault::none;
 }
 
-PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses) noexcept {
+PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses,
+                    const PathStart& start) noexcept {
     if (points.size() < 2 || !std::ranges::all_of(points, is_finite)) return no_fit(poses);
-    return follow(body, Polyline(points), poses.first(std::min(poses.size(), body.region_count())));
+    const Polyline path(points, distance_of(start));
+    return follow(body, path, poses.first(std::min(poses.size(), body.region_count())), start);
 }
 
-PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses) noexcept {
+PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses,
+                           const PathStart& start) noexcept {
     if (!std::ranges::all_of(control, is_finite)) return no_fit(poses);
-    return follow(body, Bezier(control), poses.first(std::min(poses.size(), body.region_count())));
+    const Bezier path(control, distance_of(start));
+    return follow(body, path, poses.first(std::min(poses.size(), body.region_count())), start);
 }
 
 }  // namespace goffer::bend

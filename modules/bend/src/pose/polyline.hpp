@@ -18,12 +18,19 @@ namespace goffer::bend {
 /// Points are finite; neighbors may be equal.
 class Polyline {
 public:
-    explicit Polyline(std::span<const glm::vec3> points) noexcept : points_(without_repeated_end(points)) {
-        here_ = near_ = piece(0, 0);
+    /// Begins at the distance `start` >= 0 from the first point.
+    Polyline(std::span<const glm::vec3> points, double start) noexcept
+        : points_(without_repeated_end(points)), gone_(start) {
+        here_ = piece(0, 0);
+        move(here_, gone_);
+        near_ = here_;
     }
 
-    /// The first point.
-    [[nodiscard]] glm::dvec3 start() const noexcept { return glm::dvec3(points_[0]); }
+    /// The current place.
+    [[nodiscard]] glm::dvec3 place() const noexcept {
+        const double length = here_.end - here_.begin;
+        return length > 0 ? here_.from + (gone_ - here_.begin) / length * here_.step : here_.from;
+    }
     /// The direction at the distance `ahead` >= 0 in front of the current place, as a vector of any length.
     /// It is zero if all points are equal.
     [[nodiscard]] glm::dvec3 heading(double ahead) const noexcept {

@@ -5,6 +5,7 @@
 #include "memory.hpp"
 #include "poses.hpp"
 
+#include <goffer/bend/bounds.hpp>
 #include <goffer/measure/fill.hpp>
 
 #include <glm/mat3x3.hpp>
@@ -33,14 +34,6 @@ double scattered(std::size_t index, double ratio) {
 std::size_t columns_for(std::size_t instances, std::size_t models) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(instances))));
     return models > 1 && columns % models == 0 ? columns + 1 : columns;
-}
-
-/// So that neighbors, which bend much the same way, hardly touch. In lengths of a body.
-double spacing_for(std::span<const BoundModel> models) {
-    double thickest = 0;
-    for (const BoundModel& model : models)
-        thickest = std::max(thickest, model.cylinder.radius / model.cylinder.length);
-    return 0.25 + 2.7 * thickest;
 }
 
 std::size_t instances_of(std::size_t model, std::size_t models, std::size_t instances) {
@@ -91,11 +84,29 @@ glm::mat4x3 transform_to(const bend::Body& body, double x, double y, double yaw)
     return {glm::vec3(linear[0]), glm::vec3(linear[1]), glm::vec3(linear[2]), glm::vec3(place)};
 }
 
+/// How far a body at rest reaches from the axis that it stands on, in lengths of it.
+double reach_at_rest(const bend::Body& body) {
+    const bend::Bounds box = bend::bounds(body, body.rest_poses(), transform_to(body, 0, 0, 0));
+    return static_cast<double>(std::max({-box.low.x, -box.low.y, box.high.x, box.high.y}));
+}
+
+/// So that neighbors hardly touch, which bend much the same way; at rest, each bends its own way. In lengths
+/// of a body.
+double spacing_for(std::span<const BoundModel> models, bool from_rest) {
+    double thickest = 0, farthest = 0;
+    for (const BoundModel& model : models) {
+        thickest = std::max(thickest, model.cylinder.radius / model.cylinder.length);
+        farthest = std::max(farthest, reach_at_rest(model.binding.body));
+    }
+    const double spacing = 0.25 + 2.7 * thickest;
+    return from_rest ? std::max(spacing, 2 * farthest) : spacing;
+}
+
 }  // namespace
 
 Crowd::Crowd(std::span<const BoundModel> models, const CrowdPlan& plan)
     : columns_(columns_for(plan.instances, models.size())),
-      spacing_(spacing_for(models)),
+      spacing_(spacing_for(models, plan.from_rest)),
       farthest_(plan.poses),
       from_rest_(plan.from_rest),
       memory_(memory_for(models, plan)),

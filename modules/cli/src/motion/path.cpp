@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace goffer::cli {
 namespace {
@@ -34,18 +33,6 @@ dvec3 across(const dvec3& axis) {
 dmat3 turned_to(const dmat3& axes, const dvec3& heading) {
     if (glm::dot(axes[2], heading) < -1 + 1e-12) return {axes[0], -axes[1], -axes[2]};
     return glm::mat3_cast(glm::rotation(axes[2], heading)) * axes;
-}
-
-/// `fit` with the body rolled by `roll` about its axis, and bent the same way as before in the scene.
-void roll_by(double roll, const bend::Body& body, bend::PathFit& fit, std::span<bend::Pose> poses) {
-    const dmat3 turn(fit.transform);
-    const dvec3 base = turn * body.origin() + dvec3(fit.transform[3]);
-    const dmat3 rolled = turn * glm::mat3_cast(glm::angleAxis(roll, body.axes()[2]));
-    fit.transform = glm::mat4x3(glm::mat3(rolled));
-    fit.transform[3] = glm::vec3(base - rolled * body.origin());
-    for (bend::Pose& pose : poses)
-        pose.direction = static_cast<float>(
-            std::remainder(static_cast<double>(pose.direction) - roll, 2 * std::numbers::pi));
 }
 
 }  // namespace
@@ -113,14 +100,12 @@ bend::PathFit Path::lay(const bend::Body& body, double start, std::span<bend::Po
         start = std::fmod(start, length());
         if (start < 0) start += length();
     }
-    bend::PathFit fit = bend::poses_along(body, window(start, body.length()), poses);
-    fit.transform[3] = glm::vec3(dvec3(fit.transform[3]) + point_at(start));
-    const dmat3 axes = dmat3(fit.transform) * body.axes();
     const std::size_t piece = piece_at(start);
-    const dvec3 wanted = turns_[piece] * turned_to(body.axes(), headings_.front())[0];
-    const double roll = angle_about(axes[2], axes[0], wanted) - twist_ * start / length();
-    constexpr double rounding = 1e-7;
-    if (std::fabs(roll) > rounding) roll_by(roll, body, fit, poses);
+    const glm::dquat untwisted = glm::angleAxis(-twist_ * start / length(), headings_[piece]);
+    const dvec3 side = untwisted * turns_[piece] * turned_to(body.axes(), headings_.front())[0];
+    bend::PathFit fit = bend::poses_along(body, window(start, body.length()), poses,
+                                          {.model_up = glm::vec3(body.axes()[0]), .up = glm::vec3(side)});
+    fit.transform[3] = glm::vec3(dvec3(fit.transform[3]) + point_at(start));
     return fit;
 }
 
