@@ -293,7 +293,7 @@ TEST_CASE("P7: columns whose elements are too near to each other are named") {
           "batches[1].poses: an element is smaller than a pose (8 bytes) for each region of the body, which "
           "lie one after the other");
     CHECK(words(crowd_fault_after([](SpoiledCrowd&, Batch& b) { b.transforms.first.stride = 44; })) ==
-          "batches[1].transform: an element is smaller than its matrix: 48 bytes, or 60 in the layout "
+          "batches[1].transforms: an element is smaller than its matrix: 48 bytes, or 60 in the layout "
           "columns4");
 }
 

@@ -303,6 +303,17 @@ TEST_CASE("a fault's line says where it is, however large the numbers are") {
     CHECK(line({Field::poses, Reason::not_finite, 1, 7, 2}).starts_with("batches[1].poses[7][2]: "));
     CHECK(line({Field::vertex_offsets, Reason::out_of_range, 0, 12})
               .starts_with("batches[0].vertex_offsets[12]: "));
+    CHECK(line({Field::wrinkle_weight, Reason::out_of_range, 1, 5})
+              .starts_with("batches[1].wrinkle_weights[5]: "));
+    CHECK(line({Field::transform, Reason::not_finite, 1, 5}).starts_with("batches[1].transforms[5]: "));
+    CHECK(line({Field::previous_transform, Reason::null, 1}).starts_with("batches[1].previous_transforms: "));
+    CHECK(line({Field::poses, Reason::count}) ==
+          "poses: not one per region of the body (a single pose is for a body of one region)");
+    CHECK(line({Field::poses, Reason::count, 2}) ==
+          "batches[2].poses: fewer elements than instances, or than the indices ask for");
+    CHECK(line({Field::body, Reason::null}) == "body: not given");
+    CHECK(line({Field::positions, Reason::null}) ==
+          "positions: a component is null beside others that are not");
     CHECK(line({Field::visible, Reason::too_short, 3}).starts_with("batches[3].visible: "));
     CHECK(line({Field::positions, Reason::null}).starts_with("positions: "));
     CHECK(line({Field::normals, Reason::out_of_range}).find("all addresses") != std::string::npos);

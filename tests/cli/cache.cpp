@@ -8,6 +8,7 @@
 #include <goffer/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,33 @@ TEST_CASE("cache: frames and instances have the same bits however they are cut i
             well(folder, {"cache", "--extract", place, "-o", from + ".ply", from});
         CHECK(bytes_of(folder / "one.ply") == bytes_of(folder / "many.ply"));
         CHECK(bytes_of(folder / "one.ply") == bytes_of(folder / "least.ply"));
+    }
+}
+
+TEST_CASE("cache: an instance that is mirrored comes out with its faces outward") {
+    const auto volume_of = [](const std::filesystem::path& file) {
+        const mesh::Mesh mesh = mesh::load(file);
+        double volume = 0;
+        for (std::size_t first = 0, f = 0; f < mesh.faces.size(); first += mesh.faces[f++]) {
+            const auto corner = [&](std::size_t i) {
+                return glm::dvec3(mesh.positions[mesh.corners[first + i]]);
+            };
+            for (std::size_t i = 1; i + 1 < mesh.faces[f]; ++i)
+                volume += glm::dot(corner(0), glm::cross(corner(i), corner(i + 1))) / 6;
+        }
+        return volume;
+    };
+    const Folder folder;
+    pose_file(folder, 3 * 2);
+    for (const int side : {1, -1}) {
+        write_posed_scene(folder, {side, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+        for (const std::string format : {"positions", "packed", "poses"}) {
+            CAPTURE(format);
+            const std::string place = format + std::to_string(side);
+            well(folder, cache_words(place, {"--format", format}));
+            well(folder, {"cache", "--extract", "2,0", "-o", place + ".ply", place});
+            CHECK(volume_of(folder / (place + ".ply")) > 0.5 * volume_of(folder / "worm.ply"));
+        }
     }
 }
 

@@ -136,7 +136,8 @@ void inspect_body_file(const InspectOptions& options) {
 }
 
 /// How far the regions of a model bend, with how many folds.
-void report_bends(Report& report, const fit::Binding& binding) {
+void report_bends(Report& report, const BindRequest& request, const BoundModel& model) {
+    const fit::Binding& binding = model.binding;
     const std::span<const bend::RegionInput> regions = binding.body.region_inputs();
     report.json["max_angle"] = degrees(regions[0].max_angle);
     report.json["folds_capacity"] = binding.folds_capacity();
@@ -146,13 +147,14 @@ void report_bends(Report& report, const fit::Binding& binding) {
         report.line(r == 0 ? "largest angle" : "",
                     region_words(r, regions.size()) + number(degrees(regions[r].max_angle)) + " degrees");
     }
+    const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const std::string carried = "; the mesh carries " + capacity_words(binding.folds_capacity(r));
-        report.line(
-            r == 0 ? "folds" : "",
-            region_words(r, regions.size()) +
-                (binding.folds(r) > 0 ? "it would have " + std::to_string(binding.folds(r)) + carried
-                                      : "none as it is" + carried + "; goffer bend adds rows for more"));
+        report.line(r == 0 ? "folds" : "",
+                    region_words(r, regions.size()) +
+                        (binding.folds(r) > 0 ? "it would have " + std::to_string(binding.folds(r))
+                                              : "none as it is") +
+                        carried + (suitable[r] > binding.folds(r) ? "; goffer bend adds rows for more" : ""));
     }
 }
 
@@ -170,7 +172,7 @@ void run_inspect(const InspectOptions& options) {
     report_fit(report, model.cylinder);
     report_suitability(report, model);
     if (options.fit.rest != "straight") report_rest(report, request, model);
-    report_bends(report, model.binding);
+    report_bends(report, request, model);
     io::AtomicFiles outputs;
     report.finish(outputs);
 }

@@ -60,7 +60,7 @@ std::string words_of(fit::FoldShortage shortage, const fit::Binding& binding, st
                      int suitable) {
     const auto folds_of = [](int folds) { return counted(static_cast<std::size_t>(folds), "fold"); };
     const std::string bare = "bent without wrinkles: ",
-                      finer = "; use a finer mesh, which goffer refine makes",
+                      finer = "; use a finer mesh, which --refine or goffer refine makes",
                       would_suit = " and " + std::to_string(suitable) + " would suit its length";
     const bool even = binding.profile.kind == fit::Profile::Kind::even;
     const int folds = binding.folds(region), capacity = binding.folds_capacity(region);

@@ -7,7 +7,8 @@
 namespace goffer::bend {
 namespace {
 
-std::string_view name(Field field) noexcept {
+/// The name of a field: that of a column in a batch of a crowd, where it has another.
+std::string_view name(Field field, bool of_batch) noexcept {
     switch (field) {
         case Field::none:
             return "";
@@ -16,9 +17,9 @@ std::string_view name(Field field) noexcept {
         case Field::poses:
             return "poses";
         case Field::transform:
-            return "transform";
+            return of_batch ? "transforms" : "transform";
         case Field::wrinkle_weight:
-            return "wrinkle_weight";
+            return of_batch ? "wrinkle_weights" : "wrinkle_weight";
         case Field::positions:
             return "positions";
         case Field::normals:
@@ -34,7 +35,7 @@ std::string_view name(Field field) noexcept {
         case Field::previous_poses:
             return "previous_poses";
         case Field::previous_transform:
-            return "previous_transform";
+            return of_batch ? "previous_transforms" : "previous_transform";
         case Field::outputs:
             return "outputs";
         case Field::vertex_offsets:
@@ -74,10 +75,15 @@ bool is_stream(Field field) noexcept {
     }
 }
 
-std::string_view reason_of_count(Field field) noexcept {
-    return field == Field::poses || field == Field::previous_poses
-               ? "not one per region of the body, for every instance (a single pose is for a body of one "
-                 "region)"
+std::string_view reason_of_null(Field field) noexcept {
+    return field == Field::body ? "not given"
+           : is_stream(field)   ? "a component is null beside others that are not"
+                                : "not given, or a page of it is not";
+}
+
+std::string_view reason_of_count(Field field, bool of_batch) noexcept {
+    return !of_batch && (field == Field::poses || field == Field::previous_poses)
+               ? "not one per region of the body (a single pose is for a body of one region)"
            : field == Field::indices ? "not one for each instance"
                                      : "fewer elements than instances, or than the indices ask for";
 }
@@ -102,14 +108,12 @@ std::string_view reason_of_stride(Field field) noexcept {
     }
 }
 
-std::string_view words(Field field, Reason reason) noexcept {
+std::string_view words(Field field, Reason reason, bool of_batch) noexcept {
     switch (reason) {
         case Reason::none:
             return "no fault";
         case Reason::null:
-            return field == Field::body || field == Field::poses || field == Field::previous_poses
-                       ? "not given, or a page of it is not"
-                       : "a component is null beside others that are not, or a page of it is";
+            return reason_of_null(field);
         case Reason::empty:
             return reason_of_empty(field);
         case Reason::not_finite:
@@ -123,7 +127,7 @@ std::string_view words(Field field, Reason reason) noexcept {
                    : is_stream(field)               ? "its count times its stride ends beyond all addresses"
                                                     : "a layout or a page_shift that there is not";
         case Reason::count:
-            return reason_of_count(field);
+            return reason_of_count(field, of_batch);
         case Reason::too_short:
             return "its count is below what the instances' vertices take";
         case Reason::stride:
@@ -174,10 +178,11 @@ FaultText describe(const Fault& fault) noexcept {
         return text;
     }
     if (fault.batch != Fault::nowhere) line.at("batches", fault.batch) << ".";
-    line.at(name(fault.field), fault.instance);
+    const bool of_batch = fault.batch != Fault::nowhere;
+    line.at(name(fault.field, of_batch), fault.instance);
     if (fault.region != Fault::nowhere) line.at("", fault.region);
-    line << ": " << words(fault.field, fault.reason);
-    if (fault.other != Field::none) line << name(fault.other);
+    line << ": " << words(fault.field, fault.reason, of_batch);
+    if (fault.other != Field::none) line << name(fault.other, of_batch);
     return text;
 }
 

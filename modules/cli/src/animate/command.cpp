@@ -39,7 +39,10 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
         report.line("angles", "are absolute: 0 is straight, and " + rest_words(model.binding.body) +
                                   " is the shape of the file; to swing from there, use --from-rest");
     if (survey.path_error > 0)
-        report.line("path", "the center line is within " + number(survey.path_error) + " of it");
+        report.line("path", "the center line is within " + number(survey.path_error) + " of it" +
+                                (survey.path_error > model.cylinder.radius
+                                     ? ", which is beyond the radius: more --regions come closer"
+                                     : ""));
     report.line("area change", "at most " + percent(survey.worst_area_change) + ", in frame " +
                                    std::to_string(survey.worst_frame + 1));
     if (model.cylinder.bent())

@@ -10,6 +10,9 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/error.hpp>
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cstring>
 
 namespace goffer::cli {
@@ -85,6 +88,33 @@ void deform(const Block& block, const BoundModel& model, Isa isa, mesh::VertexAr
     bend::run(job);
 }
 
+/// A measure of the volume that the surface encloses, which is negative where it is inside out. Of one with
+/// holes, as if each were closed toward the middle of the vertices.
+double volume_of(const mesh::Mesh& mesh, std::span<const glm::vec3> positions) {
+    glm::dvec3 middle(0);
+    for (const glm::vec3& p : positions) middle += glm::dvec3(p) / static_cast<double>(positions.size());
+    double volume = 0;
+    std::size_t first = 0;
+    for (const std::uint32_t count : mesh.faces) {
+        const auto corner = [&](std::size_t i) {
+            return glm::dvec3(positions[mesh.corners[first + i]]) - middle;
+        };
+        for (std::size_t i = 1; i + 1 < count; ++i)
+            volume += glm::dot(corner(0), glm::cross(corner(i), corner(i + 1)));
+        first += count;
+    }
+    return volume;
+}
+
+/// Turns all faces round: the transform of an instance may mirror it.
+void turn_round(mesh::Mesh& mesh) {
+    auto first = mesh.corners.begin();
+    for (const std::uint32_t count : mesh.faces) {
+        std::reverse(first, first + count);
+        first += count;
+    }
+}
+
 /// The model as the block has it. Positions alone say nothing of normals, which are then left out.
 mesh::Mesh mesh_of_block(const Block& block, const BoundModel& model, const Plan& plan) {
     mesh::VertexArrays records = model.rest;
@@ -106,7 +136,9 @@ mesh::Mesh mesh_of_block(const Block& block, const BoundModel& model, const Plan
     if (records.normals.empty()) bare.normals = {};
     bare.tangents = {};
     records.tangents.clear();
-    return mesh::with_vertex_arrays(bare, records);
+    mesh::Mesh made = mesh::with_vertex_arrays(bare, records);
+    if (volume_of(made, made.positions) * volume_of(model.mesh, model.mesh.positions) < 0) turn_round(made);
+    return made;
 }
 
 }  // namespace

@@ -221,8 +221,11 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
     report.line("frame",
                 number(timing.frame_median) + " ms (median), " + number(timing.frame_p99) + " ms (p99)");
     report.line("vertex", number(per_vertex) + " ns");
-    report.line("written", number(rate) + " GB/s, " + percentage(rate / floor) +
-                               " of the floor: a fill of as much, " + number(floor) + " GB/s");
+    report.line("written", number(rate) + " GB/s, " +
+                               (rate > floor ? number(rate / floor) + " times" : percentage(rate / floor)) +
+                               " of the floor: a fill of as much" +
+                               (rate > floor ? ", past the cache, which this fits: " : ", ") + number(floor) +
+                               " GB/s");
     if (timing.allocations) report.line("allocations", number(*timing.allocations) + " per frame");
 }
 

@@ -30,7 +30,8 @@ namespace goffer::bend {
 /// A column of affine transforms, one per instance, in one of the layouts that engines use. A plain value
 /// that owns nothing.
 struct TransformColumn {
-    /// How the matrix that takes column vectors to the outputs' space lies in memory.
+    /// How the matrix that takes column vectors to the outputs' space lies in memory. A matrix that takes row
+    /// vectors, with the translation in its last row, as DirectXMath has it, lies like columns4.
     enum class MatrixLayout : std::uint8_t {
         columns3,  ///< four columns of 3 floats: glm::mat4x3
         columns4,  ///< four columns of 4 floats: glm::mat4; the fourth of each is not read

@@ -9,7 +9,7 @@
 
 namespace goffer::bend {
 
-/// The field at fault, by its name in DeformJob or Batch.
+/// The field at fault, by its name in DeformJob, or in Batch where that alone has it.
 enum class Field : std::uint8_t {
     none,
     body,
@@ -78,7 +78,8 @@ struct FaultText {
 };
 
 /// Says in one line what is wrong and where, as in "batches[1].poses[7][2]: not finite: a NaN or an
-/// infinity". Returns "no fault" if there is none. Does not allocate. Thread-safe.
+/// infinity", with the names of DeformJob or, of a crowd, of Batch. Returns "no fault" if there is none. Does
+/// not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const Fault& fault) noexcept;
 
 }  // namespace goffer::bend
