@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// How do I lay a body along a path? path FILE.goffer (of several regions, the more the closer)
+// How do I have a body walk along a path? path FILE.goffer (of several regions, the more the closer)
 
 #include <goffer/bend/body_file.hpp>
 #include <goffer/bend/job.hpp>
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     const bend::Body& body = file->levels[0].body;
     const auto length = static_cast<float>(body.length());
     std::vector<glm::vec3> points;  // any polyline, in the body's unit: here a wave
-    for (int i = 0; i <= 40; ++i) {
+    for (int i = 0; i <= 80; ++i) {
         const float t = static_cast<float>(i) / 40;
         points.emplace_back(length * t, 0.1f * length * std::sin(6 * t), 0);
     }
@@ -30,12 +30,21 @@ int main(int argc, char** argv) {
         return std::printf("%s\n", std::string(bend::describe(bad)).c_str()), 1;
 
     std::vector<bend::Pose> poses(body.region_count());
-    const bend::PathFit fit = bend::poses_along(body, points, poses);
     std::vector<glm::vec3> positions(body.vertex_count());
-    bend::DeformJob job{.body = &body, .poses = poses, .transform = fit.transform};
+    bend::DeformJob job{.body = &body, .poses = poses};
     job.positions = interleaved<3>(&positions[0].x, positions.size());
-    bend::run(job);
-    std::printf("%zu regions, off the path by %.1f %% of the length%s\n", poses.size(),
-                static_cast<double>(100 * fit.error / length), fit.clamped ? ", as far as they bend" : "");
+    // Its back, here a side of the model, stays up. In space, where there is no up, set `before` to
+    // glm::mat3(fit.transform) of the frame before.
+    bend::PathStart start{.model_up = glm::vec3(body.axes()[0]), .up = {0, 0, 1}};
+    for (int frame = 0; frame <= 20; ++frame) {
+        start.distance = length * static_cast<float>(frame) / 20;
+        const bend::PathFit fit = bend::poses_along(body, points, poses, start);
+        job.transform = fit.transform;
+        bend::run(job);
+        if (frame % 10 == 0)
+            std::printf("frame %d: %zu regions, off the path by %.1f %% of the length%s\n", frame,
+                        poses.size(), static_cast<double>(100 * fit.error / length),
+                        fit.clamped ? ", as far as they bend" : "");
+    }
     if (poses.size() < 4) std::puts("more regions come closer: goffer bake --regions");
 }

@@ -90,7 +90,8 @@ TEST_CASE("how to: each program does what it says") {
     prints(
         "sockets_and_capsules", "worm.goffer",
         R"(tip: 2\.33 -?0\.00 9\.11\nside: 1\.63 -?0\.00 4\.43\n4 capsules, the first of radius 1\.\d+\n)");
-    prints("path", "chain.goffer", R"(8 regions, off the path by \d\.\d % of the length\n)");
+    prints("path", "chain.goffer",
+           R"((frame (0|10|20): 8 regions, off the path by \d\.\d % of the length\n){3})");
     prints("skinning", "worm.goffer", R"(\d+ vertices, bent and skinned: x to 7\.7, 1\.0 at rest\n)");
     prints(
         "motion_vectors", "worm.goffer",
