@@ -64,10 +64,11 @@ struct Stretch {
 };
 
 /// Returns the stretches of a body that is to be bound with `options`: its regions with the folds asked for,
-/// or else those that suit a region of that length whose mesh is fine enough. A region with Profile::even on
-/// a base with radii is many stretches, each with folds of its own length, and so is one with a
-/// wrinkle_range: beyond that there are none. Throws Error where a cylinder has arcs, and the options have
-/// regions, but not one for each. Thread-safe.
+/// or else those that suit a region of that length whose mesh is fine enough. Folds are as long as suits the
+/// radii of `cylinder`: give it those of fit_shape(), which bind() finds by itself, unless the options have
+/// ShapeMode::cylinder. A region with Profile::even on a base with radii is many stretches, each with folds
+/// of its own length, and so is one with a wrinkle_range: beyond that there are none. Throws Error where a
+/// cylinder has arcs, and the options have regions, but not one for each. Thread-safe.
 [[nodiscard]] std::vector<Stretch> stretches_of(const Cylinder& cylinder, const BindOptions& options);
 
 /// Returns how many folds there are in `stretches`, as `profile` counts them: over the whole length of a
