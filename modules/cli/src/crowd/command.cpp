@@ -222,10 +222,10 @@ void report_crowd(Report& report, const CrowdOptions& options, const CrowdReques
                 number(timing.frame_median) + " ms (median), " + number(timing.frame_p99) + " ms (p99)");
     report.line("vertex", number(per_vertex) + " ns");
     report.line("written", number(rate) + " GB/s, " +
-                               (rate > floor ? number(rate / floor) + " times" : percentage(rate / floor)) +
-                               " of the floor: a fill of as much" +
-                               (rate > floor ? ", past the cache, which this fits: " : ", ") + number(floor) +
-                               " GB/s");
+                               (rate > floor ? number(rate / floor) + " times the speed of the floor"
+                                             : percentage(rate / floor) + " of the floor") +
+                               ": a fill of as much past the cache, " + number(floor) + " GB/s" +
+                               (rate > floor ? "; this fits the cache" : ""));
     if (timing.allocations) report.line("allocations", number(*timing.allocations) + " per frame");
 }
 
