@@ -57,7 +57,7 @@ dvec3 across(const glm::vec3& v, const dvec3& axis) noexcept {
     return glm::length(part) > least ? part : dvec3(0);
 }
 
-/// The rotation nearest to `m`, or the identity if `m` is hardly one.
+/// `m` as a rotation free of rounding, or the identity if `m` is hardly one.
 glm::dmat3 rotation_of(const glm::mat3& m) noexcept {
     constexpr float most = 0.01f;
     for (int c = 0; c < 3; ++c) {

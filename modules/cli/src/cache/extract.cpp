@@ -90,18 +90,16 @@ void deform(const Block& block, const BoundModel& model, Isa isa, mesh::VertexAr
 
 /// A measure of the volume that the surface encloses, which is negative where it is inside out. Of one with
 /// holes, as if each were closed toward the middle of the vertices.
-double volume_of(const mesh::Mesh& mesh, std::span<const glm::vec3> positions) {
+double volume_of(const mesh::VertexArrays& shape) {
     glm::dvec3 middle(0);
-    for (const glm::vec3& p : positions) middle += glm::dvec3(p) / static_cast<double>(positions.size());
+    for (const glm::vec3& p : shape.positions)
+        middle += glm::dvec3(p) / static_cast<double>(shape.positions.size());
     double volume = 0;
-    std::size_t first = 0;
-    for (const std::uint32_t count : mesh.faces) {
+    for (std::size_t first = 0; first < shape.triangles.size(); first += 3) {
         const auto corner = [&](std::size_t i) {
-            return glm::dvec3(positions[mesh.corners[first + i]]) - middle;
+            return glm::dvec3(shape.positions[shape.triangles[first + i]]) - middle;
         };
-        for (std::size_t i = 1; i + 1 < count; ++i)
-            volume += glm::dot(corner(0), glm::cross(corner(i), corner(i + 1)));
-        first += count;
+        volume += glm::dot(corner(0), glm::cross(corner(1), corner(2)));
     }
     return volume;
 }
@@ -136,9 +134,8 @@ mesh::Mesh mesh_of_block(const Block& block, const BoundModel& model, const Plan
     if (records.normals.empty()) bare.normals = {};
     bare.tangents = {};
     records.tangents.clear();
-    mesh::Mesh made = mesh::with_vertex_arrays(bare, records);
-    if (volume_of(made, made.positions) * volume_of(model.mesh, model.mesh.positions) < 0) turn_round(made);
-    return made;
+    if (volume_of(records) * volume_of(model.rest) < 0) turn_round(bare);
+    return mesh::with_vertex_arrays(bare, records);
 }
 
 }  // namespace

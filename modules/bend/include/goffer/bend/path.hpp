@@ -62,8 +62,8 @@ struct PathFit {
 /// path goes straight on. `body` is not empty. Takes time in proportion to the number of points.
 ///
 /// Points that repeat the point before them are skipped. If all points are the same, the body goes straight
-/// on from there, unturned. With fewer than two points, or one that is not finite, all poses
-/// are straight, the transform is the identity, and the error is infinite.
+/// on from there, unturned. With fewer than two points, or one that is not finite, all poses are straight,
+/// the transform is the identity, and the error is infinite.
 PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses,
                     const PathStart& start = {}) noexcept;
 
