@@ -165,7 +165,8 @@ TEST_CASE("P5: joints with any number of vertices near them have the same bits p
         for (std::size_t shift = 0; shift < 17; shift += 1 + random() % 5) {
             CAPTURE(shift);
             Shifted some;
-            bend::Batch batch = bend::batch_of(some.job(one, poses, Isa::automatic, shift, 1));
+            const bend::DeformJob job = some.job(one, poses, Isa::automatic, shift, 1);
+            const bend::Batch batch = bend::batch_of(job);
             bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = bend::Stores::non_temporal});
             for (std::size_t c = 0; c < 6; ++c)
                 REQUIRE(std::ranges::equal(some.columns[c].subspan(shift, count), whole.columns[c]));

@@ -116,9 +116,10 @@ struct Batch {
     bool scratch_gaps = false;
 };
 
-/// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is.
-/// job.isa is lost: CrowdJob::isa takes its place. Does not allocate. Thread-safe.
+/// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is, and so
+/// may not be a temporary. job.isa is lost: CrowdJob::isa takes its place. Does not allocate. Thread-safe.
 [[nodiscard]] Batch batch_of(const DeformJob& job) noexcept;
+Batch batch_of(const DeformJob&&) = delete;
 
 /// How results leave the processor.
 enum class Stores : std::uint8_t {
