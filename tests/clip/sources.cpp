@@ -4,6 +4,8 @@
 #include "mesh/gltf_files.hpp"
 #include "mesh/gltf_valid.hpp"
 
+#include <limits>
+
 using namespace goffer;
 using namespace goffer::test;
 
@@ -213,6 +215,38 @@ TEST_CASE("clip: morph targets of the file's own are left out, with a warning") 
     const clip::GltfReport report = check_clip(mesh, frames);
     REQUIRE(report.warnings.size() == 1);
     CHECK(report.warnings[0].find("morph targets") != std::string::npos);
+}
+
+TEST_CASE("clip: data of motion that is left out are left out, too, unless an extension may number them") {
+    const auto saved = [](const Document& document) {
+        const mesh::Mesh mesh = load_document(document);
+        MadeFrames frames = walking(mesh);
+        const Folder folder;
+        (void)saved_clip(mesh, frames, folder / "clip.glb");
+        return Player(bytes_of(folder / "clip.glb"));
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Document document = skinned();
+    document.json["nodes"][1] = {{"name", "joint"}};  // the mesh stands as the file has it
+    const Document skinned_only = document;
+    const std::size_t times = document.floats({0, 1}, "SCALAR"),
+                      moves = document.floats({0, nan, 0, 0, 0, 1}, "VEC3"),
+                      shifts = document.floats(std::vector<float>(12, nan), "VEC3");
+    document.json["animations"] =
+        Json::parse(R"([{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])");
+    document.json["animations"][0]["samplers"].push_back({{"input", times}, {"output", moves}});
+    primitive_of(document)["targets"].push_back({{"POSITION", shifts}});
+    const Player own = saved(document), plain = saved(tetra());
+    for (const Player& player : {own, saved(skinned_only)}) {
+        CHECK(player.bin == plain.bin);
+        CHECK(player.json["accessors"] == plain.json["accessors"]);
+        CHECK(player.json["bufferViews"] == plain.json["bufferViews"]);
+        CHECK(player.json["meshes"][0]["primitives"] == plain.json["meshes"][0]["primitives"]);
+    }
+    document.json["extensions"]["EXT_of_somebody"] = {{"accessor", moves}};
+    const Player kept = saved(document);
+    CHECK(kept.json["accessors"].size() > plain.json["accessors"].size());
+    CHECK(kept.bin.size() > plain.bin.size());
 }
 
 TEST_CASE("clip: what a GLB holds beside the moved mesh is kept") {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "edit.hpp"
 
+#include "references.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -14,107 +16,11 @@ namespace goffer::mesh::gltf {
 
 namespace {
 
-void add_number(const Json& json, std::set<std::size_t>& found) {
-    const double value = json.is_number() ? json.get<double>() : -1.0;
-    if (value >= 0.0 && value <= 1e15 && value == std::floor(value))
-        found.insert(static_cast<std::size_t>(value));
-}
-
-bool names_no_accessors(std::string_view extension) {
-    for (const char* kind :
-         {"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "MSFT_texture_"}) {
-        if (extension.starts_with(kind)) return true;
-    }
-    return false;
-}
-
-/// Adds all numbers inside other extensions. They might be indices of anything, so too much is kept rather
-/// than too little.
-void numbers_in_extensions(const Json& json, bool inside, std::set<std::size_t>& found) {
-    if (inside) add_number(json, found);
-    if (json.is_array()) {
-        for (const Json& child : json) numbers_in_extensions(child, inside, found);
-    } else if (json.is_object()) {
-        for (const auto& [key, child] : json.items()) {
-            if (!names_no_accessors(key)) numbers_in_extensions(child, inside || key == "extensions", found);
-        }
-    }
-}
-
-/// Adds what `owner` names under `key`, if it does.
-void add_index(const Json& owner, const char* key, std::set<std::size_t>& found) {
-    if (owner.is_object() && owner.contains(key)) add_number(owner[key], found);
-}
-
-std::set<std::size_t> used_accessors(const Json& json) {
-    std::set<std::size_t> used;
-    const auto add = [&](const Json& index) { add_number(index, used); };
-    each(json, "meshes", [&](const Json& mesh) {
-        each(mesh, "primitives", [&](const Json& primitive) {
-            add_index(primitive, "indices", used);
-            each(primitive, "attributes", add);
-            each(primitive, "targets", [&](const Json& target) {
-                if (target.is_structured()) std::for_each(target.begin(), target.end(), add);
-            });
-        });
-    });
-    each(json, "skins", [&](const Json& skin) { add_index(skin, "inverseBindMatrices", used); });
-    each(json, "animations", [&](const Json& animation) {
-        each(animation, "samplers", [&](const Json& sampler) {
-            add_index(sampler, "input", used);
-            add_index(sampler, "output", used);
-        });
-    });
-    numbers_in_extensions(json, false, used);
-    return used;
-}
-
-std::set<std::size_t> used_views(const Json& json) {
-    std::set<std::size_t> used;
-    each(json, "images", [&](const Json& image) { add_index(image, "bufferView", used); });
-    each(json, "accessors", [&](const Json& accessor) {
-        add_index(accessor, "bufferView", used);
-        each(accessor, "sparse", [&](const Json& part) { add_index(part, "bufferView", used); });
-    });
-    numbers_in_extensions(json, false, used);
-    return used;
-}
-
 std::string mime_type(std::string_view bytes) {
     if (bytes.starts_with("\x89PNG")) return "image/png";
     if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
     if (bytes.starts_with("\xabKTX 20\xbb")) return "image/ktx2";
     return bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP") ? "image/webp" : "";
-}
-
-/// Where bytes of the source's buffers go in the one buffer of the output.
-struct Kept {
-    std::size_t buffer, begin, end, to = 0;
-};
-
-/// What the views that stay use of the buffers, from front to back, overlapping ones as one.
-std::vector<Kept> kept_ranges(const Document& document, const std::map<std::size_t, std::string>& replaced) {
-    std::vector<Kept> all, merged;
-    for (std::size_t i = 0; i < document.count("bufferViews"); ++i) {
-        if (replaced.contains(i)) continue;
-        const Value view = document.root()["bufferViews"][i];
-        const auto begin = static_cast<std::size_t>(view.whole_or("byteOffset", 0)),
-                   length = static_cast<std::size_t>(view["byteLength"].whole());
-        all.push_back({static_cast<std::size_t>(view["buffer"].whole()), begin, begin + length});
-    }
-    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) {
-        return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
-    });
-    for (const Kept& range : all) {
-        const bool joins =
-            !merged.empty() && merged.back().buffer == range.buffer && range.begin <= merged.back().end;
-        if (joins) {
-            merged.back().end = std::max(merged.back().end, range.end);
-        } else {
-            merged.push_back(range);
-        }
-    }
-    return merged;
 }
 
 }  // namespace
@@ -156,10 +62,11 @@ void Edit::keep_shown_elsewhere(const std::vector<Shape>& changed) {
     }
     std::size_t number = 0;
     each(document_.json, "nodes", [&](const Json& node) {
-        std::set<std::size_t> shown;
-        if (!nodes.contains(number++)) add_index(node, "mesh", shown);
-        for (const std::size_t mesh : shown)
-            if (meshes.contains(mesh) && taken_meshes_.insert(mesh).second) use_entry(mesh, mesh);
+        if (nodes.contains(number++)) return;
+        visit_member(node, "mesh", [&](const Json& index) {
+            const std::optional<std::size_t> mesh = index_in(index);
+            if (mesh && meshes.contains(*mesh) && taken_meshes_.insert(*mesh).second) use_entry(*mesh, *mesh);
+        });
     });
 }
 
@@ -222,15 +129,7 @@ void Edit::renumber(const std::vector<std::size_t>& number) {
             index.is_number_unsigned() && index >= count && index < count + number.size();
         if (provisional) index = number[index.get<std::size_t>() - count];
     };
-    each(json_, "meshes", [&](Json& mesh) {
-        each(mesh, "primitives", [&](Json& primitive) {
-            each(primitive, "attributes", settle);
-            each(primitive, "targets", [&](Json& target) {
-                for (Json& index : target) settle(index);
-            });
-            if (primitive.contains("indices")) settle(primitive["indices"]);
-        });
-    });
+    each_accessor_of_mesh(json_, settle);
 }
 
 /// The origin's fields with new values, in the origin's view if nothing else uses that any more.
@@ -307,30 +206,12 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
     }
 }
 
-/// Packs all views into one buffer: the bytes that stay, in their order and at the same place modulo 4, then
-/// the new ones.
+/// Packs all views into one buffer: the bytes that stay, then the new ones.
 std::string Edit::pack() {
     std::string packed;
-    std::vector<Kept> kept = kept_ranges(document_, new_views_);
-    for (Kept& range : kept) {
-        packed.resize(packed.size() + (range.begin - packed.size()) % 4, '\0');
-        range.to = packed.size();
-        packed +=
-            std::string_view(document_.buffers[range.buffer]).substr(range.begin, range.end - range.begin);
-    }
-    for (std::size_t i = 0; i < document_.count("bufferViews"); ++i) {
-        if (new_views_.contains(i)) continue;
-        const Value view = document_.root()["bufferViews"][i];
-        const std::size_t buffer = view["buffer"].whole(), begin = view.whole_or("byteOffset", 0);
-        const auto behind =
-            std::upper_bound(kept.begin(), kept.end(), std::pair(buffer, begin),
-                             [](const auto& at, const Kept& k) { return at < std::pair(k.buffer, k.begin); });
-        const Kept& range = *std::prev(behind);
-        Json& moved = json_["bufferViews"][i];
-        if (buffer != 0) moved["buffer"] = 0;
-        const std::size_t to = range.to + begin - range.begin;
-        if (to != begin) moved["byteOffset"] = to;
-    }
+    if (json_.contains("bufferViews"))
+        packed = pack_views(json_["bufferViews"], document_.buffers,
+                            [&](std::size_t view) { return new_views_.contains(view); });
     for (const auto& [number, bytes] : new_views_) {
         packed.resize((packed.size() + 3) / 4 * 4, '\0');
         json_["bufferViews"][number]["byteOffset"] = packed.size();

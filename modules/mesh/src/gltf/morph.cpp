@@ -2,6 +2,7 @@
 #include "morph.hpp"
 
 #include "format.hpp"
+#include "references.hpp"
 #include "text.hpp"
 
 #include <goffer/io/atomic_file.hpp>
@@ -182,7 +183,9 @@ Output Morpher::run(std::vector<std::string>& warnings) && {
         nodes.push_back(scene_.blocks[first].node);
     }
     animate(document_, morphing_, nodes);
-    return {std::move(json_), std::move(buffer_)};
+    Output output{std::move(json_), std::move(buffer_)};
+    drop_unused(output, base_->json);
+    return output;
 }
 
 }  // namespace
