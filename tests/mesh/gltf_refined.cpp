@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using namespace goffer::mesh;
 using namespace goffer::test;
 
@@ -275,6 +277,16 @@ TEST_CASE("gltf: what cannot be refined is named") {
     Document many = skinned(weights);
     primitive_of(many)["attributes"]["JOINTS_0"] = many.floats(std::vector<float>(16, 65536.0f), "VEC4");
     CHECK(told(many).find("JOINTS_0: has a joint whose number is not 0..65535, for vertex 0") !=
+          std::string::npos);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> broken = weights;
+    broken[6] = nan;
+    CHECK(told(skinned(broken)).find("WEIGHTS_0: has a number that is not finite, for vertex 1") !=
+          std::string::npos);
+    Document target = tetra();
+    const std::size_t shifts = target.floats({0, 0, 0, 0, 0, 0, 0, 0, 0, nan, 0, 0}, "VEC3");
+    primitive_of(target)["targets"].push_back({{"POSITION", shifts}});
+    CHECK(told(target).find("targets[0].POSITION: has a number that is not finite, for vertex 3") !=
           std::string::npos);
     Document matrix = tetra();
     primitive_of(matrix)["attributes"]["_M"] =

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -109,6 +110,8 @@ private:
     [[nodiscard]] std::size_t width_of(const Value& reference) const;
     [[nodiscard]] std::vector<float> values_of(const BlockCut& cut, const Value& reference,
                                                std::size_t width) const;
+    [[nodiscard]] std::vector<float> finite_values_of(const BlockCut& cut, const Value& reference,
+                                                      std::size_t width) const;
 
     const Document& document_;
     const Cut& cut_;
@@ -162,6 +165,18 @@ std::vector<float> SceneRefiner::values_of(const BlockCut& cut, const Value& ref
     return values;
 }
 
+/// The same of what moves vertices: a value that is not finite would become that of others.
+std::vector<float> SceneRefiner::finite_values_of(const BlockCut& cut, const Value& reference,
+                                                  std::size_t width) const {
+    std::vector<float> values = values_of(cut, reference, width);
+    const auto bad = std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
+    if (bad != values.end())
+        reference.fail("has a number that is not finite, for vertex " +
+                       std::to_string(static_cast<std::size_t>(bad - values.begin()) / width) +
+                       "; export the file again, or do not refine");
+    return values;
+}
+
 /// Replaces an accessor by one with the values of the new vertices behind its own; returns its number.
 std::size_t SceneRefiner::refined(const BlockCut& cut, const Value& reference, Kind kind, bool bounds) {
     const std::size_t width = width_of(reference);
@@ -191,9 +206,12 @@ void SceneRefiner::refine_attributes(const BlockCut& cut, const Value& was, Json
 void SceneRefiner::refine_targets(const BlockCut& cut, const Value& was, Json& primitive) {
     for (std::size_t i = 0; was.has("targets") && i < was["targets"].size(); ++i) {
         const Value target = was["targets"][i];
-        for (const auto& [name, index] : target.json().items())
+        for (const auto& [name, index] : target.json().items()) {
+            const Value reference = target[name.c_str()];
+            (void)finite_values_of(cut, reference, width_of(reference));
             primitive["targets"][i][name] =
-                refined(cut, target[name.c_str()], Kind::linear, name == stream_name[position]);
+                refined(cut, reference, Kind::linear, name == stream_name[position]);
+        }
     }
 }
 
@@ -206,7 +224,7 @@ void SceneRefiner::refine_skin(const BlockCut& cut, const Value& attributes, Jso
         if (!attributes.has(weights_name(sets).c_str()))
             joints.fail("has no " + weights_name(sets) + " beside it; export the file again");
         const std::vector<float> who = values_of(cut, joints, 4);
-        const std::vector<float> much = values_of(cut, attributes[weights_name(sets).c_str()], 4);
+        const std::vector<float> much = finite_values_of(cut, attributes[weights_name(sets).c_str()], 4);
         for (std::size_t i = 0; i < who.size(); ++i) {
             if (!(who[i] >= 0 && who[i] <= std::numeric_limits<std::uint16_t>::max()))
                 joints.fail("has a joint whose number is not 0..65535, for vertex " + std::to_string(i / 4) +
