@@ -436,6 +436,38 @@ TEST_CASE("gltf: fields of the wrong type that nobody reads are warned of, once"
     CHECK(load_document(document).warnings.size() == 1);
 }
 
+TEST_CASE("gltf: numbers of what is not there, where nobody reads it, are warned of") {
+    const auto warnings = [](const char* path, const Json& value) {
+        Document document = tetra();
+        document.json["animations"] = Json::parse(
+            R"([{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                 "samplers": [{"input": 0, "output": 0}]}])");
+        if (*path != '\0') document.json[Json::json_pointer(path)] = value;
+        return load_document(document).warnings;
+    };
+    const auto warned = [&](const char* path, const char* said) {
+        const std::vector<std::string> all = warnings(path, 9);
+        return all.size() == 1 && all[0] == std::string(said) +
+                                                ": kept as it is, but the file is not valid; "
+                                                "export it again";
+    };
+    CHECK(warnings("", 0).empty());
+    CHECK(warned("/animations/0/samplers/0/input",
+                 "animations[0].samplers[0].input is 9, expected one of 5 accessors"));
+    CHECK(warned("/animations/0/samplers/0/output",
+                 "animations[0].samplers[0].output is 9, expected one of 5 accessors"));
+    CHECK(warned("/animations/0/channels/0/sampler",
+                 "animations[0].channels[0].sampler is 9, expected one of 1 samplers of the animation"));
+    CHECK(warned("/animations/0/channels/0/target/node",
+                 "animations[0].channels[0].target.node is 9, expected one of 1 nodes"));
+    CHECK(warned("/nodes/0/camera", "nodes[0].camera is 9, expected one of 0 cameras"));
+    const std::vector<std::string> text = warnings("/animations/0/channels/0/sampler", "no");
+    REQUIRE(text.size() == 1);
+    CHECK(text[0].starts_with(
+        "animations[0].channels[0].sampler is a JSON string, expected a whole number of 0 or more: kept"));
+    CHECK(warnings("/cameras", "no").empty());
+}
+
 TEST_CASE("gltf: outer buffers are found beside the document, by their decoded name") {
     const Folder folder;
     Document document = tetra();

@@ -11,9 +11,22 @@ namespace {
 /// Fields that have one meaning wherever they stand.
 constexpr std::array texts{"name", "uri", "mimeType", "alphaMode", "generator", "copyright"};
 constexpr std::array numbers{"metallicFactor", "roughnessFactor", "alphaCutoff", "strength"};
-constexpr std::array wholes{"index",  "source",   "sampler",    "texCoord",  "material",  "mesh",  "skin",
-                            "camera", "skeleton", "bufferView", "magFilter", "minFilter", "wrapS", "wrapT"};
+constexpr std::array wholes{"index",      "source",    "sampler",   "texCoord", "material", "mesh",
+                            "skin",       "camera",    "skeleton",  "node",     "input",    "output",
+                            "bufferView", "magFilter", "minFilter", "wrapS",    "wrapT"};
 constexpr std::array flags{"doubleSided", "normalized"};
+
+/// Fields that nothing here reads, with the number of an entry of a list. `owner` is the member or list that they
+/// stand in.
+struct Reference {
+    const char* owner;
+    const char* name;
+    const char* list;
+};
+constexpr std::array references{
+    Reference{"target", "node", "nodes"}, Reference{"samplers", "input", "accessors"},
+    Reference{"samplers", "output", "accessors"}, Reference{"nodes", "camera", "cameras"},
+    Reference{"skins", "skeleton", "nodes"}};
 
 template <class List>
 bool is_one_of(const std::string& key, const List& list) {
@@ -40,15 +53,19 @@ std::string element_of(const std::string& path, std::size_t element) {
     return place.append("[").append(std::to_string(element)).append("]");
 }
 
-/// Looks for fields of the wrong type; what `extras` and extensions hold is theirs.
+/// Looks for fields of the wrong type, and numbers of what is not there; what `extras` and extensions hold is
+/// theirs.
 class TypeChecker {
 public:
+    explicit TypeChecker(const Document& document) : document_(document) {}
+
     void check(const Json& json, const std::string& key, const std::string& path) {
         if (json.is_array()) {
             for (std::size_t i = 0; i < json.size(); ++i)
                 if (json[i].is_structured()) check(json[i], key, element_of(path, i));
         }
         if (!json.is_object()) return;
+        if (key == "animations") check_channels(json, path);
         for (const auto& [name, value] : json.items()) {
             const std::string place = member_of(path, name);
             check_field(key, name, value, place);
@@ -70,6 +87,8 @@ private:
         if (is_one_of(name, flags)) expect(value.is_boolean(), value, place, "true or false");
         if (is_one_of(name, numbers) || (name == "scale" && owner == "normalTexture"))
             expect(value.is_number(), value, place, "a number");
+        for (const auto& [whose, which, list] : references)
+            if (owner == whose && name == which) expect_entry(value, place, list, entries(list));
         if (name != "extensions") return;
         expect(value.is_object(), value, place, "an object");
         if (!value.is_object()) return;
@@ -77,13 +96,38 @@ private:
             expect(fields.is_object(), fields, member_of(place, extension), "an object");
     }
 
-    void expect(bool fits, const Json& value, const std::string& place, const char* expected) {
+    /// A channel's sampler is one of its own animation.
+    void check_channels(const Json& animation, const std::string& path) {
+        std::size_t samplers = 0, number = 0;
+        each(animation, "samplers", [&](const Json&) { ++samplers; });
+        each(animation, "channels", [&](const Json& channel) {
+            const std::string place = element_of(member_of(path, "channels"), number++);
+            if (channel.is_object() && channel.contains("sampler"))
+                expect_entry(channel["sampler"], member_of(place, "sampler"), "samplers of the animation",
+                             samplers);
+        });
+    }
+
+    [[nodiscard]] std::size_t entries(const char* list) const {
+        std::size_t count = 0;
+        each(document_.json, list, [&](const Json&) { ++count; });
+        return count;
+    }
+
+    void expect_entry(const Json& value, const std::string& place, const char* list, std::size_t count) {
+        if (!is_whole(value)) return;  // check_field says so
+        expect(value.get<double>() < static_cast<double>(count), value, place,
+               "one of " + std::to_string(count) + " " + list);
+    }
+
+    void expect(bool fits, const Json& value, const std::string& place, const std::string& expected) {
         if (fits) return;
         if (count_++ > 0) return;
         const std::string is = value.is_number() ? value.dump() : std::string("a JSON ") + value.type_name();
         first_ = place + " is " + is + ", expected " + expected;
     }
 
+    const Document& document_;
     std::string first_;
     std::size_t count_ = 0;
 };
@@ -91,7 +135,7 @@ private:
 }  // namespace
 
 std::vector<std::string> wrong_types(const Document& document) {
-    TypeChecker checker;
+    TypeChecker checker(document);
     checker.check(document.json, "", "");
     return checker.warnings();
 }
