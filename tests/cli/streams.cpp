@@ -57,6 +57,11 @@ TEST_CASE("streams: a full standard output is an error") {
                                  (folder / "base.ply").string() + "'" + more + " >/dev/full 2>/dev/null";
         CHECK(std::system(line.c_str()) != 0);
     }
+    for (const std::string word : {"--help", "--version", "bend --help"}) {
+        const std::string line = std::string("'") + GOFFER_COMMAND + "' " + word +
+                                 " 2>&1 >/dev/full | grep -q '^goffer: standard output: cannot be written'";
+        CHECK(std::system(line.c_str()) == 0);
+    }
 }
 
 TEST_CASE("streams: where a report cannot be printed, nothing is said to be written") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "report.hpp"
 #include "usage.hpp"
 
 #include <goffer/fit/geometry.hpp>
@@ -38,9 +39,15 @@ int complain(ExitCode code, std::string text) {
 }
 
 int usage(const CLI::App& app, const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-        return app.exit(error);  // --help, --version
-    return complain(wrong_usage, fault_of(app, error));
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
+        return complain(wrong_usage, fault_of(app, error));
+    const int code = app.exit(error);  // --help, --version
+    try {
+        flush_output();
+    } catch (const std::exception& fault) {
+        return complain(failed, fault.what());
+    }
+    return code;
 }
 
 /// A signal that ends the command leaves no unfinished file behind, and ends it as it would have.

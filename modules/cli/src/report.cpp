@@ -59,6 +59,10 @@ bool flushed() {
 
 }  // namespace
 
+void flush_output() {
+    if (!flushed() && errno != EBADF) throw_output_error();
+}
+
 std::string number(double value) {
     return formatted("%.6g", value);
 }
@@ -105,8 +109,7 @@ void Report::finish(io::AtomicFiles& outputs) {
     for (const std::string& line : lines_) std::fprintf(people, "%s\n", io::escaped(line).c_str());
     for (const std::string& warning : warnings_)
         std::fprintf(stderr, "goffer: warning: %s\n", io::escaped(warning).c_str());
-    // Lines may go nowhere, where standard output is closed.
-    if (!to_output && !flushed() && errno != EBADF) throw_output_error();
+    if (!to_output) flush_output();
     outputs.commit();
 }
 

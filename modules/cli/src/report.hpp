@@ -18,6 +18,10 @@ class AtomicFiles;
 
 namespace goffer::cli {
 
+/// Throws where lines that were printed to standard output cannot be written. Where it is closed, they may go
+/// nowhere.
+void flush_output();
+
 /// Collects a command's results and prints them at its end.
 class Report {
 public:
