@@ -122,7 +122,9 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
             {"'other.ply' is a word too many; see goffer bend --help"});
     refused(place.folder, 2, bend + Words{"--png", "--angle", "40"},
             {"--png needs a value; --angle is an option; see goffer bend --help"});
-    refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required"});
+    refused(place.folder, 2, {"animate", "base.ply", "--swing", "-o", "out.glb"},
+            {"--swing needs a value; -o is an option; see goffer animate --help"});
+    refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required, or --png or --json"});
     refused(place.folder, 2, {"inspect"}, {"model is required"});
     refused(place.folder, 2, {"base"}, {"--output is required"});
     refused(place.folder, 2, {"inspect", "base.ply", "other.ply"}, {"other.ply"});

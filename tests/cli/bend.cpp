@@ -137,6 +137,17 @@ TEST_CASE("bend: direction turns from e1 to e3 x e1 whichever way the axis point
     CHECK(glm::length(first("90") - glm::dvec3(0, -straight.x, base_length - straight.z)) < 2e-6);
 }
 
+TEST_CASE("bend: a picture or a report alone, without a model, is the same") {
+    const Folder folder;
+    base(folder);
+    (void)well(folder, {"bend", "base.ply", "-o", "out.ply", "--png", "both.png", "--size", "64x48"});
+    const std::string lines = well(folder, {"bend", "base.ply", "--png", "alone.png", "--size", "64x48"});
+    CHECK(lines.find("written") == lines.npos);
+    CHECK(bytes_of(folder / "alone.png") == bytes_of(folder / "both.png"));
+    (void)well(folder, {"bend", "base.ply", "--json", "alone.json"});
+    CHECK(folder.files() == 5);
+}
+
 TEST_CASE("bend: at angle 0 the mesh comes back") {
     const Folder folder;
     base(folder, "base.ply", {"--caps"});

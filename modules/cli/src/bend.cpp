@@ -70,7 +70,9 @@ struct Request {
         if (options.path.scale != "fit") (void)read_path_scale(options.path.scale);
         check_places({{"MODEL", options.model}, {"--fit", options.fit}, {"--path", options.path.file}},
                      {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}});
-        check_model_output(options.output);
+        if (options.output.empty() && options.picture.file.empty() && options.json.empty())
+            throw UsageError("--output is required, or --png or --json");
+        if (!options.output.empty()) check_model_output(options.output);
         style.settings = picture_settings(options.picture);
         if (options.camera) style.viewpoint = parse_camera(*options.camera);
         style.ghost = options.ghost;
@@ -251,8 +253,10 @@ void run_bend(const BendOptions& options) {
         if (show) report_area_colors(report);
         report.line("picture", png.string());
     }
-    mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output, outputs);
-    report.line("written", options.output.string());
+    if (!options.output.empty()) {
+        mesh::save(mesh::with_vertex_arrays(model.mesh, bent.records), options.output, outputs);
+        report.line("written", options.output.string());
+    }
     report.finish(outputs);
 }
 
@@ -263,8 +267,9 @@ void add_bend(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("bend", "Bend a model, and write it and a picture of it");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
         ->required();
-    command->add_option("-o,--output", options->output, "Write the model here, with one of these endings")
-        ->required();
+    command->add_option(
+        "-o,--output", options->output,
+        "Write the model here, with one of these endings; may be left out beside --png or --json");
     command->footer(
         "Angles are absolute: 0 is straight, whatever shape the model has in its file. One that is\n"
         "bent there gets that shape back from the angle and direction that 'goffer inspect' reports\n"

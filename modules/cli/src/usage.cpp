@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace goffer::cli {
@@ -56,7 +57,9 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
 
 /// An option that has another option's name for its value, since its own was left out; or nothing.
 std::string fault_of_values(const CLI::App& command) {
-    const std::vector<std::string> names = names_of_options(command);
+    std::vector<std::string> names = names_of_options(command);
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& value : option->results()) {
             if (std::ranges::count(names, value) != 0)
@@ -112,6 +115,10 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App& command = *given;
     std::string fault = error.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&error) && !rest.empty()) fault = fault_of_rest(command, rest);
+    if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+        // It may be the value of the option before it.
+        if (std::string taken = fault_of_values(command); !taken.empty()) fault = std::move(taken);
+    }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         fault = fault.substr(0, fault.find(':')) + fault_of_count(command, fault);
     return fault + see_help(command);
