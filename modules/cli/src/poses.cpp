@@ -425,12 +425,9 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     }
     const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
     for (std::size_t i = 0; known && i < targets.size(); ++i) {
-        const int folds = binding.folds(i);
-        const int capacity = binding.folds_capacity(i);
-        const std::string carried = folds > capacity || capacity >= fit::Stretch::max_folds
-                                        ? "; the mesh carries " + capacity_words(capacity)
-                                        : " of " + capacity_words(capacity) + " that the mesh carries";
-        report.line(i == 0 ? "folds" : "", region_words(i, targets.size()) + std::to_string(folds) + carried);
+        report.line(i == 0 ? "folds" : "",
+                    region_words(i, targets.size()) + std::to_string(binding.folds(i)) +
+                        "; the mesh carries " + capacity_words(binding.folds_capacity(i)));
     }
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = binding.folds_capacity();

@@ -33,7 +33,7 @@ void refuse_far(const glm::dmat4x3& place, const SceneGroup& group, std::uint64_
         if (std::fabs(own.x) <= most_far && std::fabs(own.y) <= most_far && std::fabs(own.z) <= most_far)
             continue;
         throw InputError(group.where + ": number " + std::to_string(instance) + " of it is carried, or " +
-                         "scaled, beyond 1e18 in frame " + std::to_string(frame));
+                         "scaled, beyond 1e18 in frame " + std::to_string(frame) + "; keep it nearer");
     }
 }
 

@@ -31,7 +31,7 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
         if (error != std::errc() || end != word.data() + word.size())
             throw InputError(io::about(file, "'" + io::escaped(word.substr(0, 40)) +
                                                  "' is not a number; it follows " +
-                                                 std::to_string(numbers.size()) + " that are"));
+                                                 std::to_string(numbers.size()) + " that are; correct it"));
         numbers.push_back(number);
         text.remove_prefix(word.size());
     }
@@ -68,7 +68,7 @@ void NumberFile::read(std::uint64_t first, std::span<float> out) const {
     if (bad != out.end())
         throw InputError(io::about(
             file_, "number " + std::to_string(first + static_cast<std::uint64_t>(bad - out.begin())) +
-                       ", counted from 0, is not finite"));
+                       ", counted from 0, is not finite; correct it"));
 }
 
 }  // namespace goffer::cli

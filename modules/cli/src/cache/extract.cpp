@@ -67,7 +67,8 @@ BoundModel read_body(const ExtractRequest& request, const PlanBody& body) {
     const fs::path file = request.folder / body.file();
     ModelFile model(file, request.load.limits);
     if (!model.baked || hash_of_file(file) != body.checksum)
-        throw InputError(io::about(file, "is not the body that the shards were made with"));
+        throw InputError(
+            io::about(file, "is not the body that the shards were made with; bake the cache again"));
     const std::vector<fit::RegionOptions> regions = baked_regions(model);
     return bind_model(std::move(model), BindRequest(words, regions));
 }
@@ -153,7 +154,8 @@ void extract(const ExtractRequest& request) {
     const PlanBody& body = plan.bodies[block.body];
     const BoundModel model = read_body(request, body);
     if (model.rest.positions.size() != body.vertices)
-        throw InputError(io::about(request.folder / body.file(), "has not the vertices that the plan says"));
+        throw InputError(io::about(request.folder / body.file(),
+                                   "has not the vertices that the plan says; bake the cache again"));
     io::AtomicFiles outputs;
     mesh::save(mesh_of_block(block, model, plan), request.output, outputs);
     report.json["body"] = body.name;

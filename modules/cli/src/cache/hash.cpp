@@ -30,8 +30,8 @@ void InputFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
         if (got < 0)
             throw io::Error(io::about(file_, "cannot be read: " + std::generic_category().message(errno)));
         if (got == 0)
-            throw io::Error(
-                io::about(file_, "ends at byte " + std::to_string(offset) + ", before it should"));
+            throw io::Error(io::about(
+                file_, "ends at byte " + std::to_string(offset) + ", before it should; copy it again"));
         bytes = bytes.subspan(static_cast<std::size_t>(got));
         offset += static_cast<std::uint64_t>(got);
     }

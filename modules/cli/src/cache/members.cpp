@@ -51,7 +51,7 @@ void Members::refuse(const std::string& name, const std::string& what) const {
 
 const nlohmann::json& Members::at(const char* name) const {
     const auto found = object_->find(name);
-    if (found == object_->end()) throw InputError(where_ + ": lacks '" + name + "'");
+    if (found == object_->end()) throw InputError(where_ + ": lacks '" + name + "'; add it");
     return *found;
 }
 
@@ -69,11 +69,17 @@ double Members::number(const char* name, double low, double high, double usual) 
 
 std::uint64_t Members::whole(const char* name, std::uint64_t low, std::uint64_t high) const {
     const nlohmann::json& value = at(name);
-    const bool fits =
-        value.is_number_unsigned() && value.get<std::uint64_t>() >= low && value.get<std::uint64_t>() <= high;
-    if (!fits)
+    std::optional<std::uint64_t> number;
+    if (value.is_number_unsigned()) {
+        number = value.get<std::uint64_t>();
+    } else if (value.is_number_float()) {  // 1e6 is one, too
+        constexpr double exact = 9007199254740992.0;
+        const auto real = value.get<double>();
+        if (real >= 0 && real <= exact && real == std::floor(real)) number = static_cast<std::uint64_t>(real);
+    }
+    if (!number || *number < low || *number > high)
         refuse(name, "is not a whole number within " + std::to_string(low) + ".." + std::to_string(high));
-    return value.get<std::uint64_t>();
+    return *number;
 }
 
 std::string Members::text(const char* name) const {

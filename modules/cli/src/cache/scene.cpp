@@ -57,7 +57,8 @@ void read_bodies(Scene& scene, const nlohmann::json& list, const io::NamedFiles&
             scene.files.push_back(std::move(buffer));
         scene.bodies.push_back(std::move(body));
     }
-    if (scene.bodies.empty()) throw InputError(where_in(scene, "bodies") + ": there is none");
+    if (scene.bodies.empty())
+        throw InputError(where_in(scene, "bodies") + ": there is none; give one or more");
 }
 
 void read_motions(Scene& scene, const nlohmann::json& list, const io::NamedFiles& files) {
@@ -77,7 +78,8 @@ void read_motions(Scene& scene, const nlohmann::json& list, const io::NamedFiles
 
 void read_groups(Scene& scene, const nlohmann::json& list, const io::NamedFiles& files) {
     if (!list.is_array() || list.empty())
-        throw InputError(where_in(scene, "instances") + ": is not a list of one or more");
+        throw InputError(where_in(scene, "instances") +
+                         ": is not a list of one or more; give groups of instances");
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Members fields(list[i], where_in(scene, "instances[" + std::to_string(i) + "]"));
         SceneGroup group = read_group(fields, scene, files);
