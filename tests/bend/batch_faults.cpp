@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// P7 of crowds: validate() names the batch, the instance and the field at fault, whatever masks say.
@@ -338,6 +339,28 @@ TEST_CASE("P7: pages that are null or not aligned are named, and layouts that th
     CHECK(told(crowd_fault_after([](SpoiledCrowd&, Batch& b) {
               b.transforms.layout = static_cast<bend::TransformColumn::MatrixLayout>(7);
           })) == "transform out_of_range, batch 1");
+}
+
+TEST_CASE("P7: a fault of a batch's numbers says how many there are, and how many it takes") {
+    const auto numbers = [](auto spoil) {
+        SpoiledCrowd crowd;
+        spoil(crowd.batches[1]);
+        const bend::Fault fault = crowd.fault();
+        CHECK(fault.batch == 1);
+        return std::pair(fault.has, fault.needs);
+    };
+    using Numbers = std::pair<std::size_t, std::size_t>;
+    constexpr std::size_t all = instances * vertices, nowhere = bend::Fault::nowhere;
+    CHECK(numbers([](Batch& b) { b.positions.count = vertices - 1; }) == Numbers{vertices - 1, vertices});
+    CHECK(numbers([](Batch& b) { --b.poses.count; }).second == nowhere);  // an index is at fault
+    CHECK(numbers([](Batch& b) { --b.transforms.first.count; }) == Numbers{instances - 1, instances});
+    CHECK(numbers([](Batch& b) { b.indices = b.indices.first(3); }) == Numbers{3, instances});
+    CHECK(numbers([](Batch& b) { b.bounds = b.bounds.first(4); }) == Numbers{4, instances});
+    const auto by_step = [](Batch& b, std::size_t step) { b.vertex_offsets = {}, b.vertex_step = step; };
+    CHECK(numbers([&](Batch& b) { by_step(b, vertices), --b.positions.count; }) == Numbers{all - 1, all});
+    CHECK(numbers([&](Batch& b) { by_step(b, vertices + 1); }) == Numbers{all, all + instances - 1});
+    CHECK(numbers([&](Batch& b) { by_step(b, vertices - 1); }) == Numbers{vertices - 1, vertices});
+    CHECK(numbers([&](Batch& b) { by_step(b, nowhere / 2); }) == Numbers{all, nowhere});
 }
 
 }  // namespace goffer::test

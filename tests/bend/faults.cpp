@@ -274,6 +274,28 @@ TEST_CASE("P7: validate names two streams that share bytes, and no others") {
     }
 }
 
+TEST_CASE("P7: a fault of a job's numbers says how many there are, and how many it takes") {
+    Random random(12);
+    const bend::Body body = loose_body(random, count);
+    Output out(count);
+    const DeformJob good = make_job(body, {1.1f, 0.7f}, Isa::automatic, out);
+    const auto line = [&](auto change) {
+        DeformJob job = good;
+        change(job);
+        return std::string(bend::describe(bend::validate(job)).c_str());
+    };
+    CHECK(line([](DeformJob& j) { --j.positions.count; }).ends_with(" (has 19, needs 20)"));
+    CHECK(line([](DeformJob& j) { j.normals.count = 0; }).ends_with(" (has 0, needs 20)"));
+    const std::vector<bend::Pose> poses(3);
+    CHECK(line([&](DeformJob& j) { j.poses = poses; }).ends_with(" (has 3, needs 1)"));
+    CHECK(line([&](DeformJob& j) {
+              j.previous_positions = j.positions;
+              j.positions = {};
+              j.previous_poses = poses;
+          }).starts_with("previous_poses: not one per region"));
+    CHECK(line([](DeformJob& j) { j.positions.stride = 6; }).find("(has") == std::string::npos);
+}
+
 TEST_CASE("every fault has a line of its own, which begins with the field") {
     std::vector<std::string> lines;
     for (std::size_t field = 1; field < std::size(field_names); ++field) {
@@ -322,10 +344,12 @@ TEST_CASE("a fault's line says where it is, however large the numbers are") {
     overlap.other = Field::previous_positions;
     CHECK(line(overlap).find("previous_positions") != std::string::npos);
     constexpr std::size_t most = bend::Fault::nowhere - 1;
-    const std::string longest = line({Field::previous_positions, Reason::out_of_range, most, most, most});
+    bend::Fault farthest{Field::previous_positions, Reason::stride, most, most, most};
+    farthest.has = farthest.needs = most;
+    const std::string longest = line(farthest);
     CHECK(longest.starts_with("batches[" + std::to_string(most) + "].previous_positions[" +
                               std::to_string(most)));
-    CHECK(longest.size() < sizeof(bend::FaultText::text));
+    CHECK(longest.ends_with(std::to_string(most) + ")"));
 }
 
 }  // namespace goffer::test

@@ -59,6 +59,10 @@ Fault fault_of(Field field, Reason reason) noexcept {
     return {.field = field, .reason = reason};
 }
 
+Fault fault_of_size(Field field, Reason reason, std::size_t has, std::size_t needs) noexcept {
+    return {.field = field, .reason = reason, .has = has, .needs = needs};
+}
+
 /// Whether a component's last element, by its count and stride, lies at an address that there is.
 bool ends_in_memory(const StreamMemory& stream, std::size_t component) noexcept {
     const auto first = reinterpret_cast<std::uintptr_t>(stream.component[component]);
@@ -110,12 +114,12 @@ bool overlap(const StreamMemory& a, const StreamMemory& b) noexcept {
     return false;
 }
 
-Fault check(const Streams& streams) noexcept {
+Fault check(const Streams& streams, std::size_t vertices) noexcept {
     for (const StreamMemory& stream : streams) {
         if (!stream.wanted()) continue;
         const Reason reason = check(stream);
         if (reason != Reason::none) return fault_of(stream.field, reason);
-        if (stream.count == 0) return fault_of(stream.field, Reason::too_short);
+        if (stream.count == 0) return fault_of_size(stream.field, Reason::too_short, 0, vertices);
     }
     for (const StreamMemory& a : streams) {
         for (const StreamMemory& b : streams) {
@@ -153,13 +157,18 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
             room = stream.count, shortest = stream.field;
     }
     const std::size_t vertices = batch.body->vertex_count();
-    if (room < vertices) return fault_of(shortest, Reason::too_short);
+    if (room < vertices) return fault_of_size(shortest, Reason::too_short, room, vertices);
     const std::size_t last = room - vertices;
     if (batch.vertex_offsets.empty()) {
-        if (batch.count == 1) return {};
-        // A division, since the product might overflow.
-        if (batch.vertex_step > last / (batch.count - 1)) return fault_of(shortest, Reason::too_short);
-        return batch.vertex_step < vertices ? fault_of(Field::vertex_step, Reason::overlap) : Fault{};
+        const std::size_t step = batch.vertex_step, steps = batch.count - 1;
+        if (steps == 0) return {};
+        // Divisions, since products might overflow.
+        if (step > last / steps) {
+            const bool fits = step <= (Fault::nowhere - vertices) / steps;
+            return fault_of_size(shortest, Reason::too_short, room,
+                                 fits ? steps * step + vertices : Fault::nowhere);
+        }
+        return step < vertices ? fault_of_size(Field::vertex_step, Reason::overlap, step, vertices) : Fault{};
     }
     for (std::size_t i = 0; i < batch.count; ++i) {
         const std::size_t element = element_of(batch, i);
@@ -202,7 +211,7 @@ struct ColumnCheck {
         if ((view.stride != 0 && view.stride < bytes) || others_follow) {
             fault = fault_of(field, Reason::stride);
         } else if (view.count < elements) {
-            fault = fault_of(field, Reason::count);
+            fault = fault_of_size(field, Reason::count, view.count, elements);
         } else if (const Reason reason = check_addresses(view, elements); reason != Reason::none) {
             fault = fault_of(field, reason);
         }
@@ -212,7 +221,7 @@ struct ColumnCheck {
 Fault check_columns(const Batch& batch) noexcept {
     if (batch.poses.empty()) return fault_of(Field::poses, Reason::null);
     if (!batch.indices.empty() && batch.indices.size() != batch.count)
-        return fault_of(Field::indices, Reason::count);
+        return fault_of_size(Field::indices, Reason::count, batch.indices.size(), batch.count);
     ColumnCheck columns;
     columns.elements = batch.count;
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {
@@ -240,7 +249,7 @@ Fault check_columns(const Batch& batch) noexcept {
     columns.take(Field::update_intervals, batch.update_intervals);
     columns.take(Field::vertex_offsets, batch.vertex_offsets);
     if (columns.fault.none() && !batch.bounds.empty() && batch.bounds.size() < batch.count)
-        return fault_of(Field::bounds, Reason::count);
+        return fault_of_size(Field::bounds, Reason::count, batch.bounds.size(), batch.count);
     return columns.fault;
 }
 
@@ -292,7 +301,7 @@ Fault check_memory(const Batch& batch) noexcept {
     bool wanted = false;
     for (const StreamMemory& stream : streams) wanted |= stream.wanted();
     if (!wanted) return fault_of(Field::outputs, Reason::empty);
-    if (Fault fault = check(streams); !fault.none()) return fault;
+    if (Fault fault = check(streams, batch.body->vertex_count()); !fault.none()) return fault;
     if (!batch.tangents.empty() && !batch.body->has_tangents())
         return fault_of(Field::tangents, Reason::not_supported);
     if (Fault fault = check_columns(batch); !fault.none()) return fault;

@@ -157,10 +157,12 @@ public:
     /// "name[index]", if there is an index.
     Line& at(std::string_view text, std::size_t index) noexcept {
         *this << text;
-        if (index == Fault::nowhere) return *this;
+        return index == Fault::nowhere ? *this : (*this << "[").number(index) << "]";
+    }
+    Line& number(std::size_t number) noexcept {
         char digits[20] = {};
-        const auto end = std::to_chars(digits, digits + sizeof digits, index).ptr;
-        return *this << "[" << std::string_view(digits, static_cast<std::size_t>(end - digits)) << "]";
+        const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+        return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
     }
 
 private:
@@ -183,6 +185,8 @@ FaultText describe(const Fault& fault) noexcept {
     if (fault.region != Fault::nowhere) line.at("", fault.region);
     line << ": " << words(fault.field, fault.reason, of_batch);
     if (fault.other != Field::none) line << name(fault.other, of_batch);
+    if (fault.needs != Fault::nowhere)
+        ((line << " (has ").number(fault.has) << ", needs ").number(fault.needs) << ")";
     return text;
 }
 

@@ -13,10 +13,14 @@ namespace goffer::bend {
 Fault validate(const DeformJob& job) noexcept {
     if (job.body != nullptr && !job.body->empty()) {
         const std::size_t regions = job.body->region_count();
-        if (poses_of(job).size() != regions) return {.field = Field::poses, .reason = Reason::count};
-        const bool previous = !job.previous_positions.empty();
-        if (previous && previous_poses_of(job).size() != regions)
-            return {.field = Field::previous_poses, .reason = Reason::count};
+        const std::size_t poses = poses_of(job).size(), previous_poses = previous_poses_of(job).size();
+        if (poses != regions)
+            return {.field = Field::poses, .reason = Reason::count, .has = poses, .needs = regions};
+        if (!job.previous_positions.empty() && previous_poses != regions)
+            return {.field = Field::previous_poses,
+                    .reason = Reason::count,
+                    .has = previous_poses,
+                    .needs = regions};
     }
     Fault fault = check(batch_of(job));
     fault.instance = Fault::nowhere;

@@ -65,6 +65,8 @@ struct Fault {
     std::size_t instance = nowhere;  ///< index in its batch; `nowhere` if no one instance is at fault
     std::size_t region = nowhere;    ///< region of the pose at fault
     Field other = Field::none;       ///< the other stream of an overlap
+    std::size_t has = nowhere;       ///< how many elements there are, or the step, where that is the fault,
+    std::size_t needs = nowhere;     ///< and how many it takes; `nowhere` for all other faults
 
     [[nodiscard]] bool none() const noexcept { return reason == Reason::none; }
 };
@@ -78,8 +80,8 @@ struct FaultText {
 };
 
 /// Says in one line what is wrong and where, as in "batches[1].poses[7][2]: not finite: a NaN or an
-/// infinity", with the names of DeformJob or, of a crowd, of Batch. Returns "no fault" if there is none. Does
-/// not allocate. Thread-safe.
+/// infinity", with counts where they are at fault, and with the names of DeformJob or, of a crowd, of Batch.
+/// Returns "no fault" if there is none. Does not allocate. Thread-safe.
 [[nodiscard]] FaultText describe(const Fault& fault) noexcept;
 
 }  // namespace goffer::bend
