@@ -171,6 +171,9 @@ void run_inspect(const InspectOptions& options) {
                  fit::surface_area(model.rest.positions, model.rest.triangles));
     report_fit(report, model.cylinder);
     report_suitability(report, model);
+    const nlohmann::ordered_json& form = report.json["suitability"];
+    report.line("form", number(form["flatness"]) + " times as wide as thick, " +
+                            counted(form["shells"].get<std::size_t>(), "shell"));
     if (options.fit.rest != "straight") report_rest(report, request, model);
     report_bends(report, request, model);
     io::AtomicFiles outputs;
