@@ -31,6 +31,7 @@ struct DeformCase {
     int threads;
     Shape shape = Shape::plain;
     float wrinkle_weight = 1;
+    bool scratch = false;  ///< what lies between instances may be written over
 };
 
 /// Each instance begins on a cache line of every plane: what a user is advised to do.
@@ -52,6 +53,7 @@ public:
                    padded_vertices(what.size)}},
                  what.layout, fixture.memory(memory_floats(what.layout, what.size))),
           weights_(what.size.instances, what.wrinkle_weight) {
+        if (what.scratch) scene_.batches()[0].scratch_gaps = true;
         if (what.wrinkle_weight != 1) scene_.batches()[0].wrinkle_weights = strided(std::span(weights_));
         single_ = scene_.instance(0);
         single_.isa = what.isa;
@@ -153,6 +155,13 @@ void register_deform(Fixture& fixture) {
                     register_case(fixture, "deform", size.name + like.name,
                                   {layout, size.size, isa, 1, like.shape, like.wrinkle_weight});
             }
+        }
+    }
+    for (const char* streams : {"positions", "positions+normals"}) {
+        for (const Isa isa : built_isas()) {
+            if (runs_here(isa))
+                register_case(fixture, "deform", "crowd10000x200-scratch",
+                              {stream_layout(streams), {10'000, 200}, isa, 1, Shape::plain, 1, true});
         }
     }
     // Its output stays in the cache: the gate compares it in pairs.

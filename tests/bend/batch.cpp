@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "kernel/kernels.hpp"
 #include "pieces.hpp"
 #include "support/arena.hpp"
 #include "support/faults.hpp"
@@ -133,6 +134,53 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
                     check_batches(tested, crowd, expected, [&](const bend::CrowdJob& job) {
                         return run_on_threads(job, threads, pieces);
                     });
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("between instances, lines are filled up where gaps are scratch, and nowhere else") {
+    Random random(104);
+    constexpr std::size_t vertices = 203, instances = 20, line = 208;
+    const bend::Body body = loose_body(random, vertices);
+    std::vector<bend::Pose> poses(instances);
+    for (bend::Pose& pose : poses)
+        pose = {static_cast<float>(uniform(random, -2, 2)), static_cast<float>(uniform(random, -4, 4))};
+    struct Case {
+        std::size_t step;
+        bool scratch;
+        bend::Stores stores;
+        bool fills;
+    };
+    constexpr auto past = bend::Stores::non_temporal;
+    for (const Isa isa : isas_here()) {
+        const bend::KernelSet& kernels = bend::kernels(isa);
+        const bool weaves =
+            kernels.weaving_kernel(bend::Squeeze::plain, bend::StreamSet::positions) != nullptr;
+        const bool pairs = kernels.pair_kernel(bend::Squeeze::plain, bend::StreamSet::positions) != nullptr;
+        std::vector<std::string_view> pictures = {"x y z", "x y z u v w"};
+        if (weaves) pictures.insert(pictures.end(), {"xyz", "xyzuvw"});
+        if (pairs) pictures.insert(pictures.end(), {"xyzpqr", "xyzpqruvw"});
+        for (const std::string_view picture : pictures) {
+            for (const Case& one :
+                 {Case{line, true, past, true}, Case{line + 16, true, past, true},
+                  Case{line, false, past, false}, Case{line, true, bend::Stores::cached, false}}) {
+                INFO(name(isa), ", ", picture, ", step ", one.step, ", scratch ", one.scratch);
+                OutputBuffer out(picture, (instances - 1) * one.step + line);
+                bend::Batch batch{.body = &body, .count = instances, .poses = strided(std::span(poses))};
+                batch.previous_poses = batch.poses;
+                batch.vertex_step = one.step;
+                batch.scratch_gaps = one.scratch;
+                out.attach(batch);
+                bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = one.stores, .isa = isa});
+                for (std::size_t i = 0; i < instances; ++i) {
+                    const bool filled = one.fills && i + 1 < instances;
+                    for (std::size_t v = vertices; v < std::min(line, one.step); ++v)
+                        REQUIRE((out.value('x', i * one.step + v) != OutputBuffer::guard) == filled);
+                    if (one.step > line && i + 1 < instances)
+                        REQUIRE(out.value('x', i * one.step + line) == OutputBuffer::guard);
+                    REQUIRE(out.value('x', i * one.step + vertices - 1) != OutputBuffer::guard);
                 }
             }
         }

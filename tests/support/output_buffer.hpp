@@ -33,6 +33,7 @@ public:
         std::size_t first = 0, last = 0;
         std::size_t to = 0;
         bool ends = true;  ///< if not, the gap behind its last vertex is between outputs of one instance, too
+        std::size_t padding = 0;  ///< vertices behind it, which may hold anything where gaps are scratch
     };
 
     /// What may become of the gaps between a part's first output and its last one.
@@ -86,7 +87,7 @@ public:
     [[nodiscard]] std::string fault(std::span<const Part> parts, Gaps gaps = Gaps::kept) const {
         std::vector<float> expected(memory_[0].size(), guard);
         if (gaps == Gaps::scratch) {
-            for (const Part& part : parts) take_gaps(part, expected);
+            for (const Part& part : parts) take_gaps(part, expected), take_padding(part, expected);
         }
         for (const Part& part : parts) take_outputs(part, expected);
         if (std::memcmp(expected.data(), memory_[0].data(), memory_[0].size_bytes()) == 0) return {};
@@ -155,6 +156,16 @@ private:
             const std::size_t end = part.ends ? high + (next - 1) * stride + 1 : low + next * stride;
             for (std::size_t i = begin; stride != 0 && i < end; ++i)
                 if (memory_[0][i] == 0) expected[i] = memory_[0][i];
+        }
+    }
+
+    /// What `part` may have left behind its last vertex: whole lines begin again after a few vertices.
+    void take_padding(const Part& part, std::vector<float>& expected) const {
+        constexpr std::size_t most = 15;
+        for (const Place& place : places_) {
+            const std::size_t first = place.first + (part.to + part.last - part.first) * place.stride;
+            for (std::size_t i = 0; i < std::min(part.padding, most) * place.stride; ++i)
+                expected[first + i] = memory_[0][first + i];
         }
     }
 

@@ -162,7 +162,9 @@ public:
         std::vector<OutputBuffer::Part> parts;
         for (std::size_t i = 0; i < count_; ++i) {
             const bool runs = active(i, frame);
-            if (runs) parts.push_back({&planes_[i], 0, body_.vertex_count(), place(i)});
+            const std::size_t vertices = body_.vertex_count();
+            const std::size_t padding = style_.places || i + 1 == count_ ? 0 : step_ - vertices;
+            if (runs) parts.push_back({&planes_[i], 0, vertices, place(i), true, padding});
             const bend::Bounds& box = runs && style_.bounds ? expected_boxes_[i] : untouched;
             if (std::memcmp(&box, &boxes_[i], sizeof box) != 0) return "bounds of " + std::to_string(i);
         }
@@ -230,7 +232,7 @@ private:
     /// Returns how many vertices there must be room for: none to spare.
     std::size_t set_places(Random& random) {
         const std::size_t vertices = body_.vertex_count();
-        step_ = vertices + random() % 4;
+        step_ = vertices + random() % (random() % 2 == 0 ? 4 : 40);
         if (!style_.places || count_ == 0) return count_ == 0 ? 1 : (count_ - 1) * step_ + vertices;
         for (Worm& worm : worms_) worm.place = std::numeric_limits<std::uint32_t>::max();  // of nobody's
         std::vector<std::size_t> order(count_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace goffer::bend {
@@ -37,6 +38,20 @@ void quantize(Coefficients& k, const Bounds& bounds) noexcept {
     }
 }
 
+/// How many vertices there is room for in the shortest output of a batch.
+std::size_t room_of(const Batch& batch) noexcept {
+    std::size_t room = std::numeric_limits<std::size_t>::max();
+    const auto take = [&](const auto& stream) {
+        if (!stream.empty()) room = std::min<std::size_t>(room, stream.count);
+    };
+    take(batch.positions);
+    take(batch.normals);
+    take(batch.tangents);
+    take(batch.packed);
+    take(batch.previous_positions);
+    return room;
+}
+
 }  // namespace
 
 static_assert(sizeof(BatchRunner) <= std::size_t{52} << 10, "crowd.hpp states how much stack a run takes");
@@ -47,6 +62,8 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       kernels_(kernels),
       plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
+      room_(room_of(batch)),
+      pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, PosedGroup::capacity(regions_)),
       staging_(plan_) {
@@ -148,6 +165,24 @@ void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexce
         std::copy_n(squeezes(member, current), regions_, squeezes(member, packed));
     }
     for (std::size_t r = 0; r < regions_; ++r) quantize(k[r], bounds);
+}
+
+/// Where a kernel of `columns` ends that is to deform an instance's vertices up to `end`. The last line of an
+/// instance is written whole if what follows it is scratch, since it must be read otherwise. `to_line`: the
+/// vertices from there to the next one that begins a line.
+std::size_t BatchRunner::padded_end(std::size_t member, const RestColumns& columns, std::size_t end,
+                                    std::size_t to_line) const noexcept {
+    const auto [instance, element, vertex, peeled] = members_[member];
+    const bool blended = &columns != &body_.columns, last = instance + 1 == batch_.count;
+    if (end != body_.vertex_count || blended || last) return end;
+    return end + to_line <= std::min(batch_.vertex_step, room_ - vertex) ? end + to_line : end;
+}
+
+/// How many vertices of `record` lie between an instance's vertex and the next one that begins a line; 0 if
+/// it is not written in lines.
+std::size_t BatchRunner::to_line(const Record& record, std::size_t member,
+                                 std::size_t vertex) const noexcept {
+    return record.in_lines ? record.to_line(members_[member].vertex + vertex) : 0;
 }
 
 std::size_t BatchRunner::line_before(std::size_t member, std::size_t vertex) const noexcept {
@@ -264,9 +299,15 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_call(member, WriteMode::planes, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
+                  const std::size_t vertex = members_[member].vertex;
+                  const bool in_lines = plan_.non_temporal();
+                  std::size_t padded = end;
+                  if (pads_) [[unlikely]]
+                      padded = padded_end(member, *input.columns, end,
+                                          floats_to_line<Record>(pass.planes.position[0] + vertex + end));
                   kernels_.plane_kernel(input.squeeze, pass.streams)(
-                      *input.columns, *input.k, pass.planes, members_[member].vertex + begin, input.first,
-                      end - begin, plan_.non_temporal() ? Write::non_temporal : Write::cached);
+                      *input.columns, *input.k, pass.planes, vertex + begin, input.first, padded - begin,
+                      in_lines ? Write::non_temporal : Write::cached);
               });
 }
 
@@ -275,13 +316,15 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
     each_call(member, WriteMode::records, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
                   const Record& record = *pass.record;
-                  const std::size_t vertex = members_[member].vertex + begin;
-                  const std::size_t stride = record.stride_floats();
+                  const std::size_t vertex = members_[member].vertex + begin, stride = record.stride_floats();
+                  std::size_t padded = end;
+                  if (pads_) [[unlikely]]
+                      padded = padded_end(member, *input.columns, end, to_line(record, member, end));
                   const RecordOutput out = {record.first + vertex * stride, stride, pass.gaps,
-                                            pass.gaps != RecordGaps::none && end == body_.vertex_count,
-                                            record.in_lines ? record.to_line(vertex) : 0};
+                                            pass.gaps != RecordGaps::none && padded == body_.vertex_count,
+                                            to_line(record, member, begin)};
                   kernels_.weaving_kernel(input.squeeze, pass.streams)(
-                      *input.columns, *input.k, out, input.first, end - begin,
+                      *input.columns, *input.k, out, input.first, padded - begin,
                       record.in_lines ? Write::non_temporal : Write::cached);
               });
 }
@@ -307,11 +350,13 @@ void BatchRunner::deform_pair(std::size_t member, std::size_t region, Span verti
     const Record& record = *pass.record;
     const std::size_t vertex = members_[member].vertex + vertices.first;
     const PairOutput out = {record.first + vertex * record.stride_floats(), plan_.pair_order(),
-                            record.in_lines ? record.to_line(vertex) : 0};
+                            to_line(record, member, vertices.first)};
+    std::size_t last = vertices.last;
+    if (pads_) [[unlikely]]
+        last = padded_end(member, body_.columns, last, to_line(record, member, last));
     kernels_.pair_kernel(squeezes(member, current)[region], pass.streams)(
         body_.columns, coefficients(member, current)[region], coefficients(member, previous)[region], out,
-        vertices.first, vertices.last - vertices.first,
-        record.in_lines ? Write::non_temporal : Write::cached);
+        vertices.first, last - vertices.first, record.in_lines ? Write::non_temporal : Write::cached);
 }
 
 /// Calls deform(region, begin, end) for each stretch of vertices of one region. Into the cache, a stretch is

@@ -105,6 +105,10 @@ private:
     [[nodiscard]] Span joint_behind(std::size_t region) const noexcept;
     [[nodiscard]] std::size_t joints_end(std::size_t member, std::size_t region, std::size_t first,
                                          std::size_t last) const noexcept;
+    [[nodiscard]] std::size_t padded_end(std::size_t member, const RestColumns& columns, std::size_t end,
+                                         std::size_t to_line) const noexcept;
+    [[nodiscard]] std::size_t to_line(const Record& record, std::size_t member,
+                                      std::size_t vertex) const noexcept;
     [[nodiscard]] std::size_t line_before(std::size_t member, std::size_t vertex) const noexcept;
     [[nodiscard]] std::size_t line_behind(std::size_t member, std::size_t vertex) const noexcept;
     const Batch& batch_;
@@ -112,7 +116,9 @@ private:
     const KernelSet& kernels_;
     OutputPlan plan_;
     std::size_t regions_;
-    bool bounded_;  // bounds are wanted: by the caller, or for packed vertices
+    std::size_t room_;  // vertices of the shortest output
+    bool pads_;         // the last lines of instances may be filled up
+    bool bounded_;      // bounds are wanted: by the caller, or for packed vertices
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones

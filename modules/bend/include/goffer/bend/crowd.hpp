@@ -111,13 +111,16 @@ struct Batch {
     /// Bytes of a record between and after its outputs, up to the next record, are left as they are: they
     /// may hold data of the caller's. Set this where they do not: most records of up to 64 bytes may then be
     /// written as whole lines, with zeros in the gaps, which takes two thirds of the time past the cache.
-    /// Gaps are kept all the same where a batch writes several sets of records with one stride. Bytes before
-    /// an instance's first output and after its last one stay untouched in any case.
+    /// Gaps are kept all the same where a batch writes several sets of records with one stride. Vertices that
+    /// vertex_step leaves between one instance and the next may then be written over too, with any numbers,
+    /// up to the end of a line: crowds of small bodies take a tenth less. What lies before the first instance
+    /// and after the last one, or around instances with vertex_offsets, stays untouched in any case.
     bool scratch_gaps = false;
 };
 
-/// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is, and so
-/// may not be a temporary. job.isa is lost: CrowdJob::isa takes its place. Does not allocate. Thread-safe.
+/// Makes a batch of one from `job`. The batch refers to `job`, which must outlive it and stay where it is,
+/// and so may not be a temporary. job.isa is lost: CrowdJob::isa takes its place. Does not allocate.
+/// Thread-safe.
 [[nodiscard]] Batch batch_of(const DeformJob& job) noexcept;
 Batch batch_of(const DeformJob&&) = delete;
 
