@@ -62,10 +62,9 @@ std::unique_ptr<CrowdSystem::Kind> CrowdSystem::make_kind(bend::BodyFile file) c
         if (level.body.region_count() != 1) throw std::runtime_error("this game is for bodies of one region");
         if (level.body.vertex_count() > room_) throw std::runtime_error("a body has too many vertices");
     }
-    std::vector<bend::Socket> sockets;
-    for (const bend::NamedSocket& socket : file.sockets) sockets.push_back(socket.socket);
     auto kind = std::make_unique<Kind>(Kind{std::move(file), std::nullopt, {}, {}, {}});
-    if (!sockets.empty()) kind->sockets = bend::Sockets::make(kind->file.levels[0].body, {sockets.data(), 1});
+    const std::span<const bend::NamedSocket> sockets = kind->file.sockets;
+    if (!sockets.empty()) kind->sockets = bend::Sockets::make(kind->file.levels[0].body, sockets.first(1));
     kind->all.reserve(creatures_);
     kind->boxes.resize(creatures_);
     kind->due.resize(levels);

@@ -23,9 +23,7 @@ int main(int argc, char** argv) {
     const bend::DeformJob instance{.body = &body, .poses = poses};
 
     // Sockets were placed by goffer bake --socket NAME=X,Y,Z, or are by fit::socket_near.
-    std::vector<bend::Socket> places;
-    for (const bend::NamedSocket& socket : file->sockets) places.push_back(socket.socket);
-    const std::optional<bend::Sockets> sockets = bend::Sockets::make(body, places);
+    const std::optional<bend::Sockets> sockets = bend::Sockets::make(body, file->sockets);
     if (!sockets) return std::puts("there is no socket in this file"), 1;
     std::vector<bend::SocketFrame> frames(sockets->count());
     sockets->frames(instance, frames);  // in every frame; the mesh is not touched

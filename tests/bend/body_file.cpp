@@ -3,9 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 
 /// The body file: what is loaded deforms to the bits of what was saved, and nothing else is ever loaded.
@@ -54,8 +56,14 @@ TEST_CASE("body file: what is drawn, sockets and notes come back") {
     REQUIRE(file.sockets.size() == 2);
     CHECK(file.sockets[0].name == "tip");
     CHECK(file.sockets[0].socket.vertex.z == 0.5);
-    CHECK(
-        bend::Sockets::make(loaded, std::array{file.sockets[0].socket, file.sockets[1].socket}).has_value());
+    const std::optional<bend::Sockets> sockets = bend::Sockets::make(loaded, file.sockets);
+    REQUIRE(sockets.has_value());
+    CHECK(sockets->count() == 2);
+    std::array<bend::SocketFrame, 2> named, plain;
+    sockets->frames(loaded.rest_poses(), named);
+    bend::Sockets::make(loaded, std::array{file.sockets[0].socket, file.sockets[1].socket})
+        ->frames(loaded.rest_poses(), plain);
+    CHECK(named == plain);
     CHECK(file.notes == "made of nothing");
     const bend::Bounds around = bend::bounds(body, body.rest_poses());
     for (int c = 0; c < 3; ++c) {

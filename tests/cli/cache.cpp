@@ -41,7 +41,7 @@ void write_posed_scene(const Folder& folder, const nlohmann::json& transform) {
     folder.write("places.csv", "1,0,0 0,1,0 0,0,1 0,0,0\n0,1,0 -1,0,0 0,0,1 5,6,7\n");
     const nlohmann::json scene{{"version", 1},
                                {"fps", 24},
-                               {"frames", 3},
+                               {"frames", 3.0},  // a whole number all the same
                                {"bodies", {{"worm", {{"file", "worm.ply"}, {"refine", "off"}}}}},
                                {"instances",
                                 {{{"body", "worm"},

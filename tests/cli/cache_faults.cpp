@@ -35,6 +35,8 @@ TEST_CASE("cache: scenes that are none") {
     refuse("/fps", "fast", {"fps"});
     refuse("/frames", 0, {"frames", "1..1000000"});
     refuse("/frames", 1e300, {"frames"});
+    refuse("/frames", 2.5, {"frames", "whole number"});
+    refuse("/frames", -1.0, {"frames"});
     refuse("/wind", 1, {"'wind'", "instances"});
     refuse("/bodies", nlohmann::json::object(), {"bodies", "none"});
     refuse("/bodies/worm/file", "none.ply", {"none.ply"});

@@ -57,9 +57,7 @@ void load_and_run(std::span<const std::byte> bytes, std::uint8_t seed, bend::Ver
         for (const std::uint32_t vertex : mesh.triangles)
             require(!everything || vertex < body.vertex_count(), "triangles are of vertices that are there");
     }
-    std::vector<bend::Socket> sockets;
-    for (const bend::NamedSocket& socket : file->sockets) sockets.push_back(socket.socket);
-    require(sockets.empty() || bend::Sockets::make(file->levels[0].body, sockets).has_value(),
+    require(file->sockets.empty() || bend::Sockets::make(file->levels[0].body, file->sockets).has_value(),
             "sockets are sound");
     if (!everything) return;
     const bend::BodyFileInput input{levels, file->materials, file->sockets, file->notes};

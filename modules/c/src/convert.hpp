@@ -13,7 +13,6 @@
 #include <exception>
 #include <new>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -103,7 +102,7 @@ auto guarded(goffer_error* error, Work&& work) noexcept -> decltype(work()) {
 [[nodiscard]] bend::PackedStream packed_of(const goffer_packed_stream& stream) noexcept;
 [[nodiscard]] goffer_bounds bounds_of(const bend::Bounds& bounds) noexcept;
 [[nodiscard]] fit::Geometry geometry_of(const goffer_mesh& mesh);
-/// Throws where `body` cannot have them.
-[[nodiscard]] goffer_sockets* make_sockets(const bend::Body& body, std::span<const bend::Socket> sockets);
+/// Throws where there are none: Sockets::make refused them.
+[[nodiscard]] goffer_sockets* handle_of(std::optional<bend::Sockets> made);
 
 }  // namespace goffer::c

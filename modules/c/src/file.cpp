@@ -137,8 +137,6 @@ goffer_string goffer_file_notes(const goffer_file* file) {
 goffer_sockets* goffer_file_sockets(const goffer_file* file, goffer_error* error) {
     return guarded(error, [&]() -> goffer_sockets* {
         if (file == nullptr) throw std::invalid_argument("file: null");
-        std::vector<bend::Socket> sockets;
-        for (const bend::NamedSocket& socket : file->file.sockets) sockets.push_back(socket.socket);
-        return make_sockets(file->file.levels[0].body, sockets);
+        return handle_of(bend::Sockets::make(file->file.levels[0].body, file->file.sockets));
     });
 }

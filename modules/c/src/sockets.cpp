@@ -20,8 +20,7 @@ struct goffer_sockets {
 static_assert(sizeof(goffer_socket_frame) == sizeof(bend::SocketFrame) &&
               offsetof(goffer_socket_frame, position) == 3 * sizeof(bend::SocketFrame::col_type));
 
-goffer_sockets* goffer::c::make_sockets(const bend::Body& body, std::span<const bend::Socket> sockets) {
-    std::optional<bend::Sockets> made = bend::Sockets::make(body, sockets);
+goffer_sockets* goffer::c::handle_of(std::optional<bend::Sockets> made) {
     if (!made) throw std::invalid_argument("sockets: there is none, or one is not of this body");
     return std::make_unique<goffer_sockets>(goffer_sockets{std::move(*made)}).release();
 }
@@ -41,7 +40,7 @@ goffer_sockets* goffer_body_sockets(const goffer_body* body, const goffer_mesh* 
                 throw std::invalid_argument("points: one is not finite");
             sockets.push_back(fit::socket_near(*body->binding, geometry, glm::dvec3(p[0], p[1], p[2])));
         }
-        return make_sockets(*body->body, sockets);
+        return handle_of(bend::Sockets::make(*body->body, sockets));
     });
 }
 

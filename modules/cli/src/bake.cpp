@@ -174,10 +174,7 @@ Notes notes_of(const BoundModel& model, const BindRequest& request) {
 /// Says where sockets are at rest, and warns of one that was asked for far away from the body.
 void report_sockets(Report& report, const BoundModel& model, const std::vector<SocketWords>& words,
                     const std::vector<bend::NamedSocket>& named) {
-    std::vector<bend::Socket> places;
-    places.reserve(named.size());
-    for (const bend::NamedSocket& socket : named) places.push_back(socket.socket);
-    const auto sockets = bend::Sockets::make(model.binding.body, places);
+    const auto sockets = bend::Sockets::make(model.binding.body, named);
     if (!sockets) return;  // there is none
     std::vector<bend::SocketFrame> frames(sockets->count());
     sockets->frames(model.binding.body.rest_poses(), frames);

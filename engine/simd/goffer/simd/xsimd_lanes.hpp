@@ -42,7 +42,12 @@ struct XsimdLanes {
         value.store_unaligned(to);
 #endif
     }
+    // A function that does nothing else has no effect in the eyes of g++ 12, which drops calls of it that it has
+    // not inlined early: the empty statement is one.
     static void prefetch(const float* at) {
+#if defined(__GNUC__)
+        asm volatile("" : : "r"(at));
+#endif
 #if defined(__SSE__)
         _mm_prefetch(reinterpret_cast<const char*>(at), _MM_HINT_T0);
 #elif defined(__GNUC__)

@@ -46,4 +46,10 @@ std::optional<Sockets> Sockets::make(const Body& body, std::span<const Socket> s
     return result;
 }
 
+std::optional<Sockets> Sockets::make(const Body& body, std::span<const NamedSocket> sockets) {
+    std::vector<Socket> places;
+    for (const NamedSocket& socket : sockets) places.push_back(socket.socket);
+    return make(body, places);
+}
+
 }  // namespace goffer::bend

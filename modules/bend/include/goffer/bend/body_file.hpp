@@ -63,12 +63,6 @@ struct DrawMesh {
     std::span<const DrawPart> parts;  ///< none, or covering all triangles, in order
 };
 
-/// A socket with a name. Sockets::make makes them for the body of any level.
-struct NamedSocket {
-    std::string_view name;  ///< may be empty
-    Socket socket;
-};
-
 /// A level of detail to be saved.
 struct LevelInput {
     const Body* body = nullptr;  ///< neither null nor empty

@@ -33,6 +33,8 @@ public:
     /// normal or tangent. Does not look whether these two are orthogonal. Allocates; may throw
     /// std::bad_alloc.
     [[nodiscard]] static std::optional<Sockets> make(const Body& body, std::span<const Socket> sockets);
+    /// The same of those of a body file, for the body of any level. Names are not needed afterward.
+    [[nodiscard]] static std::optional<Sockets> make(const Body& body, std::span<const NamedSocket> sockets);
 
     [[nodiscard]] std::size_t count() const noexcept { return place_.size(); }
 
