@@ -156,8 +156,8 @@ typedef struct goffer_base {
 } goffer_base;
 
 /* Why a region has fewer folds than were asked for or, where no number was, than suit it
- * [fit::FoldShortage]: it has enough; the mesh's rows of vertices are too far apart; the wrinkle range leaves
- * too little of it; it is too long. */
+ * [fit::FoldShortage]: it has at least half of them; the mesh's rows of vertices are too far apart; the
+ * wrinkle range leaves too little of it; it is too long. */
 enum { GOFFER_SHORTAGE_NONE, GOFFER_SHORTAGE_ROWS, GOFFER_SHORTAGE_RANGE, GOFFER_SHORTAGE_LENGTH };
 
 /* How many folds a region has, over its whole length with GOFFER_PROFILE_EVEN, else over half of it.
