@@ -275,6 +275,27 @@ TEST_CASE("broken normals and tangents are replaced, missing normals are made, s
     CHECK_NOTHROW((void)fit::bind(test_mesh.geometry(), test_mesh.cylinder));
 }
 
+TEST_CASE("vertices a little beyond the ends belong to the first and the last region, however short") {
+    Random random(25);
+    TestMesh test_mesh = random_mesh(random, 10, 1, 12, 17, 0);
+    fit::Cylinder& cylinder = test_mesh.cylinder;
+    cylinder.origin += 8e-4 * cylinder.axis;
+    cylinder.length /= 1.0016;
+    for (const std::size_t count : {1u, 2u, 8u}) {
+        fit::BindOptions options;
+        options.regions.assign(count, {.share = 1.0 / static_cast<double>(count)});
+        const fit::Binding binding = fit::bind(test_mesh.geometry(), cylinder, options);
+        CHECK_NOTHROW((void)fit::bind_level(test_mesh.geometry(), binding));
+        Output out(test_mesh.positions.size());
+        bend::DeformJob job = make_job(binding.body, {}, Isa::automatic, out);
+        job.poses = binding.body.rest_poses();
+        bend::run(job);
+        const std::vector<std::uint32_t> place = binding.vertices_in_body();
+        for (std::size_t i = 0; i < test_mesh.positions.size(); ++i)
+            REQUIRE(glm::length(out.position(place[i]) - glm::dvec3(test_mesh.positions[i])) < 1e-3);
+    }
+}
+
 TEST_CASE("tangents that replace broken ones are orthogonal to the normals, whichever way these point") {
     Random random(24);
     const Solid solid = tube();

@@ -35,6 +35,7 @@ std::vector<bool> used_by_triangles(const Geometry& geometry) {
 /// are in the working range of a body.
 std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cylinder& cylinder,
                                              const Straightening& straightening,
+                                             std::span<const RestRegion> regions,
                                              const std::vector<bool>& used) {
     std::vector<paper::Cylindrical> vertices;
     vertices.reserve(geometry.positions.size());
@@ -49,9 +50,9 @@ std::vector<paper::Cylindrical> straightened(const Geometry& geometry, const Cyl
             }
             at.z = std::clamp(at.z, 0.0, cylinder.length);
         }
-        if (!cylinder.arcs.empty()) {  // a thousandth of the body may be much of an arc
-            at.z = std::clamp(at.z, -5e-4 * cylinder.arcs.front().length,
-                              cylinder.length + 5e-4 * cylinder.arcs.back().length);
+        if (regions.size() > 1) {  // a thousandth of the body may be much of a region
+            at.z = std::clamp(at.z, -5e-4 * regions.front().length,
+                              cylinder.length + 5e-4 * regions.back().length);
         }
         if (!used[vertices.size()]) at.rho = std::min(at.rho, far);
         vertices.push_back(at);
@@ -354,7 +355,7 @@ RestMesh rest_mesh(const Geometry& geometry, const Cylinder& cylinder, paper::Pr
                    std::span<const RestRegion> regions, const Parts* parts) {
     const Straightening straightening(cylinder);
     const std::vector<bool> used = used_by_triangles(geometry);
-    const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening, used);
+    const std::vector<paper::Cylindrical> at = straightened(geometry, cylinder, straightening, regions, used);
     RestMesh mesh;
     mesh.counts.resize(regions.size());
     const std::vector<std::uint32_t> order = region_order(regions, at, mesh.counts);
