@@ -243,10 +243,19 @@ TEST_CASE("clip: data of motion that is left out are left out, too, unless an ex
         CHECK(player.json["bufferViews"] == plain.json["bufferViews"]);
         CHECK(player.json["meshes"][0]["primitives"] == plain.json["meshes"][0]["primitives"]);
     }
-    document.json["extensions"]["EXT_of_somebody"] = {{"accessor", moves}};
-    const Player kept = saved(document);
-    CHECK(kept.json["accessors"].size() > plain.json["accessors"].size());
-    CHECK(kept.bin.size() > plain.bin.size());
+    const Json pointer = "/accessors/" + std::to_string(moves);
+    for (const auto& [name, number] : {std::pair<std::string, Json>{"EXT_of_somebody", moves},
+                                       {"KHR_lights_ies", moves},
+                                       {"EXT_of_somebody", pointer}}) {
+        Document known = document;
+        known.json["extensions"][name] = {{"accessor", number}};
+        const Player kept = saved(known);
+        CHECK(kept.json["accessors"].size() > plain.json["accessors"].size());
+        CHECK(kept.bin.size() > plain.bin.size());
+    }
+    Document lit = document;
+    lit.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"intensity": 2}])");
+    CHECK(saved(lit).bin == plain.bin);
 }
 
 TEST_CASE("clip: what a GLB holds beside the moved mesh is kept") {

@@ -453,14 +453,14 @@ TEST_CASE("gltf: numbers of what is not there, where nobody reads it, are warned
     };
     CHECK(warnings("", 0).empty());
     CHECK(warned("/animations/0/samplers/0/input",
-                 "animations[0].samplers[0].input is 9, expected one of 5 accessors"));
+                 "animations[0].samplers[0].input is 9, but there are 5 accessors"));
     CHECK(warned("/animations/0/samplers/0/output",
-                 "animations[0].samplers[0].output is 9, expected one of 5 accessors"));
+                 "animations[0].samplers[0].output is 9, but there are 5 accessors"));
     CHECK(warned("/animations/0/channels/0/sampler",
-                 "animations[0].channels[0].sampler is 9, expected one of 1 samplers of the animation"));
+                 "animations[0].channels[0].sampler is 9, but there are 1 samplers in the animation"));
     CHECK(warned("/animations/0/channels/0/target/node",
-                 "animations[0].channels[0].target.node is 9, expected one of 1 nodes"));
-    CHECK(warned("/nodes/0/camera", "nodes[0].camera is 9, expected one of 0 cameras"));
+                 "animations[0].channels[0].target.node is 9, but there are 1 nodes"));
+    CHECK(warned("/nodes/0/camera", "nodes[0].camera is 9, but there are 0 cameras"));
     const std::vector<std::string> text = warnings("/animations/0/channels/0/sampler", "no");
     REQUIRE(text.size() == 1);
     CHECK(text[0].starts_with(

@@ -2,7 +2,9 @@
 #include "gltf.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace goffer::mesh::gltf {
 
@@ -167,12 +169,15 @@ std::vector<std::uint32_t> read_indices(const Document& document, const Value& i
 }
 
 void set_bounds(Json& accessor, const std::vector<float>& values, std::size_t components) {
-    std::vector<float> least(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)),
-        most = least;
+    std::vector<float> least(components, std::numeric_limits<float>::max()),
+        most(components, std::numeric_limits<float>::lowest());
     for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::isfinite(values[i])) continue;  // of a broken file; JSON cannot hold it
         least[i % components] = std::min(least[i % components], values[i]);
         most[i % components] = std::max(most[i % components], values[i]);
     }
+    for (std::size_t c = 0; c < components; ++c)
+        if (least[c] > most[c]) least[c] = most[c] = 0;
     // As doubles, so that the JSON has the exact floats.
     accessor["min"] = std::vector<double>(least.begin(), least.end());
     accessor["max"] = std::vector<double>(most.begin(), most.end());

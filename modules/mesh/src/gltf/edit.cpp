@@ -4,12 +4,10 @@
 #include "references.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace goffer::mesh::gltf {

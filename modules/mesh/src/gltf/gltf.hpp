@@ -137,8 +137,8 @@ void each(Owner& owner, const char* key, Visit&& visit) {
 [[nodiscard]] std::vector<std::string> read_textures(const std::shared_ptr<const Document>& document,
                                                      Mesh& mesh);
 
-/// Says, as a warning or none, which fields that nothing here reads are of the wrong type, or have the number
-/// of something that is not there.
+/// Says, as a warning or none, which fields that nothing here reads are of the wrong type, or, of animations,
+/// cameras and skeletons, hold an index of something that is not there.
 [[nodiscard]] std::vector<std::string> wrong_types(const Document& document);
 
 /// Return the bytes of a file with this document and its one buffer.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "attributes.hpp"
 #include "morph.hpp"
+#include "references.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -22,7 +23,8 @@ namespace {
 template <class Visit>
 void each_number(const Json& owner, const char* key, std::size_t count, const Visit& visit) {
     each(owner, key, [&](const Json& entry) {
-        if (entry.is_number_unsigned() && entry.get<std::size_t>() < count) visit(entry.get<std::size_t>());
+        const std::optional<std::size_t> index = index_in(entry);
+        if (index && *index < count) visit(*index);
     });
 }
 
@@ -177,8 +179,9 @@ void drop_unused_skins(Json& json) {
 
 MeshUsers::MeshUsers(Json& json) : json_(json) {
     each(json, "nodes", [&](const Json& node) {
-        if (node.contains("mesh") && node["mesh"].is_number_unsigned())
-            ++users_[node["mesh"].get<std::size_t>()];
+        visit_member(node, "mesh", [&](const Json& index) {
+            if (const std::optional<std::size_t> mesh = index_in(index)) ++users_[*mesh];
+        });
     });
 }
 
@@ -212,7 +215,7 @@ Json& shown_scene(Json& json) {
 std::vector<std::string> let_go_of_motion(Json& json, MeshUsers& users, std::vector<Block>& blocks) {
     std::vector<std::string> warnings;
     if (json.contains("animations") && !json["animations"].empty())
-        warnings.emplace_back("the file's own animations are left out: the clip moves what they would move");
+        warnings.emplace_back("the file's own animations are left out: the clip takes their place");
     json.erase("animations");
     const auto skinned = [&](const Block& block) { return json["nodes"][block.node].contains("skin"); };
     if (std::ranges::none_of(blocks, skinned)) return warnings;

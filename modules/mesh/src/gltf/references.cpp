@@ -2,6 +2,7 @@
 #include "references.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -18,17 +19,30 @@ void add_index(const Json& json, std::set<std::size_t>& found) {
     if (const auto index = index_in(json)) found.insert(*index);
 }
 
+/// Whether an extension is known to have no numbers of accessors or views.
 bool names_no_accessors(std::string_view extension) {
-    for (const char* kind :
-         {"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "MSFT_texture_"}) {
-        if (extension.starts_with(kind)) return true;
-    }
+    if (extension.starts_with("KHR_materials_")) return true;
+    for (const char* known : {"KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",
+                              "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"})
+        if (extension == known) return true;
     return false;
+}
+
+/// Adds the number in a JSON pointer, as "/accessors/3".
+void add_pointer(const Json& json, std::set<std::size_t>& found) {
+    if (!json.is_string()) return;
+    for (const std::string_view list : {"/accessors/", "/bufferViews/"}) {
+        const auto& text = json.get_ref<const std::string&>();
+        if (!text.starts_with(list)) continue;
+        std::size_t number = 0;
+        std::from_chars(text.data() + list.size(), text.data() + text.size(), number);
+        found.insert(number);
+    }
 }
 
 /// Adds all numbers inside extensions that are not known.
 void numbers_in_extensions(const Json& json, bool inside, std::set<std::size_t>& found) {
-    if (inside) add_index(json, found);
+    if (inside) add_index(json, found), add_pointer(json, found);
     if (json.is_array()) {
         for (const Json& child : json) numbers_in_extensions(child, inside, found);
     } else if (json.is_object()) {
@@ -122,8 +136,9 @@ std::vector<Kept> merged(std::vector<Kept> ranges) {
 }  // namespace
 
 std::optional<std::size_t> index_in(const Json& json) {
+    constexpr double most = 4294967295.0;  // more than any list has
     const double value = json.is_number() ? json.get<double>() : -1.0;
-    if (value >= 0.0 && value <= 1e15 && value == std::floor(value)) return static_cast<std::size_t>(value);
+    if (value >= 0.0 && value <= most && value == std::floor(value)) return static_cast<std::size_t>(value);
     return std::nullopt;
 }
 

@@ -13,7 +13,7 @@
 
 namespace goffer::mesh::gltf {
 
-/// The index that a value is; null if it is no whole number.
+/// The index that a value is; null if it is no whole number of 32 bits.
 [[nodiscard]] std::optional<std::size_t> index_in(const Json& json);
 
 /// Calls `visit` with owner[key], where there is one.

@@ -38,6 +38,12 @@ Kind kind_of(const std::string& name, const Value& accessor) {
     return real ? Kind::linear : Kind::nearest;
 }
 
+/// Between two numbers, or the one that is finite.
+double between(double a, double b, double t) {
+    if (!std::isfinite(a)) return b;
+    return std::isfinite(b) ? a + t * (b - a) : a;
+}
+
 void put_between(const float* a, const float* b, double t, Kind kind, std::size_t width, float* out) {
     if (kind == Kind::direction || kind == Kind::tangent) {
         const glm::vec3 made = direction(glm::make_vec3(a), glm::make_vec3(b), t);
@@ -47,28 +53,31 @@ void put_between(const float* a, const float* b, double t, Kind kind, std::size_
     }
     for (std::size_t i = 0; i < width; ++i) {
         const double from = a[i], to = b[i];
-        const double between = kind == Kind::linear ? from + t * (to - from) : t < 0.5 ? from : to;
-        out[i] = static_cast<float>(between);
+        out[i] = static_cast<float>(kind == Kind::linear ? between(from, to, t) : t < 0.5 ? from : to);
     }
 }
 
 /// Joints of one vertex, each with its weight.
 using Influences = std::vector<std::pair<float, double>>;
 
-/// The `count` heaviest joints of both ends, scaled to the weight that all of them had.
+/// The `count` heaviest joints of both ends, scaled to the weight that all of them had. Weights that are not
+/// finite count for nothing.
 Influences mixed(const Influences& a, const Influences& b, double t, std::size_t count) {
     std::map<float, double> sums;
     double whole = 0, kept = 0;
-    for (const auto& [joint, weight] : a)
-        if (weight != 0) sums[joint] += (1 - t) * weight;
-    for (const auto& [joint, weight] : b)
-        if (weight != 0) sums[joint] += t * weight;
+    const auto take = [&](const Influences& end, double share) {
+        for (const auto& [joint, weight] : end)
+            if (weight != 0 && std::isfinite(weight)) sums[joint] += share * weight;
+    };
+    take(a, 1 - t);
+    take(b, t);
     Influences all(sums.begin(), sums.end());
     for (const auto& [joint, weight] : all) whole += weight;
     std::ranges::stable_sort(all, [](const auto& x, const auto& y) { return x.second > y.second; });
     all.resize(std::min(all.size(), count));
     for (const auto& [joint, weight] : all) kept += weight;
-    for (auto& [joint, weight] : all) weight = kept > 0 ? weight * whole / kept : weight;
+    constexpr double most = std::numeric_limits<float>::max();
+    for (auto& [joint, weight] : all) weight = std::min(kept > 0 ? weight * whole / kept : weight, most);
     all.resize(count, {0.0f, 0.0});  // glTF wants unused ones to be joint 0
     return all;
 }
@@ -110,8 +119,6 @@ private:
     [[nodiscard]] std::size_t width_of(const Value& reference) const;
     [[nodiscard]] std::vector<float> values_of(const BlockCut& cut, const Value& reference,
                                                std::size_t width) const;
-    [[nodiscard]] std::vector<float> finite_values_of(const BlockCut& cut, const Value& reference,
-                                                      std::size_t width) const;
 
     const Document& document_;
     const Cut& cut_;
@@ -165,18 +172,6 @@ std::vector<float> SceneRefiner::values_of(const BlockCut& cut, const Value& ref
     return values;
 }
 
-/// The same of what moves vertices: a value that is not finite would become that of others.
-std::vector<float> SceneRefiner::finite_values_of(const BlockCut& cut, const Value& reference,
-                                                  std::size_t width) const {
-    std::vector<float> values = values_of(cut, reference, width);
-    const auto bad = std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
-    if (bad != values.end())
-        reference.fail("has a number that is not finite, for vertex " +
-                       std::to_string(static_cast<std::size_t>(bad - values.begin()) / width) +
-                       "; export the file again, or do not refine");
-    return values;
-}
-
 /// Replaces an accessor by one with the values of the new vertices behind its own; returns its number.
 std::size_t SceneRefiner::refined(const BlockCut& cut, const Value& reference, Kind kind, bool bounds) {
     const std::size_t width = width_of(reference);
@@ -207,10 +202,8 @@ void SceneRefiner::refine_targets(const BlockCut& cut, const Value& was, Json& p
     for (std::size_t i = 0; was.has("targets") && i < was["targets"].size(); ++i) {
         const Value target = was["targets"][i];
         for (const auto& [name, index] : target.json().items()) {
-            const Value reference = target[name.c_str()];
-            (void)finite_values_of(cut, reference, width_of(reference));
             primitive["targets"][i][name] =
-                refined(cut, reference, Kind::linear, name == stream_name[position]);
+                refined(cut, target[name.c_str()], Kind::linear, name == stream_name[position]);
         }
     }
 }
@@ -224,7 +217,7 @@ void SceneRefiner::refine_skin(const BlockCut& cut, const Value& attributes, Jso
         if (!attributes.has(weights_name(sets).c_str()))
             joints.fail("has no " + weights_name(sets) + " beside it; export the file again");
         const std::vector<float> who = values_of(cut, joints, 4);
-        const std::vector<float> much = finite_values_of(cut, attributes[weights_name(sets).c_str()], 4);
+        const std::vector<float> much = values_of(cut, attributes[weights_name(sets).c_str()], 4);
         for (std::size_t i = 0; i < who.size(); ++i) {
             if (!(who[i] >= 0 && who[i] <= std::numeric_limits<std::uint16_t>::max()))
                 joints.fail("has a joint whose number is not 0..65535, for vertex " + std::to_string(i / 4) +

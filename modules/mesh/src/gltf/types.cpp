@@ -16,8 +16,8 @@ constexpr std::array wholes{"index",      "source",    "sampler",   "texCoord", 
                             "bufferView", "magFilter", "minFilter", "wrapS",    "wrapT"};
 constexpr std::array flags{"doubleSided", "normalized"};
 
-/// Fields that nothing here reads, with the number of an entry of a list. `owner` is the member or list that they
-/// stand in.
+/// Fields that hold an index into a list, and that nothing here reads. `owner` is the member that they are
+/// in.
 struct Reference {
     const char* owner;
     const char* name;
@@ -88,7 +88,8 @@ private:
         if (is_one_of(name, numbers) || (name == "scale" && owner == "normalTexture"))
             expect(value.is_number(), value, place, "a number");
         for (const auto& [whose, which, list] : references)
-            if (owner == whose && name == which) expect_entry(value, place, list, entries(list));
+            if (owner == whose && name == which)
+                expect_entry(value, place, list, entries(document_.json, list));
         if (name != "extensions") return;
         expect(value.is_object(), value, place, "an object");
         if (!value.is_object()) return;
@@ -98,33 +99,34 @@ private:
 
     /// A channel's sampler is one of its own animation.
     void check_channels(const Json& animation, const std::string& path) {
-        std::size_t samplers = 0, number = 0;
-        each(animation, "samplers", [&](const Json&) { ++samplers; });
+        const std::size_t samplers = entries(animation, "samplers");
+        std::size_t number = 0;
         each(animation, "channels", [&](const Json& channel) {
             const std::string place = element_of(member_of(path, "channels"), number++);
             if (channel.is_object() && channel.contains("sampler"))
-                expect_entry(channel["sampler"], member_of(place, "sampler"), "samplers of the animation",
+                expect_entry(channel["sampler"], member_of(place, "sampler"), "samplers in the animation",
                              samplers);
         });
     }
 
-    [[nodiscard]] std::size_t entries(const char* list) const {
-        std::size_t count = 0;
-        each(document_.json, list, [&](const Json&) { ++count; });
-        return count;
+    [[nodiscard]] static std::size_t entries(const Json& owner, const char* list) {
+        return owner.contains(list) && owner[list].is_structured() ? owner[list].size() : 0;
     }
 
     void expect_entry(const Json& value, const std::string& place, const char* list, std::size_t count) {
-        if (!is_whole(value)) return;  // check_field says so
-        expect(value.get<double>() < static_cast<double>(count), value, place,
-               "one of " + std::to_string(count) + " " + list);
+        const bool told = !is_whole(value);  // by check_field
+        if (told || value.get<double>() < static_cast<double>(count)) return;
+        note(place, value, ", but there are " + std::to_string(count) + " " + list);
     }
 
-    void expect(bool fits, const Json& value, const std::string& place, const std::string& expected) {
-        if (fits) return;
+    void expect(bool fits, const Json& value, const std::string& place, const char* expected) {
+        if (!fits) note(place, value, std::string(", expected ") + expected);
+    }
+
+    void note(const std::string& place, const Json& value, const std::string& wrong) {
         if (count_++ > 0) return;
         const std::string is = value.is_number() ? value.dump() : std::string("a JSON ") + value.type_name();
-        first_ = place + " is " + is + ", expected " + expected;
+        first_ = place + " is " + is + wrong;
     }
 
     const Document& document_;
