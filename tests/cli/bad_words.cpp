@@ -124,7 +124,13 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
             {"--png needs a value; --angle is an option; see goffer bend --help"});
     refused(place.folder, 2, {"animate", "base.ply", "--swing", "-o", "out.glb"},
             {"--swing needs a value; -o is an option; see goffer animate --help"});
-    refused(place.folder, 2, {"bend", "base.ply"}, {"--output is required, or --png or --json"});
+    refused(place.folder, 2, {"bend", "base.ply", "--json", "-o"}, {"--json needs a value; -o is an option"});
+    refused(place.folder, 2, bend + Words{"--json", "--ghost"},
+            {"--json needs a value; --ghost is an option"});
+    refused(place.folder, 2, bend + Words{"--threads", "--ghost"},
+            {"--threads needs a value; --ghost is an option"});
+    refused(place.folder, 2, bend + Words{"--ang", "4"}, {"did you mean --angle?"});
+    refused(place.folder, 2, {"bend", "base.ply"}, {"give -o, --png or --json; see goffer bend --help"});
     refused(place.folder, 2, {"inspect"}, {"model is required"});
     refused(place.folder, 2, {"base"}, {"--output is required"});
     refused(place.folder, 2, {"inspect", "base.ply", "other.ply"}, {"other.ply"});

@@ -58,6 +58,9 @@ TEST_CASE("streams: a full standard output is an error") {
         CHECK(std::system(line.c_str()) != 0);
     }
     for (const std::string word : {"--help", "--version", "bend --help"}) {
+        const std::string silent =
+            std::string("'") + GOFFER_COMMAND + "' " + word + " >/dev/full 2>/dev/null";
+        CHECK(std::system(silent.c_str()) != 0);
         const std::string line = std::string("'") + GOFFER_COMMAND + "' " + word +
                                  " 2>&1 >/dev/full | grep -q '^goffer: standard output: cannot be written'";
         CHECK(std::system(line.c_str()) == 0);

@@ -71,7 +71,7 @@ struct Request {
         check_places({{"MODEL", options.model}, {"--fit", options.fit}, {"--path", options.path.file}},
                      {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}});
         if (options.output.empty() && options.picture.file.empty() && options.json.empty())
-            throw UsageError("--output is required, or --png or --json");
+            throw UsageError("give -o, --png or --json; see goffer bend --help");
         if (!options.output.empty()) check_model_output(options.output);
         style.settings = picture_settings(options.picture);
         if (options.camera) style.viewpoint = parse_camera(*options.camera);
@@ -264,7 +264,7 @@ void run_bend(const BendOptions& options) {
 
 void add_bend(CLI::App& app, Action& action) {
     const auto options = std::make_shared<BendOptions>();
-    CLI::App* command = app.add_subcommand("bend", "Bend a model, and write it and a picture of it");
+    CLI::App* command = app.add_subcommand("bend", "Bend a model, and write it, a picture of it or a report");
     command->add_option("model", options->model, "Model: .glb, .gltf, .obj, .ply, .stl, or a body file")
         ->required();
     command->add_option(

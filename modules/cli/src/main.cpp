@@ -114,7 +114,7 @@ int run(int argc, char** argv) {
         return usage(app, error);
     }
     try {
-        if (const std::string fault = fault_of_empty(app); !fault.empty()) throw UsageError(fault);
+        if (const std::string fault = fault_of_values(app); !fault.empty()) throw UsageError(fault);
         action();
         return done;
     } catch (const UsageError& error) {

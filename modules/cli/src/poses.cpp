@@ -425,9 +425,9 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     }
     const bool known = !model.baked || binding.folds_capacity() > 0;  // a body file need not say
     for (std::size_t i = 0; known && i < targets.size(); ++i) {
-        report.line(i == 0 ? "folds" : "",
-                    region_words(i, targets.size()) + std::to_string(binding.folds(i)) +
-                        "; the mesh carries " + capacity_words(binding.folds_capacity(i)));
+        report.line(i == 0 ? "folds" : "", region_words(i, targets.size()) +
+                                               std::to_string(binding.folds(i)) + "; the mesh carries " +
+                                               capacity_words(binding.folds_capacity(i)));
     }
     report.json["max_angle"] = regions[0]["max_angle"];
     report.json["folds_capacity"] = binding.folds_capacity();

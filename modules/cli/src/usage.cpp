@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <numeric>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace goffer::cli {
@@ -27,8 +26,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// "; did you mean WORD?" for the nearest of `words`; empty if none is near.
+/// "; did you mean WORD?" for the one of `words` that begins so, or else the nearest; empty if none is near.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& words) {
+    const auto longer = std::ranges::find_if(
+        words, [&](const std::string& word) { return wrong.size() > 3 && word.starts_with(wrong); });
+    if (longer != words.end()) return "; did you mean " + *longer + "?";
     std::string nearest;
     std::size_t least = wrong.size() / 3 + 2;
     for (const std::string& word : words) {
@@ -56,7 +58,7 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
 }
 
 /// An option that has another option's name for its value, since its own was left out; or nothing.
-std::string fault_of_values(const CLI::App& command) {
+std::string option_as_value(const CLI::App& command) {
     std::vector<std::string> names = names_of_options(command);
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_snames()) names.push_back("-" + name);
@@ -72,7 +74,6 @@ std::string fault_of_values(const CLI::App& command) {
 /// What is wrong with words that a command leaves over: an unknown option, one without its value, or else too
 /// many names.
 std::string fault_of_rest(const CLI::App& command, const std::vector<std::string>& rest) {
-    if (std::string fault = fault_of_values(command); !fault.empty()) return fault;
     const auto option =
         std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("-"); });
     if (option == rest.end()) return "'" + rest.front() + "' is a word too many";
@@ -113,20 +114,19 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* const given = command_of(app);
     if (given == nullptr) return "give a command: " + CLI::detail::join(names_of_commands(app), ", ") + help;
     const CLI::App& command = *given;
+    if (const std::string taken = option_as_value(command); !taken.empty()) return taken + see_help(command);
     std::string fault = error.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&error) && !rest.empty()) fault = fault_of_rest(command, rest);
-    if (dynamic_cast<const CLI::RequiredError*>(&error)) {
-        // It may be the value of the option before it.
-        if (std::string taken = fault_of_values(command); !taken.empty()) fault = std::move(taken);
-    }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         fault = fault.substr(0, fault.find(':')) + fault_of_count(command, fault);
     return fault + see_help(command);
 }
 
-std::string fault_of_empty(const CLI::App& app) {
+std::string fault_of_values(const CLI::App& app) {
     const CLI::App* const command = command_of(app);
     if (command == nullptr) return "";
+    if (const std::string taken = option_as_value(*command); !taken.empty())
+        return taken + see_help(*command);
     for (const CLI::Option* option : command->get_options()) {
         if (option->get_expected_min() == 0) continue;  // it goes without a value, too
         if (std::ranges::count(option->results(), "") != 0)

@@ -13,8 +13,8 @@ namespace goffer::cli {
 /// look into. `app` has parsed the words and thrown `error`.
 [[nodiscard]] std::string fault_of(const CLI::App& app, const CLI::ParseError& error);
 
-/// Returns a sentence that names an option whose value is empty, as a variable is that a script has not set;
-/// nothing if there is none, or if the option goes without a value. `app` has parsed the words.
-[[nodiscard]] std::string fault_of_empty(const CLI::App& app);
+/// Returns a sentence that names an option whose value is another option's name, or is empty, as a variable
+/// is that a script has not set; nothing if there is none. `app` has parsed the words.
+[[nodiscard]] std::string fault_of_values(const CLI::App& app);
 
 }  // namespace goffer::cli
