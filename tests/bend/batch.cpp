@@ -142,45 +142,63 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
 
 TEST_CASE("between instances, lines are filled up where gaps are scratch, and nowhere else") {
     Random random(104);
-    constexpr std::size_t vertices = 203, instances = 20, line = 208;
-    const bend::Body body = loose_body(random, vertices);
-    std::vector<bend::Pose> poses(instances);
-    for (bend::Pose& pose : poses)
-        pose = {static_cast<float>(uniform(random, -2, 2)), static_cast<float>(uniform(random, -4, 4))};
+    constexpr std::size_t instances = 20, line = 16;
+    constexpr auto past = bend::Stores::non_temporal;
     struct Case {
-        std::size_t step;
+        std::size_t more;  // from an instance's last line to the next instance
         bool scratch;
         bend::Stores stores;
         bool fills;
     };
-    constexpr auto past = bend::Stores::non_temporal;
-    for (const Isa isa : isas_here()) {
-        const bend::KernelSet& kernels = bend::kernels(isa);
-        const bool weaves =
-            kernels.weaving_kernel(bend::Squeeze::plain, bend::StreamSet::positions) != nullptr;
-        const bool pairs = kernels.pair_kernel(bend::Squeeze::plain, bend::StreamSet::positions) != nullptr;
-        std::vector<std::string_view> pictures = {"x y z", "x y z u v w"};
-        if (weaves) pictures.insert(pictures.end(), {"xyz", "xyzuvw"});
-        if (pairs) pictures.insert(pictures.end(), {"xyzpqr", "xyzpqruvw"});
-        for (const std::string_view picture : pictures) {
-            for (const Case& one :
-                 {Case{line, true, past, true}, Case{line + 16, true, past, true},
-                  Case{line, false, past, false}, Case{line, true, bend::Stores::cached, false}}) {
-                INFO(name(isa), ", ", picture, ", step ", one.step, ", scratch ", one.scratch);
-                OutputBuffer out(picture, (instances - 1) * one.step + line);
-                bend::Batch batch{.body = &body, .count = instances, .poses = strided(std::span(poses))};
-                batch.previous_poses = batch.poses;
-                batch.vertex_step = one.step;
-                batch.scratch_gaps = one.scratch;
-                out.attach(batch);
-                bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = one.stores, .isa = isa});
-                for (std::size_t i = 0; i < instances; ++i) {
-                    const bool filled = one.fills && i + 1 < instances;
-                    for (std::size_t v = vertices; v < std::min(line, one.step); ++v)
-                        REQUIRE((out.value('x', i * one.step + v) != OutputBuffer::guard) == filled);
-                    if (one.step > line && i + 1 < instances)
-                        REQUIRE(out.value('x', i * one.step + line) == OutputBuffer::guard);
-                    REQUIRE(out.value('x', i * one.step + vertices - 1) != OutputBuffer::guard);
+    constexpr Case cases[] = {{0, true, past, true},
+                              {16, true, past, true},
+                              {0, false, past, false},
+                              {0, true, bend::Stores::cached, false}};
+    for (const std::size_t vertices : {203u, 47u, 479u}) {
+        const bend::Body body = loose_body(random, vertices);
+        const std::size_t whole = (vertices + line - 1) / line * line;
+        std::vector<bend::Pose> poses(instances);
+        for (bend::Pose& pose : poses)
+            pose = {static_cast<float>(uniform(random, -2, 2)), static_cast<float>(uniform(random, -4, 4))};
+        for (const Isa isa : isas_here()) {
+            std::vector<OutputBuffer> alone;
+            for (const bend::Pose& pose : poses) {
+                bend::DeformJob job{.body = &body, .pose = pose, .previous_pose = pose, .isa = isa};
+                alone.emplace_back(OutputBuffer::all_planes, vertices).attach(job);
+                bend::run(job);
+            }
+            const bend::KernelSet& kernels = bend::kernels(isa);
+            constexpr bend::StreamSet positions = bend::StreamSet::positions;
+            const bool weaves = kernels.weaving_kernel(bend::Squeeze::plain, positions) != nullptr;
+            const bool pairs = kernels.pair_kernel(bend::Squeeze::plain, positions) != nullptr;
+            for (const std::string_view picture : {"x y z", "x y z u v w", "xyz", "xyzuvw", "xyzpqr",
+                                                   "xyzpqruvw", "xyz.", "xyz.uvw.", "xyzuvw.."}) {
+                for (const Case& one : cases) {
+                    INFO(name(isa), ", ", picture, ", ", vertices, ", more ", one.more, ", scratch ",
+                         one.scratch);
+                    const std::size_t step = whole + one.more;
+                    OutputBuffer out(picture, instances * step);
+                    bend::Batch batch{.body = &body, .count = instances, .poses = strided(std::span(poses))};
+                    batch.previous_poses = batch.poses;
+                    batch.vertex_step = step;
+                    batch.scratch_gaps = one.scratch;
+                    out.attach(batch);
+                    bend::run(bend::CrowdJob{.batches = {&batch, 1}, .stores = one.stores, .isa = isa});
+                    std::vector<OutputBuffer::Part> parts;
+                    for (std::size_t i = 0; i < instances; ++i) {
+                        const std::size_t padding = one.fills && i + 1 < instances ? step - vertices : 0;
+                        parts.push_back({&alone[i], 0, vertices, i * step, true, padding});
+                    }
+                    using Gaps = OutputBuffer::Gaps;
+                    REQUIRE(out.fault(parts, one.scratch ? Gaps::scratch : Gaps::kept) == "");
+                    const bool dense = picture.find('.') == picture.npos;
+                    const bool direct =
+                        picture.starts_with("x ") || (picture.find('p') == picture.npos ? weaves : pairs);
+                    if (!dense || !direct) continue;
+                    for (std::size_t i = 0; i < instances; ++i) {
+                        const bool filled = one.fills && i + 1 < instances;
+                        REQUIRE((out.value('x', i * step + vertices) != OutputBuffer::guard) == filled);
+                    }
                 }
             }
         }

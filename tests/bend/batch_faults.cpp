@@ -357,6 +357,8 @@ TEST_CASE("P7: a fault of a batch's numbers says how many there are, and how man
     CHECK(numbers([](Batch& b) { b.indices = b.indices.first(3); }) == Numbers{3, instances});
     CHECK(numbers([](Batch& b) { b.bounds = b.bounds.first(4); }) == Numbers{4, instances});
     const auto by_step = [](Batch& b, std::size_t step) { b.vertex_offsets = {}, b.vertex_step = step; };
+    CHECK(numbers([&](Batch& b) { by_step(b, vertices), b.positions.count = 3; }) == Numbers{3, all});
+    CHECK(numbers([&](Batch& b) { by_step(b, vertices), b.positions.count = 0; }) == Numbers{0, all});
     CHECK(numbers([&](Batch& b) { by_step(b, vertices), --b.positions.count; }) == Numbers{all - 1, all});
     CHECK(numbers([&](Batch& b) { by_step(b, vertices + 1); }) == Numbers{all, all + instances - 1});
     CHECK(numbers([&](Batch& b) { by_step(b, vertices - 1); }) == Numbers{vertices - 1, vertices});

@@ -33,7 +33,8 @@ public:
         std::size_t first = 0, last = 0;
         std::size_t to = 0;
         bool ends = true;  ///< if not, the gap behind its last vertex is between outputs of one instance, too
-        std::size_t padding = 0;  ///< vertices behind it, which may hold anything where gaps are scratch
+        std::size_t padding =
+            0;  ///< vertices behind it, of which some may hold anything where gaps are scratch
     };
 
     /// What may become of the gaps between a part's first output and its last one.
@@ -140,17 +141,27 @@ private:
         return result;
     }
 
+    /// The memory of a word of the picture: vertex 0's first and last float, and the floats of a vertex.
+    struct Area {
+        std::size_t low, high, stride;
+    };
+
+    [[nodiscard]] Area area_of(std::size_t area) const {
+        Area found{memory_[0].size(), 0, 0};
+        for (const Place& place : places_) {
+            if (place.stride == 0 || place.area != area) continue;
+            found.low = std::min(found.low, place.first);
+            found.high = std::max(found.high, place.first);
+            found.stride = place.stride;
+        }
+        return found;
+    }
+
     /// What `part` may have left between its outputs: what was there, or zeros.
     void take_gaps(const Part& part, std::vector<float>& expected) const {
         if (part.first == part.last) return;
         for (std::size_t area = 0; area < areas_; ++area) {
-            std::size_t low = memory_[0].size(), high = 0, stride = 0;
-            for (const Place& place : places_) {
-                if (place.stride == 0 || place.area != area) continue;
-                low = std::min(low, place.first);
-                high = std::max(high, place.first);
-                stride = place.stride;
-            }
+            const auto [low, high, stride] = area_of(area);
             const std::size_t begin = low + part.to * stride;
             const std::size_t next = part.to + part.last - part.first;
             const std::size_t end = part.ends ? high + (next - 1) * stride + 1 : low + next * stride;
@@ -159,13 +170,19 @@ private:
         }
     }
 
-    /// What `part` may have left behind its last vertex: whole lines begin again after a few vertices.
+    /// What `part` may have left behind its last vertex: anything, up to the first vertex that begins a cache
+    /// line, if there is room up to that.
     void take_padding(const Part& part, std::vector<float>& expected) const {
-        constexpr std::size_t most = 15;
-        for (const Place& place : places_) {
-            const std::size_t first = place.first + (part.to + part.last - part.first) * place.stride;
-            for (std::size_t i = 0; i < std::min(part.padding, most) * place.stride; ++i)
-                expected[first + i] = memory_[0][first + i];
+        constexpr std::size_t line = 16;
+        for (std::size_t area = 0; area < areas_; ++area) {
+            const auto [low, high, stride] = area_of(area);
+            if (stride == 0) continue;
+            const std::size_t next = part.to + part.last - part.first;
+            std::size_t more = 0;
+            while (more < line && (low + (next + more) * stride) % line != 0) ++more;
+            if (more == line || more > part.padding) continue;
+            const std::size_t end = more == 0 ? 0 : low + (next + more) * stride;
+            for (std::size_t i = high + (next - 1) * stride + 1; i < end; ++i) expected[i] = memory_[0][i];
         }
     }
 

@@ -42,8 +42,8 @@ struct XsimdLanes {
         value.store_unaligned(to);
 #endif
     }
-    // A function that does nothing else has no effect in the eyes of g++ 12, which drops calls of it that it has
-    // not inlined early: the empty statement is one.
+    // A function that does nothing else has no effect in the eyes of g++ 12, which drops calls of it that it
+    // has not inlined early: the empty statement is one.
     static void prefetch(const float* at) {
 #if defined(__GNUC__)
         asm volatile("" : : "r"(at));

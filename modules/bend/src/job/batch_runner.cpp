@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 namespace goffer::bend {
@@ -38,20 +37,6 @@ void quantize(Coefficients& k, const Bounds& bounds) noexcept {
     }
 }
 
-/// How many vertices there is room for in the shortest output of a batch.
-std::size_t room_of(const Batch& batch) noexcept {
-    std::size_t room = std::numeric_limits<std::size_t>::max();
-    const auto take = [&](const auto& stream) {
-        if (!stream.empty()) room = std::min<std::size_t>(room, stream.count);
-    };
-    take(batch.positions);
-    take(batch.normals);
-    take(batch.tangents);
-    take(batch.packed);
-    take(batch.previous_positions);
-    return room;
-}
-
 }  // namespace
 
 static_assert(sizeof(BatchRunner) <= std::size_t{52} << 10, "crowd.hpp states how much stack a run takes");
@@ -62,7 +47,6 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       kernels_(kernels),
       plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
-      room_(room_of(batch)),
       pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, PosedGroup::capacity(regions_)),
@@ -168,14 +152,14 @@ void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexce
 }
 
 /// Where a kernel of `columns` ends that is to deform an instance's vertices up to `end`. The last line of an
-/// instance is written whole if what follows it is scratch, since it must be read otherwise. `to_line`: the
-/// vertices from there to the next one that begins a line.
+/// instance is filled up if what follows it is scratch: a line that is written in part must be read before.
+/// `to_line`: the vertices from there to the next one that begins a line.
 std::size_t BatchRunner::padded_end(std::size_t member, const RestColumns& columns, std::size_t end,
                                     std::size_t to_line) const noexcept {
-    const auto [instance, element, vertex, peeled] = members_[member];
-    const bool blended = &columns != &body_.columns, last = instance + 1 == batch_.count;
+    const bool blended = &columns != &body_.columns;
+    const bool last = members_[member].instance + 1 == batch_.count;
     if (end != body_.vertex_count || blended || last) return end;
-    return end + to_line <= std::min(batch_.vertex_step, room_ - vertex) ? end + to_line : end;
+    return end + to_line <= batch_.vertex_step ? end + to_line : end;
 }
 
 /// How many vertices of `record` lie between an instance's vertex and the next one that begins a line; 0 if

@@ -116,9 +116,8 @@ private:
     const KernelSet& kernels_;
     OutputPlan plan_;
     std::size_t regions_;
-    std::size_t room_;  // vertices of the shortest output
-    bool pads_;         // the last lines of instances may be filled up
-    bool bounded_;      // bounds are wanted: by the caller, or for packed vertices
+    bool pads_;     // the last lines of instances may be filled up
+    bool bounded_;  // bounds are wanted: by the caller, or for packed vertices
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones

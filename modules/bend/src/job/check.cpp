@@ -114,12 +114,22 @@ bool overlap(const StreamMemory& a, const StreamMemory& b) noexcept {
     return false;
 }
 
-Fault check(const Streams& streams, std::size_t vertices) noexcept {
+/// How many vertices every stream must have room for, or Fault::nowhere where that is beyond all numbers.
+/// With vertex_offsets, which are not read here, it may be more.
+std::size_t needed_vertices(const Batch& batch) noexcept {
+    const std::size_t vertices = batch.body->vertex_count(), steps = batch.count - 1;
+    if (!batch.vertex_offsets.empty() || steps == 0) return vertices;
+    const bool fits = batch.vertex_step <= (Fault::nowhere - vertices) / steps;
+    return fits ? steps * batch.vertex_step + vertices : Fault::nowhere;
+}
+
+Fault check(const Streams& streams, const Batch& batch) noexcept {
     for (const StreamMemory& stream : streams) {
         if (!stream.wanted()) continue;
         const Reason reason = check(stream);
         if (reason != Reason::none) return fault_of(stream.field, reason);
-        if (stream.count == 0) return fault_of_size(stream.field, Reason::too_short, 0, vertices);
+        if (stream.count == 0)
+            return fault_of_size(stream.field, Reason::too_short, 0, needed_vertices(batch));
     }
     for (const StreamMemory& a : streams) {
         for (const StreamMemory& b : streams) {
@@ -156,23 +166,14 @@ Fault check_places(const Batch& batch, const Streams& streams) noexcept {
         if (stream.wanted() && (shortest == Field::none || stream.count < room))
             room = stream.count, shortest = stream.field;
     }
-    const std::size_t vertices = batch.body->vertex_count();
-    if (room < vertices) return fault_of_size(shortest, Reason::too_short, room, vertices);
-    const std::size_t last = room - vertices;
-    if (batch.vertex_offsets.empty()) {
-        const std::size_t step = batch.vertex_step, steps = batch.count - 1;
-        if (steps == 0) return {};
-        // Divisions, since products might overflow.
-        if (step > last / steps) {
-            const bool fits = step <= (Fault::nowhere - vertices) / steps;
-            return fault_of_size(shortest, Reason::too_short, room,
-                                 fits ? steps * step + vertices : Fault::nowhere);
-        }
-        return step < vertices ? fault_of_size(Field::vertex_step, Reason::overlap, step, vertices) : Fault{};
-    }
-    for (std::size_t i = 0; i < batch.count; ++i) {
+    const std::size_t vertices = batch.body->vertex_count(), needed = needed_vertices(batch);
+    if (batch.vertex_offsets.empty() && batch.count > 1 && batch.vertex_step < vertices)
+        return fault_of_size(Field::vertex_step, Reason::overlap, batch.vertex_step, vertices);
+    if (room < needed || needed == Fault::nowhere)
+        return fault_of_size(shortest, Reason::too_short, room, needed);
+    for (std::size_t i = 0; !batch.vertex_offsets.empty() && i < batch.count; ++i) {
         const std::size_t element = element_of(batch, i);
-        if (batch.vertex_offsets[element] > last)
+        if (batch.vertex_offsets[element] > room - vertices)
             return {.field = Field::vertex_offsets, .reason = Reason::out_of_range, .instance = i};
     }
     return {};
@@ -301,7 +302,7 @@ Fault check_memory(const Batch& batch) noexcept {
     bool wanted = false;
     for (const StreamMemory& stream : streams) wanted |= stream.wanted();
     if (!wanted) return fault_of(Field::outputs, Reason::empty);
-    if (Fault fault = check(streams, batch.body->vertex_count()); !fault.none()) return fault;
+    if (Fault fault = check(streams, batch); !fault.none()) return fault;
     if (!batch.tangents.empty() && !batch.body->has_tangents())
         return fault_of(Field::tangents, Reason::not_supported);
     if (Fault fault = check_columns(batch); !fault.none()) return fault;

@@ -66,7 +66,7 @@ struct Fault {
     std::size_t region = nowhere;    ///< region of the pose at fault
     Field other = Field::none;       ///< the other stream of an overlap
     std::size_t has = nowhere;       ///< how many elements there are, or the step, where that is the fault,
-    std::size_t needs = nowhere;     ///< and how many it takes; `nowhere` for all other faults
+    std::size_t needs = nowhere;     ///< and how many it takes at least; else, or beyond all numbers, nowhere
 
     [[nodiscard]] bool none() const noexcept { return reason == Reason::none; }
 };
