@@ -172,8 +172,8 @@ void run_inspect(const InspectOptions& options) {
     report_fit(report, model.cylinder);
     report_suitability(report, model);
     const nlohmann::ordered_json& form = report.json["suitability"];
-    report.line("form", number(form["flatness"]) + " times as wide as thick, " +
-                            counted(form["shells"].get<std::size_t>(), "shell"));
+    report.line("cross-section", number(form["flatness"]) + " times as wide as thick");
+    if (form["shells"] != 1) report.line("shells", std::to_string(form["shells"].get<std::size_t>()));
     if (options.fit.rest != "straight") report_rest(report, request, model);
     report_bends(report, request, model);
     io::AtomicFiles outputs;

@@ -18,8 +18,8 @@ class AtomicFiles;
 
 namespace goffer::cli {
 
-/// Throws where lines that were printed to standard output cannot be written. Where it is closed, they may go
-/// nowhere.
+/// Throws where lines that were printed to standard output cannot be written. Does not throw where it is
+/// closed.
 void flush_output();
 
 /// Collects a command's results and prints them at its end.

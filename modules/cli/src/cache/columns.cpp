@@ -29,9 +29,9 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
         float number = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
         if (error != std::errc() || end != word.data() + word.size())
-            throw InputError(io::about(file, "'" + io::escaped(word.substr(0, 40)) +
-                                                 "' is not a number; it follows " +
-                                                 std::to_string(numbers.size()) + " that are; correct it"));
+            throw InputError(io::about(file, "'" + io::escaped(word.substr(0, 40)) + "', after " +
+                                                 std::to_string(numbers.size()) +
+                                                 " numbers, is not a number; correct it"));
         numbers.push_back(number);
         text.remove_prefix(word.size());
     }
