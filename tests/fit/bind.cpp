@@ -287,8 +287,9 @@ TEST_CASE("vertices a little beyond the ends belong to the first and the last re
         const fit::Binding binding = fit::bind(test_mesh.geometry(), cylinder, options);
         CHECK_NOTHROW((void)fit::bind_level(test_mesh.geometry(), binding));
         Output out(test_mesh.positions.size());
+        const std::vector<bend::Pose> rest = binding.body.rest_poses();
         bend::DeformJob job = make_job(binding.body, {}, Isa::automatic, out);
-        job.poses = binding.body.rest_poses();
+        job.poses = rest;
         bend::run(job);
         const std::vector<std::uint32_t> place = binding.vertices_in_body();
         for (std::size_t i = 0; i < test_mesh.positions.size(); ++i)
