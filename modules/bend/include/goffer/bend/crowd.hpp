@@ -113,9 +113,9 @@ struct Batch {
     /// written as whole lines, with zeros in the gaps, which takes two thirds of the time past the cache.
     /// Gaps are kept all the same where a batch writes several sets of records with one stride. With it set,
     /// vertices that vertex_step leaves between two instances may be overwritten too, with any bits, up to
-    /// the end of a cache line: nothing else may lie there, no other batch's instances either. In planes and
-    /// in records without gaps, bodies of some hundred vertices take a tenth less by it. What lies before the
-    /// first instance and after the last one, or around instances with vertex_offsets, stays untouched.
+    /// the end of a cache line: nothing else may lie there, no other batch's instances either. In planes,
+    /// bodies of some hundred vertices take up to a tenth less by it. What lies before the first instance and
+    /// after the last one, or around instances with vertex_offsets, stays untouched.
     bool scratch_gaps = false;
 };
 
