@@ -201,10 +201,9 @@ void SceneRefiner::refine_attributes(const BlockCut& cut, const Value& was, Json
 void SceneRefiner::refine_targets(const BlockCut& cut, const Value& was, Json& primitive) {
     for (std::size_t i = 0; was.has("targets") && i < was["targets"].size(); ++i) {
         const Value target = was["targets"][i];
-        for (const auto& [name, index] : target.json().items()) {
+        for (const auto& [name, index] : target.json().items())
             primitive["targets"][i][name] =
                 refined(cut, target[name.c_str()], Kind::linear, name == stream_name[position]);
-        }
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf.hpp"
+#include "references.hpp"
 
 #include <algorithm>
 #include <array>
@@ -103,9 +103,9 @@ private:
         std::size_t number = 0;
         each(animation, "channels", [&](const Json& channel) {
             const std::string place = element_of(member_of(path, "channels"), number++);
-            if (channel.is_object() && channel.contains("sampler"))
-                expect_entry(channel["sampler"], member_of(place, "sampler"), "samplers in the animation",
-                             samplers);
+            visit_member(channel, "sampler", [&](const Json& sampler) {
+                expect_entry(sampler, member_of(place, "sampler"), "samplers in the animation", samplers);
+            });
         });
     }
 
