@@ -67,66 +67,67 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
                                 PosedGroup::capacity(regions_));
 }
 
-void BatchRunner::add(std::size_t instance, std::size_t first, std::size_t last) noexcept {
-    const bool whole = first == 0 && last == body_.vertex_count;
-    if (!whole) finish();
-    const std::size_t element = element_of(batch_, instance);
-    const std::size_t vertex = first_vertex_of(batch_, instance);
-    gathered_[gathered_count_++] = {instance, element, vertex, plan_.peeled(vertex)};
+void BatchRunner::add_part(std::size_t instance, std::size_t first, std::size_t last) noexcept {
+    finish();
+    gather(instance);
     const bool begins = first == 0 && last != 0;
-    gather(element, begins);
-    if (whole && gathered_count_ < group_size_) return;
-    deform_group(0, body_.vertex_count);
+    take_poses(begins);
     set_up(begins);
-    if (!whole) deform_group(first, last);
+    deform_group(first, last);
 }
 
 void BatchRunner::finish() noexcept {
-    deform_group(0, body_.vertex_count);
-    if (gathered_count_ == 0) return;
-    set_up(true);
+    if (gathered_->count != 0) next_group();
     deform_group(0, body_.vertex_count);
 }
 
-/// Adds an instance to the group that is being gathered.
-inline void BatchRunner::gather(std::size_t element, bool count_pose) noexcept {
-    const PoseState state = posed_now_ ? posed_.add(batch_, element, Time::now)
-                                       : state_of(body_, {batch_.poses.at(element), regions_});
-    if (count_pose) count(state, result_);
+/// Deforms the group that is set up, and sets up the one that was gathered.
+void BatchRunner::next_group() noexcept {
+    take_poses(true);
+    deform_group(0, body_.vertex_count);
+    set_up(true);
+}
+
+/// Takes the current poses of the group that was gathered. `counts`: result() counts them.
+void BatchRunner::take_poses(bool counts) noexcept {
+    CrowdResult ignored;
+    posed_.add(batch_, gathered_->used(), Time::now, counts ? result_ : ignored);
+    if (!posed_now_) posed_.clear();
 }
 
 /// Deforms the vertices [first, last) of the group that is set up, if there is one.
 void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
-    if (member_count_ == 0) return;
+    if (group_->count == 0) return;
     for (std::size_t begin = first; begin < last;) {
         const std::size_t end = (begin / block_vertices + 1) * block_vertices;
-        for (std::size_t i = 0; i < member_count_; ++i) {
+        for (std::size_t i = 0; i < group_->count; ++i) {
             // Blocks end where cache lines end: for each instance at another vertex.
-            const std::size_t peeled = members_[i].peeled;
+            const std::size_t peeled = group_->members[i].peeled;
             const std::size_t from = begin == first ? first : std::min(begin + peeled, last);
             deform(i, from, end >= last ? last : std::min(end + peeled, last));
         }
         begin = end;
     }
     write_staged();
-    member_count_ = 0;
+    group_->count = 0;
 }
 
 /// Sets up the group that was gathered, in place of the one that was deformed.
 void BatchRunner::set_up(bool sets_bounds) noexcept {
-    std::swap(members_, gathered_);
-    member_count_ = std::exchange(gathered_count_, 0);
+    std::swap(group_, gathered_);
+    gathered_->count = 0;
     const std::size_t current = set_of(Pass::current);
     if (posed_now_) set_up_poses(current, normals_);
     for (const PassPlan& pass : plan_.passes()) {
         if (pass.pass != Pass::previous) continue;
-        for (std::size_t i = 0; i < member_count_; ++i) posed_.add(batch_, members_[i].element, Time::before);
+        CrowdResult ignored;  // its current pose was counted
+        posed_.add(batch_, group_->used(), Time::before, ignored);
         set_up_poses(set_of(Pass::previous), false);
     }
     if (!bounded_) return;
-    for (std::size_t i = 0; i < member_count_; ++i) {
+    for (std::size_t i = 0; i < group_->count; ++i) {
         const Bounds bounds = bounds_of(body_, coefficients(i, current), squeezes(i, current));
-        if (!batch_.bounds.empty() && sets_bounds) batch_.bounds[members_[i].instance] = bounds;
+        if (!batch_.bounds.empty() && sets_bounds) batch_.bounds[group_->members[i].instance] = bounds;
         if (!batch_.packed.empty()) set_up_packed(i, bounds);
     }
 }
@@ -135,7 +136,7 @@ void BatchRunner::set_up(bool sets_bounds) noexcept {
 void BatchRunner::set_up_poses(std::size_t set, bool normals) noexcept {
     for (std::size_t r = 0; r < regions_; ++r) {
         posed_.set_up(r, kernels_.setup, normals, coefficients(0, set) + r, set_count_ * regions_);
-        for (std::size_t i = 0; i < member_count_; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
+        for (std::size_t i = 0; i < group_->count; ++i) squeezes(i, set)[r] = posed_.squeeze(i);
     }
     posed_.clear();
 }
@@ -157,7 +158,7 @@ void BatchRunner::set_up_packed(std::size_t member, const Bounds& bounds) noexce
 std::size_t BatchRunner::padded_end(std::size_t member, const RestColumns& columns, std::size_t end,
                                     std::size_t to_line) const noexcept {
     const bool blended = &columns != &body_.columns;
-    const bool last = members_[member].instance + 1 == batch_.count;
+    const bool last = group_->members[member].instance + 1 == batch_.count;
     if (end != body_.vertex_count || blended || last) return end;
     return end + to_line <= batch_.vertex_step ? end + to_line : end;
 }
@@ -166,19 +167,19 @@ std::size_t BatchRunner::padded_end(std::size_t member, const RestColumns& colum
 /// it is not written in lines.
 std::size_t BatchRunner::to_line(const Record& record, std::size_t member,
                                  std::size_t vertex) const noexcept {
-    return record.in_lines ? record.to_line(members_[member].vertex + vertex) : 0;
+    return record.in_lines ? record.to_line(group_->members[member].vertex + vertex) : 0;
 }
 
 std::size_t BatchRunner::line_before(std::size_t member, std::size_t vertex) const noexcept {
-    const std::size_t peeled = members_[member].peeled;
+    const std::size_t peeled = group_->members[member].peeled;
     return vertex < peeled ? 0 : vertex - (vertex - peeled) % line_floats;
 }
 
 std::size_t BatchRunner::line_behind(std::size_t member, std::size_t vertex) const noexcept {
     const std::size_t before = line_before(member, vertex);
-    return before == vertex                   ? vertex
-           : vertex < members_[member].peeled ? members_[member].peeled
-                                              : before + line_floats;
+    return before == vertex                          ? vertex
+           : vertex < group_->members[member].peeled ? group_->members[member].peeled
+                                                     : before + line_floats;
 }
 
 /// The vertices near the joint behind a region if they are few, so that each side is blended in one call;
@@ -241,7 +242,8 @@ void BatchRunner::each_blended(std::size_t member, const PassPlan& pass, std::si
     const auto blend = [&](const Joint& joint, std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t next = block_end(member, begin, end, BlendColumns::vertices);
-            const bool in_lines = begin >= members_[member].peeled && line_before(member, begin) == begin;
+            const bool in_lines =
+                begin >= group_->members[member].peeled && line_before(member, begin) == begin;
             deform(blending_.blend(body_, kernels_, region, joint, {k, squeeze}, pass.streams, begin,
                                    next - begin, in_lines),
                    begin, next);
@@ -283,7 +285,7 @@ void BatchRunner::deform(std::size_t member, std::size_t first, std::size_t last
 void BatchRunner::deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept {
     each_call(member, WriteMode::planes, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
-                  const std::size_t vertex = members_[member].vertex;
+                  const std::size_t vertex = group_->members[member].vertex;
                   const bool in_lines = plan_.non_temporal();
                   std::size_t padded = end;
                   if (pads_) [[unlikely]]
@@ -300,7 +302,8 @@ void BatchRunner::deform_records(std::size_t member, std::size_t first, std::siz
     each_call(member, WriteMode::records, first, last,
               [&](const PassPlan& pass, const KernelInput& input, std::size_t begin, std::size_t end) {
                   const Record& record = *pass.record;
-                  const std::size_t vertex = members_[member].vertex + begin, stride = record.stride_floats();
+                  const std::size_t vertex = group_->members[member].vertex + begin,
+                                    stride = record.stride_floats();
                   std::size_t padded = end;
                   if (pads_) [[unlikely]]
                       padded = padded_end(member, *input.columns, end, to_line(record, member, end));
@@ -332,7 +335,7 @@ void BatchRunner::deform_pair(std::size_t member, std::size_t region, Span verti
     const std::size_t current = set_of(Pass::current), previous = set_of(Pass::previous);
     const PassPlan& pass = plan_.passes().back();
     const Record& record = *pass.record;
-    const std::size_t vertex = members_[member].vertex + vertices.first;
+    const std::size_t vertex = group_->members[member].vertex + vertices.first;
     const PairOutput out = {record.first + vertex * record.stride_floats(), plan_.pair_order(),
                             to_line(record, member, vertices.first)};
     std::size_t last = vertices.last;
@@ -407,7 +410,7 @@ void BatchRunner::deform_staged(std::size_t member, WriteMode mode, std::size_t 
                               to - from, Write::staged);
                       });
         });
-        staged_ = {mode, members_[member].vertex + first, end - first, end == body_.vertex_count};
+        staged_ = {mode, group_->members[member].vertex + first, end - first, end == body_.vertex_count};
         first = end;
     }
 }

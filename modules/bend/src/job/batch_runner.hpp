@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace goffer::bend {
 
@@ -25,21 +26,33 @@ public:
     /// `non_temporal`: whole lines go past the cache, and the caller must fence them.
     BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept;
 
-    /// Deforms the vertices [first, last) of an instance that is not skipped. A whole instance may wait for
-    /// others to be deformed with. result() counts an instance when its vertex 0 is deformed.
-    void add(std::size_t instance, std::size_t first, std::size_t last) noexcept;
+    /// Deforms an instance that is not skipped. It may wait for others to be deformed with.
+    void add(std::size_t instance) noexcept {
+        gather(instance);
+        if (gathered_->count == group_size_) next_group();
+    }
+    /// Deforms the vertices [first, last) of an instance that is not skipped. result() counts an instance
+    /// when its vertex 0 is deformed.
+    void add_part(std::size_t instance, std::size_t first, std::size_t last) noexcept;
     /// Deforms the instances that still wait.
     void finish() noexcept;
 
     [[nodiscard]] const CrowdResult& result() const noexcept { return result_; }
 
 private:
-    /// An instance of the group.
+    /// An instance of a group.
     struct Member {
         std::size_t instance;  ///< its index in the batch
-        std::size_t element;   ///< its index in the batch's columns
         std::size_t vertex;    ///< its first vertex in the buffer
         std::size_t peeled;    ///< its vertices before the first one that begins a cache line
+    };
+
+    struct Group {
+        std::size_t count = 0;
+        Member members[setup_width];
+        std::size_t elements[setup_width];  ///< of the batch's columns, that they read
+
+        [[nodiscard]] std::span<const std::size_t> used() const noexcept { return {elements, count}; }
     };
 
     /// The vertices [first, last).
@@ -69,7 +82,14 @@ private:
 
     [[nodiscard]] std::size_t& set_of(Pass pass) noexcept { return set_of_[static_cast<std::size_t>(pass)]; }
 
-    void gather(std::size_t element, bool count_pose) noexcept;
+    /// Adds an instance to the group that is being gathered.
+    void gather(std::size_t instance) noexcept {
+        const std::size_t vertex = first_vertex_of(batch_, instance);
+        gathered_->elements[gathered_->count] = element_of(batch_, instance);
+        gathered_->members[gathered_->count++] = {instance, vertex, plan_.peeled(vertex)};
+    }
+    void next_group() noexcept;
+    void take_poses(bool counts) noexcept;
     void set_up(bool sets_bounds) noexcept;
     void set_up_poses(std::size_t set, bool normals) noexcept;
     void deform_group(std::size_t first, std::size_t last) noexcept;
@@ -124,11 +144,9 @@ private:
     bool normals_ = false;    // of current poses, more than positions are wanted
     std::size_t group_size_ = 0;
     CrowdResult result_;
-    Member groups_[2][setup_width];
-    Member* members_ = groups_[0];  // of the group that is set up, and not yet deformed
-    std::size_t member_count_ = 0;
-    Member* gathered_ = groups_[1];  // of the one that is being gathered
-    std::size_t gathered_count_ = 0;
+    Group groups_[2];
+    Group* group_ = &groups_[0];     // that is set up, and not yet deformed
+    Group* gathered_ = &groups_[1];  // that is being gathered
     Squeeze squeezes_[max_coefficients];
     Coefficients coefficients_[max_coefficients];
     PosedGroup posed_;

@@ -144,7 +144,12 @@ GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& 
     for (std::size_t i = from.instance; i < batch.count && i <= to.instance; ++i) {
         const std::size_t first = i == from.instance ? from.vertex : 0;
         const std::size_t last = i == to.instance ? to.vertex : vertices;
-        if (first < last && active[i]) runner.add(i, first, last);
+        if (first >= last || !active[i]) continue;
+        if (last - first == vertices) {
+            runner.add(i);
+        } else {
+            runner.add_part(i, first, last);
+        }
     }
     runner.finish();
     return runner.result();

@@ -34,8 +34,7 @@ DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last
     assert(poses_of(job).size() == job.body->region_count());
     assert(first <= last && last <= job.body->vertex_count());
     BatchRunner runner(batch, kernels(job.isa), false);
-    runner.add(0, first, last);
-    runner.finish();
+    runner.add_part(0, first, last);
     const PoseState state = state_of(*job.body->data(), poses_of(job));
     return {.clamped = state.clamped, .at_rest = state.at_rest};
 }

@@ -47,8 +47,9 @@ LaneRunner::LaneRunner(const Batch& batch, const KernelSet& kernels, bool non_te
 
 void LaneRunner::add(std::size_t instance) noexcept {
     const std::size_t vertex = first_vertex_of(batch_, instance);
+    const std::size_t element = element_of(batch_, instance);
     members_[posed_.count()] = {vertex, plan_.peeled(vertex), 0, 0};
-    count(posed_.add(batch_, element_of(batch_, instance), Time::now), result_);
+    posed_.add(batch_, {&element, 1}, Time::now, result_);
     if (posed_.count() == PosedGroup::capacity(body_.regions.size())) finish();
 }
 

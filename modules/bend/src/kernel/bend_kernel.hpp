@@ -143,6 +143,8 @@ template <class L, Squeeze squeeze, StreamSet streams>
 GOFFER_FLATTENED void bend_to_planes(const RestColumns& columns, const Coefficients& coefficients,
                                      const PlaneOutput& output, std::size_t out_first, std::size_t first,
                                      std::size_t vertices, Write write) {
+    // Known from here on, it lets the compiler load constants straight into all lanes, in front of the loop.
+    if (vertices == 0) return;
     PlaneOutput out = {};
     for (std::size_t c = 0; c < 3; ++c) {
         out.position[c] = output.position[c] + out_first;

@@ -93,6 +93,7 @@ GOFFER_FLATTENED void bend_to_records(const RestColumns& columns, const Coeffici
                                       const RecordOutput& output, std::size_t first, std::size_t vertices,
                                       Write write) {
     using Dense = RecordLayout<L, streams, RecordGaps::none>;
+    if (vertices == 0) return;  // as bend_to_planes has it
     const RestColumns rest = columns;
     const Coefficients k = coefficients;
     const RecordOutput out = output;

@@ -42,11 +42,8 @@ void set_vector(float (*columns)[setup_width], const float (&vector)[4]) noexcep
     for (std::size_t c = 0; c < 3; ++c) std::fill_n(columns[c], setup_width, vector[c]);
 }
 
-/// Copies a matrix into lane `i`, column after column.
-void read_transform(const TransformColumn& transforms, std::size_t element, float (&columns)[12][setup_width],
-                    std::size_t i) noexcept {
-    const float* const from = transforms.first.at(element);
-    const MatrixSteps steps = steps_of(transforms.layout);
+/// Copies a matrix into lane `i`, column after column. `from`: its first number.
+void set_matrix(float (*columns)[setup_width], const float* from, MatrixSteps steps, std::size_t i) noexcept {
     for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 3; ++r) columns[3 * c + r][i] = from[c * steps.column + r * steps.row];
     }
@@ -93,47 +90,77 @@ inline void PosedGroup::set_pose(std::size_t region, std::size_t place, const Po
         take_factor(region, place, pose);
 }
 
-inline PoseState PosedGroup::add(std::span<const Pose> poses, const TransformColumn& transforms,
-                                 std::size_t element, float weight) noexcept {
-    const std::size_t i = count_++;
-    if (i == 0 && region_count_ > 1) set_frames();  // set-up replaced them
+/// Sets poses in lane `i`: those of regions beyond `poses` are their rest poses, and if a number is not
+/// finite all are.
+inline PoseState PosedGroup::set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept {
+    poses = poses.first(std::min(poses.size(), region_count_));
+    const PoseState state = state_in(body_.regions.data(), poses);
+    if (state.at_rest) poses = {};
     const float usable = usable_weight(weight);
-    PoseState state;
-    if (region_count_ == 1 && !poses.empty()) {  // the usual case, without loops
-        state = state_in(body_.regions[0], poses[0]);
-        set_pose(0, i, state.at_rest ? body_.regions[0].rest : poses[0], usable);
-    } else {
-        poses = poses.first(std::min(poses.size(), region_count_));
-        state = state_in(body_.regions.data(), poses);
-        set_poses(state.at_rest ? poses.first(0) : poses, i, usable);
-    }
-    if (!transforms.empty()) {
-        read_transform(transforms, element, columns_.transform, i);
-        transformed_ = true;
-    } else if (transformed_) {  // lanes hold matrices of another column
-        set_identities();
-    }
+    for (std::size_t r = 0; r < region_count_; ++r)
+        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : body_.regions[r].rest, usable);
     return state;
 }
 
-/// Sets poses in lane `i`: those of regions beyond `poses` are their rest poses.
-void PosedGroup::set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept {
-    for (std::size_t r = 0; r < region_count_; ++r)
-        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : body_.regions[r].rest, weight);
+void PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {
+    if (count_ == 0 && region_count_ > 1) set_frames();  // set-up replaced them
+    set_matrix(columns_.transform, &transform[0][0], steps_of(TransformColumn::MatrixLayout::columns3),
+               count_);
+    transformed_ = true;
+    set_poses(poses, count_++, weight);
 }
 
-PoseState PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept {
-    const TransformColumn column(StridedView<float>{.data = &transform[0][0], .count = 1},
-                                 TransformColumn::MatrixLayout::columns3);
-    return add(poses, column, 0, weight);
+/// Takes the poses of a body of one region, in a loop without branches. Returns false if that does not do,
+/// because one of them is clamped or not finite, or its direction turns more often than set-up takes.
+inline bool PosedGroup::take_usual_poses(const StridedView<Pose>& poses, const StridedView<float>& weights,
+                                         std::span<const std::size_t> elements) noexcept {
+    if (region_count_ > 1 || !body_.details[0].factors->empty()) return false;
+    const float max_angle = body_.regions[0].max_angle;
+    const bool wrinkles = body_.details[0].setup.rows != nullptr;
+    bool usual = true;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const Pose& pose = poses[elements[i]];
+        const float weight = weights.empty() ? 1.0f : usable_weight(weights[elements[i]]);
+        const std::size_t place = count_ + i;
+        angle_[place] = pose.angle;
+        direction_[place] = pose.direction;
+        factor_[place] = weight;
+        wrinkled_[place] = wrinkles && weight > 0;
+        usual &= std::fabs(pose.angle) <= max_angle;
+        usual &= std::fabs(pose.direction) <= max_wrapped;
+    }
+    return usual;
 }
 
-PoseState PosedGroup::add(const Batch& batch, std::size_t element, Time time) noexcept {
+/// Takes the matrices of the lanes that come next: the identity if there are none.
+inline void PosedGroup::take_transforms(const TransformColumn& transforms,
+                                        std::span<const std::size_t> elements) noexcept {
+    if (transforms.empty()) {
+        if (transformed_) set_identities();  // lanes hold matrices of another column
+        return;
+    }
+    const MatrixSteps steps = steps_of(transforms.layout);
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        set_matrix(columns_.transform, transforms.first.at(elements[i]), steps, count_ + i);
+    transformed_ = true;
+}
+
+void PosedGroup::add(const Batch& batch, std::span<const std::size_t> elements, Time time,
+                     CrowdResult& result) noexcept {
+    assert(count_ + elements.size() <= most_);
+    if (count_ == 0 && region_count_ > 1) set_frames();
     const bool now = time == Time::now;
     const StridedView<Pose>& poses = now ? batch.poses : batch.previous_poses;
-    const float weight = batch.wrinkle_weights.empty() ? 1.0f : batch.wrinkle_weights[element];
-    return add({poses.at(element), region_count_}, now ? batch.transforms : batch.previous_transforms,
-               element, weight);
+    take_transforms(now ? batch.transforms : batch.previous_transforms, elements);
+    if (take_usual_poses(poses, batch.wrinkle_weights, elements)) {
+        result.deformed += elements.size();
+        count_ += elements.size();
+        return;
+    }
+    for (const std::size_t element : elements) {
+        const float weight = batch.wrinkle_weights.empty() ? 1.0f : batch.wrinkle_weights[element];
+        bend::count(set_poses({poses.at(element), region_count_}, count_++, weight), result);
+    }
 }
 
 /// Multiplies the factor by that of the factor table.

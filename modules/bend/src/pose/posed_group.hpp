@@ -54,7 +54,7 @@ enum class Time : std::uint8_t { now, before };
 ///
 /// Instances are added one value at a time, and set up a register at a time. Processors read a register that
 /// was written in parts only when all that was written before it is in memory, past the cache too: a
-/// BatchRunner adds the next group before it deforms the one at hand.
+/// BatchRunner adds a group before it deforms the one before that.
 class PosedGroup {
 public:
     /// Has room for `most` instances, at most capacity().
@@ -69,10 +69,11 @@ public:
     void clear() noexcept { count_ = 0; }
 
     /// Adds an instance. Until clear(), either all have a transform or none has. `weight` may hold any bits.
-    PoseState add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
+    void add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
 
-    /// Adds the instance of a batch that reads element `element` of its columns.
-    PoseState add(const Batch& batch, std::size_t element, Time time) noexcept;
+    /// Adds the instances of a batch that read `elements` of its columns, and counts them.
+    void add(const Batch& batch, std::span<const std::size_t> elements, Time time,
+             CrowdResult& result) noexcept;
 
     /// Sets up region `region` of all instances; call it for the regions in order, from 0. The coefficients
     /// of instance i go to k[i * step]. `normals`: as in Setup.
@@ -89,13 +90,14 @@ public:
     }
 
 private:
-    PoseState add(std::span<const Pose> poses, const TransformColumn& transforms, std::size_t element,
-                  float weight) noexcept;
+    [[nodiscard]] bool take_usual_poses(const StridedView<Pose>& poses, const StridedView<float>& weights,
+                                        std::span<const std::size_t> elements) noexcept;
+    void take_transforms(const TransformColumn& transforms, std::span<const std::size_t> elements) noexcept;
     const RegionData& take_region(std::size_t region) noexcept;
     void set_identities() noexcept;
     void set_frames() noexcept;
     void set_pose(std::size_t region, std::size_t place, const Pose& pose, float weight) noexcept;
-    void set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept;
+    PoseState set_poses(std::span<const Pose> poses, std::size_t i, float weight) noexcept;
     void take_factor(std::size_t region, std::size_t place, const Pose& pose) noexcept;
 
     static constexpr std::size_t max_poses = 160;  // as much stack as BatchRunner has left
@@ -132,10 +134,13 @@ template <class Visit>
 void each_group(const Batch& batch, const BodyData& body, Time time, std::size_t most,
                 const Visit& visit) noexcept {
     PosedGroup group(body, most);
+    CrowdResult result;
     for (std::size_t first = 0; first < batch.count; first += most) {
+        std::size_t elements[setup_width];
+        const std::size_t count = std::min(most, batch.count - first);
+        for (std::size_t i = 0; i < count; ++i) elements[i] = element_of(batch, first + i);
         group.clear();
-        for (std::size_t i = first; i < batch.count && i < first + most; ++i)
-            group.add(batch, element_of(batch, i), time);
+        group.add(batch, {elements, count}, time, result);
         visit(group, first);
     }
 }
