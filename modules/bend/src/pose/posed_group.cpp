@@ -110,8 +110,9 @@ void PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, 
     set_poses(poses, count_++, weight);
 }
 
-/// Takes the poses of a body of one region, in a loop without branches. Returns false if that does not do,
-/// because one of them is clamped or not finite, or its direction turns more often than set-up takes.
+/// Takes poses in a loop without branches. Returns false if they have to be taken one by one: the body has
+/// several regions or a factor table, or a pose is clamped or not finite, or turns more often than set-up
+/// takes.
 inline bool PosedGroup::take_usual_poses(const StridedView<Pose>& poses, const StridedView<float>& weights,
                                          std::span<const std::size_t> elements) noexcept {
     if (region_count_ > 1 || !body_.details[0].factors->empty()) return false;

@@ -71,7 +71,7 @@ public:
     /// Adds an instance. Until clear(), either all have a transform or none has. `weight` may hold any bits.
     void add(std::span<const Pose> poses, const glm::mat4x3& transform, float weight) noexcept;
 
-    /// Adds the instances of a batch that read `elements` of its columns, and counts them.
+    /// Adds the instances of a batch that read `elements` of its columns, and counts them in `result`.
     void add(const Batch& batch, std::span<const std::size_t> elements, Time time,
              CrowdResult& result) noexcept;
 
