@@ -19,6 +19,11 @@ float usable_weight(float weight) noexcept {
     return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
 }
 
+/// The weight at an element of a column, which may not be given.
+inline float usable_weight(const StridedView<float>& weights, std::size_t element) noexcept {
+    return weights.empty() ? 1.0f : usable_weight(weights[element]);
+}
+
 /// The state of a pose. Inline, since a call for each instance takes time.
 inline PoseState state_in(const Region& region, const Pose& pose) noexcept {
     const bool at_rest =
@@ -96,9 +101,8 @@ inline PoseState PosedGroup::set_poses(std::span<const Pose> poses, std::size_t 
     poses = poses.first(std::min(poses.size(), region_count_));
     const PoseState state = state_in(body_.regions.data(), poses);
     if (state.at_rest) poses = {};
-    const float usable = usable_weight(weight);
     for (std::size_t r = 0; r < region_count_; ++r)
-        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : body_.regions[r].rest, usable);
+        set_pose(r, r * most_ + i, r < poses.size() ? poses[r] : body_.regions[r].rest, weight);
     return state;
 }
 
@@ -107,7 +111,7 @@ void PosedGroup::add(std::span<const Pose> poses, const glm::mat4x3& transform, 
     set_matrix(columns_.transform, &transform[0][0], steps_of(TransformColumn::MatrixLayout::columns3),
                count_);
     transformed_ = true;
-    set_poses(poses, count_++, weight);
+    set_poses(poses, count_++, usable_weight(weight));
 }
 
 /// Takes poses in a loop without branches. Returns false if they have to be taken one by one: the body has
@@ -121,7 +125,7 @@ inline bool PosedGroup::take_usual_poses(const StridedView<Pose>& poses, const S
     bool usual = true;
     for (std::size_t i = 0; i < elements.size(); ++i) {
         const Pose& pose = poses[elements[i]];
-        const float weight = weights.empty() ? 1.0f : usable_weight(weights[elements[i]]);
+        const float weight = usable_weight(weights, elements[i]);
         const std::size_t place = count_ + i;
         angle_[place] = pose.angle;
         direction_[place] = pose.direction;
@@ -159,7 +163,7 @@ void PosedGroup::add(const Batch& batch, std::span<const std::size_t> elements, 
         return;
     }
     for (const std::size_t element : elements) {
-        const float weight = batch.wrinkle_weights.empty() ? 1.0f : batch.wrinkle_weights[element];
+        const float weight = usable_weight(batch.wrinkle_weights, element);
         bend::count(set_poses({poses.at(element), region_count_}, count_++, weight), result);
     }
 }

@@ -134,13 +134,13 @@ template <class Visit>
 void each_group(const Batch& batch, const BodyData& body, Time time, std::size_t most,
                 const Visit& visit) noexcept {
     PosedGroup group(body, most);
-    CrowdResult result;
+    CrowdResult ignored;
     for (std::size_t first = 0; first < batch.count; first += most) {
         std::size_t elements[setup_width];
         const std::size_t count = std::min(most, batch.count - first);
         for (std::size_t i = 0; i < count; ++i) elements[i] = element_of(batch, first + i);
         group.clear();
-        group.add(batch, {elements, count}, time, result);
+        group.add(batch, {elements, count}, time, ignored);
         visit(group, first);
     }
 }
