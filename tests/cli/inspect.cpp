@@ -156,3 +156,22 @@ TEST_CASE("inspect: --rest tells the arc that a body is bent along") {
     CHECK(cylinder["fit"]["rest_angle"] == 0.0);
     CHECK(run(folder, {"inspect", "base.ply", "--rest", "curly"}).code == 2);
 }
+
+TEST_CASE("inspect: says whether bend adds vertices") {
+    const Folder folder;
+    base(folder);
+    base(folder, "coarse.ply", {"--columns", "12", "--rows", "5"});
+    for (const Words& words : {Words{"base.ply"}, Words{"coarse.ply"}, Words{"base.ply", "--arcs", "3"},
+                               Words{"coarse.ply", "--arcs", "2"}}) {
+        CAPTURE(words.back());
+        const json found = report(folder, Words{"inspect"} + words);
+        const json bent = report(folder, Words{"bend"} + words);
+        CHECK(found["adds_vertices"] == bent.contains("refined"));
+        const Result result = run(folder, Words{"inspect"} + words);
+        CHECK((result.out.find("goffer bend adds vertices") != std::string::npos) ==
+              bent.contains("refined"));
+        for (const json& region : bent["regions"]) CHECK(region["folds"] <= region["folds_capacity"]);
+    }
+    CHECK(report(folder, {"inspect", "coarse.ply"})["adds_vertices"] == true);
+    CHECK(report(folder, {"inspect", "base.ply"})["adds_vertices"] == false);
+}

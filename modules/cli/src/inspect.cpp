@@ -3,6 +3,8 @@
 #include "commands.hpp"
 #include "model.hpp"
 #include "poses.hpp"
+#include "progress.hpp"
+#include "refine.hpp"
 #include "report.hpp"
 #include "suitability.hpp"
 
@@ -147,15 +149,18 @@ void report_bends(Report& report, const BindRequest& request, const BoundModel& 
         report.line(r == 0 ? "largest angle" : "",
                     region_words(r, regions.size()) + number(degrees(regions[r].max_angle)) + " degrees");
     }
-    const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        const std::string carried = "; the mesh carries " + capacity_words(binding.folds_capacity(r));
+    for (std::size_t r = 0; r < regions.size(); ++r)
         report.line(r == 0 ? "folds" : "",
                     region_words(r, regions.size()) +
                         (binding.folds(r) > 0 ? "it would have " + std::to_string(binding.folds(r))
                                               : "none as it is") +
-                        carried + (suitable[r] > binding.folds(r) ? "; goffer bend adds rows for more" : ""));
-    }
+                        "; the mesh carries " + capacity_words(binding.folds_capacity(r)));
+    const bool adds = in_file(model.file, [&] {
+        const Progress progress("looking where " + model.file.string() + " is too coarse");
+        return adds_vertices(model.mesh, model.cylinder, request.options, request.words.load.limits);
+    });
+    report.json["adds_vertices"] = adds;
+    if (adds) report.line("", "goffer bend adds vertices for its folds, unless with --refine off");
 }
 
 void run_inspect(const InspectOptions& options) {

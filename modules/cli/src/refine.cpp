@@ -114,16 +114,22 @@ Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOp
     growth.triangles_after = growth.triangles_before;
     if (!found || found->vertices.empty()) return growth;
     const fit::Refinement& made = *found;
-    std::vector<mesh::EdgeVertex> vertices;
-    vertices.reserve(made.vertices.size());
-    for (const auto& [a, b, t] : made.vertices) vertices.push_back({a, b, t});
     std::vector<glm::vec3> normals;
     if (mesh.normals.empty()) normals = fit::make_refined_normals(mesh.positions, triangles, made);
-    mesh = mesh::refined(mesh, {vertices, made.triangles, made.parents}, limits, stretch_of(cuts_found, 1));
+    mesh = mesh::refined(mesh, made, limits, stretch_of(cuts_found, 1));
     if (!normals.empty()) growth.normals = in_order_of(mesh, made.triangles, normals);
     growth.vertices_after = mesh.positions.size();
     growth.triangles_after = mesh::triangle_count(mesh);
     return growth;
+}
+
+bool adds_vertices(const mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
+                   const mesh::Limits& limits) {
+    const std::vector<std::uint32_t> triangles = mesh::triangles(mesh);
+    const std::optional<fit::Refinement> found =
+        refinement({mesh.positions, triangles}, cylinder, fit::stretches_of(cylinder, options),
+                   most_triangles(limits), true, {});
+    return found && !found->vertices.empty();
 }
 
 void report_growth(Report& report, const Growth& growth, nlohmann::ordered_json& json) {

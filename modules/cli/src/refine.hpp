@@ -34,6 +34,10 @@ struct Growth {
 Growth refine(mesh::Mesh& mesh, const fit::Cylinder& cylinder, const fit::BindOptions& options,
               const mesh::Limits& limits, bool sparing, const std::function<void(double)>& progress = {});
 
+/// Whether refine() adds vertices, if it is `sparing`. Throws likewise.
+[[nodiscard]] bool adds_vertices(const mesh::Mesh& mesh, const fit::Cylinder& cylinder,
+                                 const fit::BindOptions& options, const mesh::Limits& limits);
+
 /// The growth, as a line and as "refined" in `json`: the report's, or that of a model in it. Warns where
 /// there was no fold to refine for.
 void report_growth(Report& report, const Growth& growth, nlohmann::ordered_json& json);

@@ -3,9 +3,11 @@
 
 #include <goffer/mesh/mesh.hpp>
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 /// Gives a mesh more vertices: edges are cut, triangles are replaced by pieces of themselves, everything else
 /// is kept.
@@ -57,5 +59,18 @@ struct Subdivision {
 /// `limits`. `progress` is as LoadOptions'. Thread-safe.
 [[nodiscard]] Mesh refined(const Mesh& mesh, const Subdivision& pieces, const Limits& limits = {},
                            const std::function<void(double)>& progress = {});
+
+/// The same, cut up as a fit::Refinement says, whose new vertices each have the numbers `a`, `b` and `t`.
+template <class Refinement>
+requires requires(const Refinement& cuts) {
+    { cuts.vertices[0].t } -> std::convertible_to<double>;
+}
+[[nodiscard]] Mesh refined(const Mesh& mesh, const Refinement& cuts, const Limits& limits = {},
+                           const std::function<void(double)>& progress = {}) {
+    std::vector<EdgeVertex> vertices;
+    vertices.reserve(cuts.vertices.size());
+    for (const auto& vertex : cuts.vertices) vertices.push_back({vertex.a, vertex.b, vertex.t});
+    return refined(mesh, Subdivision{vertices, cuts.triangles, cuts.parents}, limits, progress);
+}
 
 }  // namespace goffer::mesh
