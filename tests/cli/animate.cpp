@@ -106,6 +106,21 @@ TEST_CASE("animate: the keys of README.md, as JSON and as a table, make the same
     well(folder, {"bend", "base.ply", "-o", "laid.ply", "--path", GOFFER_SOURCE_DIR "/tests/data/track.txt"});
 }
 
+TEST_CASE("animate: more than a full turn is said") {
+    const Folder folder;
+    base(folder, "base.ply", {"--length", "30", "--rows", "481"});
+    const auto swing = [&](const std::string& angle) {
+        return report(
+            folder, {"animate", "base.ply", "-o", "s.mdd", "--swing", angle, "--frames", "4", "--fps", "2"});
+    };
+    CHECK(swing("359")["frames_beyond_full_turn"] == 0);
+    const json round = swing("-370,370");
+    CHECK(round["frames_beyond_full_turn"] == 2);
+    REQUIRE(round["warnings"].size() == 1);
+    CHECK(
+        round["warnings"][0].get<std::string>().starts_with("in 2 frames it bends by more than a full turn"));
+}
+
 TEST_CASE("animate: a swing goes there and back") {
     const Folder folder;
     base(folder);

@@ -64,7 +64,7 @@ TEST_CASE("bad files: one output that fails keeps the others from being written"
 
 TEST_CASE("bad files: fits that are none") {
     const Place place;
-    place.refuse_bend({"-o", "out.ply", "--fit", "none.json"}, {"none.json", "goffer inspect --json"});
+    place.refuse_bend({"-o", "out.ply", "--fit", "none.json"}, {"none.json: there is no such file"});
     place.refuse_bend({"-o", "out.ply", "--fit", "sub.ply"}, {"sub.ply", "goffer inspect --json"});
     for (const std::string text : {"", "garbage", "{", "[]", "{}", "null", "3", "{\"fit\": []}",
                                    "{\"fit\": {}}", "\xff\xfe\x00\x01", "{\"fit\": {\"origin\": [0, 0]}}"}) {

@@ -120,6 +120,10 @@ TEST_CASE("animate: what is refused, in one line, and nothing written") {
     refused(folder, 1, to + Words{"--keys", "long.csv"}, {"long.csv", "more than a million frames"});
     folder.write("nan.csv", "time,angle\n0,0\n1,nan\n");
     refused(folder, 1, to + Words{"--keys", "nan.csv"}, {"nan.csv: line 3: 'nan' is not a number"});
+    folder.write("nul.txt", std::string("0 0 0\n1 1 \0"
+                                        "1\n",
+                                        13));
+    refused(folder, 1, to + Words{"--path", "nul.txt"}, {"nul.txt: line 2: '\\x001' is not a number"});
     folder.write("short.csv", "time,angle\n0\n");
     refused(folder, 1, to + Words{"--keys", "short.csv"}, {"line 2: has 1 values for 2 columns"});
     folder.write("short.txt", "0 0 0\n0 0 9\n");

@@ -130,7 +130,8 @@ TEST_CASE("cache: folders and words that are none") {
     refused(folder, 2, cache_words("cache", {"--prepare", "--shard", "1/2"}), {"--shard", "--prepare"});
     refused(folder, 2, {"cache", "--verify", "x", "--format", "poses"}, {"--format", "--verify"});
     refused(folder, 2, {"cache", "--extract", "1", "-o", "a.ply", "x"}, {"--extract", "'1'"});
-    refused(folder, 1, {"cache", "--verify", "x"}, {"manifest.json"});
+    refused(folder, 1, {"cache", "--verify", "x"}, {"x: there is no such folder"});
+    refused(folder, 1, {"cache", "--verify", "."}, {"manifest.json"});
     refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "x"}, {"plan.json"});
     refused(folder, 2, cache_words("scene.json"), {"scene.json"});
 }

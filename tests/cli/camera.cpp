@@ -87,3 +87,20 @@ TEST_CASE("pictures: seen from where it is asked to be") {
     CHECK(differ(from("side"), from("side"), false, true) > 0.2);
     CHECK(differ(from("side"), from("side"), true, false) > 0.2);
 }
+
+TEST_CASE("pictures: the plane that a body bends in is that of all its regions") {
+    const Folder folder;
+    base(folder);
+    const auto seen = [&](const std::string& angles, const std::string& directions) {
+        (void)well(folder, {"bend", "base.ply", "--regions", "0.5,0.5", "--angles", angles, "--directions",
+                            directions, "--camera", "side", "--size", "200x150", "--png", "out.png"});
+        return Pixels(folder / "out.png");
+    };
+    const Pixels bent = seen("0,70", "90,90");
+    CHECK(differ(seen("0,70", "0,90"), bent, false, false) < 0.01);
+    CHECK(differ(seen("0,-70", "0,270"), bent, false, false) < 0.01);
+    CHECK(differ(seen("10,70", "0,90"), bent, false, false) < 0.1);
+    CHECK(differ(seen("0,70", "0,90"), seen("70,0", "90,0"), false, false) > 0.2);
+    // An S lies in its plane, too.
+    CHECK(differ(seen("50,-50", "90,90"), seen("50,50", "90,270"), false, false) < 0.01);
+}

@@ -213,6 +213,27 @@ TEST_CASE("crowd: a warning says which of several models is meant") {
     CHECK(all["warnings"][0].get<std::string>().starts_with("coarse.ply: bent without wrinkles"));
 }
 
+TEST_CASE("crowd: a straight chain is not straightened, and more than a full turn is said") {
+    const Folder folder;
+    small_base(folder);
+    const json chain = crowd(folder, {"--arcs", "3"});
+    CHECK(chain["warnings"].dump().find("at rest") == std::string::npos);
+    CHECK(chain["models"][0]["straightens"] == false);
+    CHECK(chain["models"][0]["beyond_full_turn"] == false);
+    base(folder, "base.ply", {"--length", "30", "--rows", "481"});
+    CHECK(crowd(folder, {"--angle", "359"})["models"][0]["beyond_full_turn"] == false);
+    for (const Words& words :
+         {Words{"--angle", "max"}, Words{"--angle", "-361"}, Words{"--angle", "361", "--from-rest"},
+          Words{"--regions", "0.5,0.5", "--angles", "200,200"}}) {
+        CAPTURE(words.back());
+        const json round = crowd(folder, words);
+        CHECK(round["models"][0]["beyond_full_turn"] == true);
+        REQUIRE(round["warnings"].size() == 1);
+        CHECK(round["warnings"][0].get<std::string>().find("more than a full turn") != std::string::npos);
+    }
+    CHECK(crowd(folder, {"--regions", "0.5,0.5", "--angles", "200,-200"})["warnings"] == json::array());
+}
+
 TEST_CASE("crowd: a body that is bent at rest") {
     const Folder folder;
     small_base(folder, "straight.ply");

@@ -66,3 +66,33 @@ TEST_CASE("bend: a path that is many times as long as the body") {
     CHECK_FALSE(said("3"));
     CHECK(said("20"));
 }
+
+TEST_CASE("bend: a closed path that is made as long as the body has room for it, however many its points") {
+    const Folder folder;
+    base(folder);
+    for (int count = 3; count <= 20; ++count) {
+        CAPTURE(count);
+        json points;
+        for (int i = 0; i < count; ++i) {
+            const double turn = 2 * std::acos(-1.0) * i / count;
+            points.push_back({7 * std::cos(turn), 3 * std::sin(turn), 0});
+        }
+        folder.write("round.json", json{{"points", points}, {"closed", true}}.dump());
+        const json laid = report(folder, {"bend", "base.ply", "--path", "round.json", "--path-scale", "fit"});
+        CHECK(laid["path"]["length"].get<double>() == doctest::Approx(10));
+    }
+}
+
+TEST_CASE("bend: on a path, nothing is said of angles that nobody gave") {
+    const Folder folder;
+    base(folder);
+    well(folder, {"bend", "base.ply", "--angle", "70", "--amplitude", "none", "-o", "bent.ply"});
+    folder.write("line.txt", "0 0 0\n0 0 12\n");
+    const Result result = run(folder, {"bend", "bent.ply", "-o", "out.ply", "--path", "line.txt"});
+    CHECK(result.out.find("this straightens 8 of 8 regions") != std::string::npos);
+    CHECK(result.out.find("--by") == std::string::npos);
+    // Rounding reads as 0.
+    const Result straight = run(folder, {"bend", "base.ply", "-o", "out.ply", "--path", "line.txt"});
+    CHECK(straight.out.find("the center line is within 0 of it") != std::string::npos);
+    CHECK(straight.out.find("region 8: 0 degrees toward ") != std::string::npos);
+}

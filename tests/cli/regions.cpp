@@ -89,6 +89,8 @@ TEST_CASE("bad regions: wrong usage, one line, and nothing written") {
              Bad{{"--regions", "0.5,0.5", "--angles", "1,2,3"}, "--angles: 3 for 2 regions"},
              Bad{{"--regions", "0.5,0.5", "--directions", "1"}, "--directions: 1 for 2 regions"},
              Bad{{"--regions", "0.5,0.5", "--folds", "1,2,3"}, "--folds: 3 for 2 regions"},
+             Bad{{"--regions", "0.33,0.33,0.33"}, "add up to 0.99"},
+             Bad{{"--folds", "5", "--fold-length", "1"}, "--fold-length"},
              Bad{{"--folds", "1,2"}, "--folds: a list is for a body of several regions; add --regions"},
              Bad{{"--folds", "2.5"}, "whole number"},
              Bad{{"--folds", "513"}, "0..512"},
@@ -141,4 +143,13 @@ TEST_CASE("bend: more than a full turn is said to go through itself") {
     CHECK_FALSE(beyond({"--angle", "355"}));
     CHECK(beyond({"--regions", "0.5,0.5", "--angles", "200,190"}));
     CHECK_FALSE(beyond({"--regions", "0.5,0.5", "--angles", "200,-190"}));
+}
+
+TEST_CASE("bend: shares that are rounded make a whole") {
+    const Folder folder;
+    base(folder);
+    const mesh::Mesh thirds = bent_mesh(folder, {"--regions", "0.333,0.333,0.333", "--angles", "60,0,-30"});
+    const mesh::Mesh equal =
+        bent_mesh(folder, {"--regions", "0.3333333,0.3333333,0.3333334", "--angles", "60,0,-30"});
+    CHECK(farthest(thirds, equal) < 1e-5);
 }

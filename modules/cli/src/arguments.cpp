@@ -197,7 +197,10 @@ fit::Cylinder read_fit(const std::filesystem::path& file) {
     // begin.
     const bool open_stream = file == "/dev/stdin" || file.parent_path() == "/dev/fd";
     std::error_code no_status;
-    if (!open_stream && !std::filesystem::is_regular_file(file, no_status))
+    const std::filesystem::file_status status = std::filesystem::status(file, no_status);
+    if (status.type() == std::filesystem::file_type::not_found)
+        throw InputError(file.string() + ": there is no such file; check the name");
+    if (!open_stream && !std::filesystem::is_regular_file(status))
         throw InputError(file.string() + ": cannot be read, since it is not a regular file" + mend);
     std::ifstream stream(file);
     if (!stream) throw InputError(file.string() + ": cannot be read" + mend);
@@ -208,7 +211,9 @@ fit::Cylinder read_fit(const std::filesystem::path& file) {
     fit::Cylinder cylinder;
     try {
         const nlohmann::json report = nlohmann::json::parse(text);
-        cylinder = cylinder_from(report.contains("fit") ? report.at("fit") : report);
+        const nlohmann::json& said = report.contains("fit") ? report.at("fit") : report;
+        if (!said.is_object()) throw InputError(file.string() + ": not a fit" + mend);
+        cylinder = cylinder_from(said);
     } catch (const nlohmann::json::exception& error) {
         throw InputError(file.string() + ": not a fit (" + reason(error) + ")" + mend);
     }

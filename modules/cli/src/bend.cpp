@@ -62,6 +62,7 @@ struct Request {
           bind(options.bind, pose.regions),
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
+        pose.along_path = !options.path.file.empty();
         check_wanted(options.picture, options.ghost, "--ghost");
         check_wanted(options.picture, !options.show.empty(), "--show");
         check_wanted(options.picture, options.camera.has_value(), "--camera");
@@ -248,7 +249,7 @@ void run_bend(const BendOptions& options) {
         const Textures textures = show ? Textures{} : textures_of(model.mesh, options.bind.load.limits);
         for (const std::string& warning : textures.warnings) report.warn(warning);
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,
-                       textures, poses[0], laid.fit.transform},
+                       textures, poses, laid.fit.transform},
                       style, png, outputs);
         if (show) report_area_colors(report);
         report.line("picture", png.string());

@@ -2,6 +2,7 @@
 #include "looks.hpp"
 
 #include "arguments.hpp"
+#include "poses.hpp"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -28,6 +29,26 @@ glm::vec4 dimmed(const glm::vec4& color) {
 glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     const auto [low, high] = std::minmax({color.r, color.g, color.b});
     return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
+}
+
+/// Which way a body bends, radians: that of its region, or that of the plane which the bends of several
+/// regions are nearest to, and toward the side that more of them is on.
+double main_direction(const bend::Body& body, std::span<const bend::Pose> poses) {
+    double x = 0, y = 0;            // the bends added up
+    double cosines = 0, sines = 0;  // of twice their directions, which are those of planes
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        const double angle = std::copysign(used_angle(body, r, poses[r]), poses[r].angle);
+        const auto direction = static_cast<double>(poses[r].direction);
+        x += angle * std::cos(direction);
+        y += angle * std::sin(direction);
+        cosines += angle * angle * std::cos(2 * direction);
+        sines += angle * angle * std::sin(2 * direction);
+    }
+    if (poses.size() == 1 || (cosines == 0 && sines == 0))
+        return static_cast<double>(poses[0].direction) + (poses[0].angle < 0 ? std::numbers::pi : 0);
+    const double plane = 0.5 * std::atan2(sines, cosines);
+    const bool other_side = x * std::cos(plane) + y * std::sin(plane) < 0;
+    return plane + (other_side ? std::numbers::pi : 0);
 }
 
 }  // namespace
@@ -79,8 +100,8 @@ std::vector<PartLook> looks_of(const mesh::Mesh& mesh, const Textures& textures,
     return looks;
 }
 
-Sight sight_of(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from) {
-    const double theta = static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
+Sight sight_of(const bend::Body& body, std::span<const bend::Pose> poses, const Viewpoint& from) {
+    const double theta = main_direction(body, poses);
     const glm::dmat3& e = body.axes();
     const glm::dvec3 toward = std::cos(theta) * e[0] + std::sin(theta) * e[1];
     const glm::dvec3 across = std::cos(theta) * e[1] - std::sin(theta) * e[0];

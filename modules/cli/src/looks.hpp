@@ -13,14 +13,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 /// How models look, and where they are looked at from, in pictures, in the window and in the page.
 
 namespace goffer::cli {
 
-/// Where a bent model is looked at from. At 0, 0 the eye looks across the plane that it bends in, and it lies
-/// from left to right, its squeezed side up. Degrees.
+/// Where a bent model is looked at from. At 0, 0 the eye looks across the plane that it bends in, or that
+/// most of its bend is in, and it lies from left to right, its squeezed side up. Degrees.
 struct Viewpoint {
     double azimuth = 0;     ///< turns the eye about the picture's vertical, toward the tip's side
     double elevation = 35;  ///< raises it, up to 90, where it looks at the squeezed side
@@ -31,8 +32,9 @@ struct Sight {
     glm::vec3 toward, up;
 };
 
-/// The sight from there of a body in this pose.
-[[nodiscard]] Sight sight_of(const bend::Body& body, const bend::Pose& pose, const Viewpoint& from);
+/// The sight from there of a body in these poses, one per region.
+[[nodiscard]] Sight sight_of(const bend::Body& body, std::span<const bend::Pose> poses,
+                             const Viewpoint& from);
 
 /// The color of parts that have none of their own, of one model of several.
 [[nodiscard]] glm::vec4 plain_color(std::size_t model);

@@ -124,7 +124,8 @@ void add_fold_words(CLI::App& command, BindWords& words) {
                         number(fit::default_fold_length(fit::Profile::even)) +
                         ", and no more than a twelfth of the body; with --profile damped or smooth " +
                         number(fit::default_fold_length(fit::Profile::damped)) + ")")
-        ->check(number_within(0.05, 10, "a number of radii"));
+        ->check(number_within(0.05, 10, "a number of radii"))
+        ->excludes(command.get_option("--folds"));
     command
         .add_option("--amplitude", words.amplitude,
                     "Choose wrinkles' depth: paper (keeps lengths), area (keeps the base's area), mesh "

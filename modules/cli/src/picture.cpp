@@ -119,7 +119,7 @@ void write_picture(const BentModel& model, const PictureStyle& style, const std:
         rest.color = {0.30f, 0.42f, 0.62f, 0.28f};
         models.push_back(rest);
     }
-    const Sight sight = sight_of(model.body, model.pose, style.viewpoint);
+    const Sight sight = sight_of(model.body, model.poses, style.viewpoint);
     view::Camera camera;
     camera.toward = glm::mat3(model.transform) * sight.toward;
     camera.up = glm::mat3(model.transform) * sight.up;

@@ -53,8 +53,8 @@ struct BentModel {
     std::span<const glm::vec3> bent_normals;
     std::span<const glm::vec4> colors;  ///< empty: the materials' own; else linear RGBA, one per vertex
     const Textures& textures;           ///< of the mesh, or none; with colors, these are multiplied
-    bend::Pose pose;
-    glm::mat4x3 transform{1.0f};  ///< from where the rest positions are to where the bent ones are
+    std::span<const bend::Pose> poses;  ///< one per region
+    glm::mat4x3 transform{1.0f};        ///< from where the rest positions are to where the bent ones are
 };
 
 /// Textures as pictures take them. The textures must outlive it.

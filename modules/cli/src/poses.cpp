@@ -29,7 +29,14 @@ namespace {
 
 std::vector<fit::RegionOptions> read_regions(const std::string& text) {
     std::vector<fit::RegionOptions> regions;
-    for (const double share : read_numbers("--regions", text)) regions.push_back({share, std::nullopt});
+    double sum = 0;
+    for (const double share : read_numbers("--regions", text)) {
+        regions.push_back({share, std::nullopt});
+        sum += share;
+    }
+    constexpr double rounded = 2e-3;  // as three times 0.333
+    for (fit::RegionOptions& region : regions)
+        if (std::fabs(sum - 1) <= rounded) region.share /= sum;
     try {
         fit::check(regions);
     } catch (const fit::Error& error) {
@@ -162,8 +169,10 @@ bool report_rest_pose(Report& report, const PoseRequest& request, const std::vec
     const std::string which = targets.size() == 1
                                   ? "the body"
                                   : std::to_string(straightened) + " of " + counted(targets.size(), "region");
-    report.line("note", "this straightens " + which + ", bent by " + rest_words(body) +
-                            " at rest; to bend it further from there, use --by D instead of --angle");
+    report.line(
+        "note",
+        "this straightens " + which + ", bent by " + rest_words(body) + " at rest" +
+            (request.along_path ? "" : "; to bend it further from there, use --by D instead of --angle"));
     return true;
 }
 
@@ -279,6 +288,11 @@ double rest_direction(const bend::Body& body) {
     return degrees(std::atan2(sum.y, sum.x));
 }
 
+bool bent_at_rest(const bend::Body& body) {
+    return std::ranges::any_of(body.region_inputs(),
+                               [](const bend::RegionInput& region) { return region.rest_angle != 0; });
+}
+
 bool is_chain(const bend::Body& body) {
     const std::span<const bend::RegionInput> regions = body.region_inputs();
     return std::ranges::any_of(regions, [&](const bend::RegionInput& region) {
@@ -294,12 +308,12 @@ std::string rest_words(const bend::Body& body) {
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const RestPose rest = rest_pose(body, i);
         all += rest.angle;
-        angles += (i == 0 ? "" : ",") + number(rest.angle);
+        angles += (i == 0 ? "" : ",") + angle_text(rest.angle);
         same = same && (rest.angle == 0 || rest.direction == toward);
-        list += (i == 0 ? "" : ", ") + number(rest.angle) + " toward " + number(rest.direction);
+        list += (i == 0 ? "" : ", ") + angle_text(rest.angle) + " toward " + angle_text(rest.direction);
     }
     if (!same || is_chain(body)) return list + " degrees";
-    const std::string whole = number(all) + " degrees toward " + number(toward);
+    const std::string whole = number(all) + " degrees toward " + angle_text(toward);
     return body.region_count() == 1 ? whole : whole + " (by region " + angles + ")";
 }
 
@@ -359,6 +373,17 @@ double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& 
     return static_cast<double>(std::min(std::fabs(pose.angle), body.max_angle(region)));
 }
 
+bool beyond_full_turn(const bend::Body& body, std::span<const bend::Pose> poses) {
+    constexpr double full_turn = 360.001;  // with some room for rounding
+    Curvature all{0, 0};
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+        const double angle = std::copysign(degrees(used_angle(body, r, poses[r])), poses[r].angle);
+        const Curvature own = curvature(angle, degrees(static_cast<double>(poses[r].direction)));
+        all = {all.x + own.x, all.y + own.y};
+    }
+    return std::hypot(all.x, all.y) > full_turn;
+}
+
 std::vector<double> right_angle_of(const bend::Body& body) {
     std::vector<double> angles;
     for (std::size_t r = 0; r < body.region_count(); ++r) {
@@ -391,7 +416,6 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     const bend::Body& body = binding.body;
     nlohmann::ordered_json poses, regions;
     bool clamped = false;
-    Curvature all{0, 0};
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const double limit = largest(body, i), asked = targets[i].angle;
         const bool all_the_way = std::isinf(asked);
@@ -399,8 +423,6 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
         const double used = beyond ? std::copysign(limit, asked) : asked;
         const RestPose rest = rest_pose(body, i);
         clamped = clamped || (beyond && !all_the_way);
-        const Curvature own = curvature(used, targets[i].direction);
-        all = {all.x + own.x, all.y + own.y};
         poses.push_back({{"angle", used},
                          {"direction", targets[i].direction},
                          {"rest_angle", rest.angle},
@@ -411,8 +433,9 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
                            {"max_angle", limit},
                            {"clamped", beyond && !all_the_way}});
         const std::string which = region_words(i, targets.size());
-        report.line(i == 0 ? "bend" : "", which + number(used) + " degrees toward " +
-                                              number(targets[i].direction) + ", at most " + number(limit));
+        report.line(i == 0 ? "bend" : "", which + angle_text(used) + " degrees toward " +
+                                              angle_text(targets[i].direction) + ", at most " +
+                                              number(limit));
         if (beyond && rest.angle > 0 && limit <= rest.angle * (1 + 1e-6)) {
             report.warn(which +
                         (all_the_way ? "" : "the angle of " + number(asked) + " degrees is clamped: ") +
@@ -436,10 +459,9 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     report.json["folds"] = binding.folds();
     report.json["regions"] = regions;
     report.json["clamped"] = clamped;
-    constexpr double full_turn = 360.001;  // with some room for rounding
-    const bool beyond = std::hypot(all.x, all.y) > full_turn;
+    const bool beyond = beyond_full_turn(body, poses_of(targets));
     report.json["beyond_full_turn"] = beyond;
-    if (beyond) report.warn("this is more than a full turn: parts of the body may go through each other");
+    if (beyond) report.warn(std::string("this is ") + full_turn_words);
     return report_rest_pose(report, request, targets, body);
 }
 

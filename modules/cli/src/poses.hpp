@@ -9,6 +9,7 @@
 #include <goffer/fit/bind.hpp>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ void add_pose_words(CLI::App& command, PoseWords& words);
 struct PoseRequest {
     std::vector<fit::RegionOptions> regions;  ///< none: the body is one region
     bool from_rest = false;                   ///< angles count from the rest pose (--by), not from straight
+    bool along_path = false;                  ///< a path says how far regions bend, no angle
     std::vector<double> angles;               ///< degrees, one per region; an infinity: as far as it can
     std::optional<double> shared;             ///< the angle that all regions share, if it is one
     std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
@@ -73,6 +75,9 @@ struct RestPose {
 /// (alpha cos theta, alpha sin theta), or, where they cancel out, as the one that is bent furthest; 0 of a
 /// straight body.
 [[nodiscard]] double rest_direction(const bend::Body& body);
+
+/// Whether a body is bent at rest: a chain of arcs may be straight.
+[[nodiscard]] bool bent_at_rest(const bend::Body& body);
 
 /// Whether a body is bent at rest along arcs that are not one.
 [[nodiscard]] bool is_chain(const bend::Body& body);
@@ -109,6 +114,13 @@ struct Target {
 
 /// The angle of a pose that a run uses, radians, >= 0: clamped to the region's largest.
 [[nodiscard]] double used_angle(const bend::Body& body, std::size_t region, const bend::Pose& pose);
+
+/// Whether a body in these poses, one per region, bends by more than a full turn in all.
+[[nodiscard]] bool beyond_full_turn(const bend::Body& body, std::span<const bend::Pose> poses);
+
+/// What more than a full turn comes to, for the end of a warning.
+inline constexpr const char* full_turn_words =
+    "more than a full turn: parts of the body may go through each other";
 
 /// What each region of a body has of a right angle, radians, or its largest angle if that is less.
 [[nodiscard]] std::vector<double> right_angle_of(const bend::Body& body);

@@ -67,6 +67,10 @@ std::string number(double value) {
     return formatted("%.6g", value);
 }
 
+std::string angle_text(double degrees) {
+    return number(std::fabs(degrees) < 1e-9 ? 0 : degrees);
+}
+
 std::string percent(double fraction) {
     return formatted("%+.4f %%", 100 * fraction);
 }

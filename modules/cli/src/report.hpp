@@ -53,6 +53,9 @@ private:
 /// Numbers as people read them: six significant digits.
 [[nodiscard]] std::string number(double value);
 
+/// Returns degrees in words: what is rounding reads as 0.
+[[nodiscard]] std::string angle_text(double degrees);
+
 /// A fraction in per cent with a sign, to four decimals.
 [[nodiscard]] std::string percent(double fraction);
 

@@ -28,6 +28,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     json["repeats"] = request.motion->repeats();
     json["reached_angle"] = reached;
     json["clamped_frames"] = survey.clamped;
+    json["frames_beyond_full_turn"] = survey.beyond_full_turn;
     json["path_error"] = survey.path_error;
     json["worst_area_change"] = survey.worst_area_change;
     json["worst_area_frame"] = survey.worst_frame + 1;
@@ -35,7 +36,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     report.line("frames", std::to_string(request.frames) + " at " + number(options.fps) +
                               " a second: " + number(seconds) + " s");
     report.line("bends to", number(reached) + " degrees" + (survey.largest.size() > 1 ? " of a region" : ""));
-    if (model.cylinder.bent() && options.swing && !options.from_rest)
+    if (bent_at_rest(model.binding.body) && options.swing && !options.from_rest)
         report.line("angles", "are absolute: 0 is straight, and " + rest_words(model.binding.body) +
                                   " is the shape of the file; to swing from there, use --from-rest");
     if (survey.path_error > 0)
@@ -45,7 +46,7 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
                                      : ""));
     report.line("area change", "at most " + percent(survey.worst_area_change) + ", in frame " +
                                    std::to_string(survey.worst_frame + 1));
-    if (model.cylinder.bent())
+    if (bent_at_rest(model.binding.body))
         warn_of_stretch(
             report, survey.worst_area_change, " in frame " + std::to_string(survey.worst_frame + 1),
             options.swing && !options.from_rest ? "; to swing from the shape of the file, use --from-rest"
@@ -53,6 +54,8 @@ void report_motion(Report& report, const AnimateRequest& request, const AnimateO
     if (survey.clamped > 0)
         report.warn("in " + counted(survey.clamped, "frame") +
                     " a region is asked to bend further than it can, and is bent as far as it can");
+    if (survey.beyond_full_turn > 0)
+        report.warn("in " + counted(survey.beyond_full_turn, "frame") + " it bends by " + full_turn_words);
     if (!model.baked) {
         const BindRequest bound(options.bind, request.regions);
         warn_of_folds(report, bound, model, survey.largest);

@@ -29,6 +29,7 @@ void look_at_poses(Survey& survey, const Moment& moment, const bend::Body& body)
         clamped = clamped || std::fabs(moment.poses[r].angle) > body.max_angle(r);
     }
     survey.clamped += clamped ? 1 : 0;
+    survey.beyond_full_turn += beyond_full_turn(body, moment.poses) ? 1 : 0;
     survey.path_error = std::max(survey.path_error, moment.path_error);
 }
 
@@ -38,7 +39,7 @@ view::Camera camera_of(const MovingModel& frames, const Viewpoint& viewpoint) {
         Moment other = frames.moment(frame);
         if (bend_of(other) > bend_of(most)) most = std::move(other);
     }
-    const Sight sight = sight_of(frames.model().binding.body, most.poses[0], viewpoint);
+    const Sight sight = sight_of(frames.model().binding.body, most.poses, viewpoint);
     const glm::mat3 turn(most.transform);
     view::Camera camera;
     camera.toward = turn * sight.toward;

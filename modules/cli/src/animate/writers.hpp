@@ -23,14 +23,15 @@ namespace goffer::cli {
 /// What was found in all frames before any is written.
 struct Survey {
     double area_before = 0;
-    double worst_area_change = 0;  ///< a fraction, of the frame where it is largest, with its sign
-    std::size_t worst_frame = 0;   ///< which that is, from 0
-    std::vector<double> largest;   ///< of each region, the angle that it is bent by at most, radians
-    std::size_t clamped = 0;       ///< frames in which a region was asked to bend further than it can
-    double path_error = 0;         ///< the largest
-    double milliseconds = 0;       ///< to deform a frame; the median
-    view::Camera camera;           ///< in which also_seen is `seen`
-    std::vector<glm::vec3> seen;   ///< view::deciding_points() of all frames; none where no picture is made
+    double worst_area_change = 0;      ///< a fraction, of the frame where it is largest, with its sign
+    std::size_t worst_frame = 0;       ///< which that is, from 0
+    std::vector<double> largest;       ///< of each region, the angle that it is bent by at most, radians
+    std::size_t clamped = 0;           ///< frames in which a region was asked to bend further than it can
+    std::size_t beyond_full_turn = 0;  ///< frames in which the body bends by more than that
+    double path_error = 0;             ///< the largest
+    double milliseconds = 0;           ///< to deform a frame; the median
+    view::Camera camera;               ///< in which also_seen is `seen`
+    std::vector<glm::vec3> seen;  ///< view::deciding_points() of all frames; none where no picture is made
 };
 
 /// All that a writer may need. What it refers to is the command's.

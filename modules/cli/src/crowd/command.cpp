@@ -131,10 +131,22 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
     if (!model.baked) warn_of_folds(report, request.bind, model, used, where);
 }
 
+/// Warns of a swing that goes round further than once. Returns whether it does.
+bool warn_of_full_turn(Report& report, const CrowdRequest& request, const bend::Body& body,
+                       const std::string& where) {
+    std::vector<bend::Pose> poses = request.plan.poses;
+    for (std::size_t r = 0; request.plan.from_rest && r < poses.size(); ++r)
+        poses[r] = pose_from_rest(body, r, degrees(static_cast<double>(poses[r].angle)),
+                                  degrees(static_cast<double>(poses[r].direction)), 1);
+    const bool beyond = beyond_full_turn(body, poses);
+    if (beyond) report.warn(where + "at its ends the swing is " + full_turn_words);
+    return beyond;
+}
+
 /// Warns of a swing that straightens a body which is bent at rest. Returns whether it does.
 bool warn_of_straightening(Report& report, const CrowdRequest& request, const BoundModel& model,
                            const std::string& where) {
-    const bool straightens = !request.plan.from_rest && model.cylinder.bent();
+    const bool straightens = !request.plan.from_rest && bent_at_rest(model.binding.body);
     if (straightens)
         report.warn(where + "the body is bent at rest by " + rest_words(model.binding.body) +
                     ", and the swing straightens it; to swing from there, use --from-rest");
@@ -162,7 +174,8 @@ void report_models(Report& report, const CrowdRequest& request, std::span<const 
              {"folds", folds},
              {"max_angle", limit},
              {"regions", regions},
-             {"straightens", warn_of_straightening(report, request, model, where)}});
+             {"straightens", warn_of_straightening(report, request, model, where)},
+             {"beyond_full_turn", warn_of_full_turn(report, request, body, where)}});
         nlohmann::ordered_json& json = report.json["models"].back();
         if (!model.baked) report_suitability(report, model, json, where);
         report.line("model", model.file.string() + ", " + std::to_string(body.vertex_count()) +

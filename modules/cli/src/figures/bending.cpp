@@ -55,7 +55,7 @@ void draw_state(Workshop& workshop, const BoundModel& model, const BentState& st
     PictureStyle style;
     style.settings = workshop.picture;
     write_picture({model.binding.body, model.mesh, model.rest, state.records.positions, state.records.normals,
-                   colors, textures, state.pose},
+                   colors, textures, std::span(&state.pose, 1)},
                   style, workshop.folder / file, workshop.files);
 }
 

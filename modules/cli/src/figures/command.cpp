@@ -49,6 +49,10 @@ BindRequest request_for(const FiguresOptions& options, bool paper) {
 }
 
 void check_words(const FiguresOptions& options) {
+    constexpr std::size_t most_models = 8;
+    if (options.models.size() > most_models)
+        throw UsageError("figures: " + counted(options.models.size(), "model") + "; give " +
+                         std::to_string(most_models) + " at most");
     std::vector<NamedFile> inputs;
     for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
     check_places(inputs, {{"-o", options.folder / "index.html"}, {"--json", options.json}});
@@ -191,13 +195,11 @@ void run_figures(const FiguresOptions& options) {
 }  // namespace
 
 void add_figures(CLI::App& app, Action& action) {
-    constexpr int most_models = 8;
     const auto options = std::make_shared<FiguresOptions>();
     CLI::App* command = app.add_subcommand(
         "figures", "Make the paper's figures, and some of goffer's own: pictures, charts, data and a page");
     command->add_option("models", options->models, "Models, 1 to 8: .glb, .gltf, .obj, .ply or .stl")
-        ->required()
-        ->expected(1, most_models);
+        ->required();
     command
         ->add_option("-o,--output", options->folder,
                      "Write all files to this folder: a new or an empty one, or one of an earlier page")

@@ -83,7 +83,8 @@ json read_cell(const std::filesystem::path& file, const Row& row, const std::str
     const bool plus = cell.starts_with('+');
     const auto [next, error] = std::from_chars(cell.data() + (plus ? 1 : 0), end, value);
     if ((plus && cell.starts_with("+-")) || error != std::errc() || next != end || !std::isfinite(value))
-        refuse(file, "line " + std::to_string(row.line) + ": '" + cell + "' is not a number");
+        refuse(file, "line " + std::to_string(row.line) + ": '" + io::escaped(cell.substr(0, 40)) +
+                         "' is not a number");
     return value;
 }
 

@@ -93,7 +93,8 @@ std::vector<glm::vec3> Path::window(double start, double length) const {
 
 bend::PathFit Path::lay(const bend::Body& body, double start, std::span<bend::Pose> poses) const {
     if (closed_) {
-        if (length() < body.length())
+        constexpr double rounding = 1e-9;
+        if (length() < body.length() * (1 - rounding))
             throw InputError("a body of a length of " + number(body.length()) +
                              " does not fit on a closed path of " + number(length()) +
                              "; give a longer path, or scale it");

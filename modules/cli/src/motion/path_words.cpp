@@ -74,6 +74,7 @@ Laid lay(const bend::Body& body, const PathOptions& words) {
 
 void report_path(Report& report, const Laid& laid, const PathOptions& words) {
     const auto error = static_cast<double>(laid.fit.error);
+    constexpr double rounding = 1e-9;  // of the body's length
     report.json["path"] = {{"file", words.file.string()},
                            {"length", laid.length},
                            {"scale", laid.scale},
@@ -82,7 +83,8 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
                            {"clamped", laid.fit.clamped},
                            {"transform", rows_of(laid.fit.transform)}};
     report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
-                            number(words.start) + ": the center line is within " + number(error) + " of it");
+                            number(words.start) + ": the center line is within " +
+                            number(error < rounding * laid.body_length ? 0 : error) + " of it");
     constexpr double much_longer = 8;
     if (const double ratio = laid.length / laid.body_length; ratio > much_longer)
         report.line("", "the path is " + number(ratio) +

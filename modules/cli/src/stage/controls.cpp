@@ -226,7 +226,7 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         const BindWords& words = now.bind;
         add_unless("profile", words.profile, usual.profile);
         if (words.folds) add("folds", *words.folds);
-        if (words.fold_length) add("fold-length", number(*words.fold_length));
+        if (words.fold_length && !words.folds) add("fold-length", number(*words.fold_length));
         add_unless("amplitude", words.amplitude, usual.amplitude);
         add_unless("shape", words.shape, usual.shape);
         add_unless("roundness", number(words.roundness), number(usual.roundness));

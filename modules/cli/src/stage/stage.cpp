@@ -4,6 +4,7 @@
 #include "deformed.hpp"
 #include "local_area.hpp"
 #include "looks.hpp"
+#include "poses.hpp"
 
 #include <goffer/bend/bounds.hpp>
 #include <goffer/measure/timer.hpp>
@@ -258,7 +259,7 @@ void Stage::show_all(draw::OrbitCamera& camera, float aspect) const {
     }
     glm::vec3 toward(0.12f, 1.0f, -0.85f), up(0, 0, 1);
     if (!crowd_) {
-        const Sight sight = sight_of(model().binding.body, loaded_->targets[0].pose, {});
+        const Sight sight = sight_of(model().binding.body, poses_of(loaded_->targets), {});
         toward = sight.toward;
         up = sight.up;
         for (const glm::vec3& position : model().rest.positions) all = united(all, {position, position});
