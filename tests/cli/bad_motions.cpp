@@ -120,6 +120,13 @@ TEST_CASE("animate: what is refused, in one line, and nothing written") {
     refused(folder, 1, to + Words{"--keys", "long.csv"}, {"long.csv", "more than a million frames"});
     folder.write("nan.csv", "time,angle\n0,0\n1,nan\n");
     refused(folder, 1, to + Words{"--keys", "nan.csv"}, {"nan.csv: line 3: 'nan' is not a number"});
+    std::string points;
+    for (int i = 0; i <= 100'000; ++i) points += std::to_string(i) + " 0 0\n";
+    folder.write("many.txt", points);
+    refused(folder, 1, to + Words{"--path", "many.txt"},
+            {"many.txt", "100001 points; give it 100000 at most"});
+    folder.write("large.txt", std::string((8 << 20) + 1, ' '));
+    refused(folder, 1, to + Words{"--path", "large.txt"}, {"large.txt: has more than 8 MiB"});
     folder.write("nul.txt", std::string("0 0 0\n1 1 \0"
                                         "1\n",
                                         13));

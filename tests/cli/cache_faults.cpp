@@ -82,6 +82,12 @@ TEST_CASE("cache: columns that do not fit, or are no numbers") {
     well(folder, cache_words("good"));
     folder.write("poses.csv", numbers + "1");
     refused(folder, 1, cache_words("cache"), {"poses.csv", "19 numbers", "9 frames x 1 instances"});
+    folder.write("poses.csv", "1e-50" + numbers.substr(3));
+    well(folder, cache_words("tiny"));
+    folder.write("poses.csv", "1e50" + numbers.substr(3));
+    const Result huge = run(folder, cache_words("huge"));
+    CHECK(huge.code == 1);
+    CHECK(huge.err.find("poses.csv: number 0") != std::string::npos);
     folder.write("poses.csv", numbers + "one");
     refused(folder, 1, cache_words("cache"), {"poses.csv", "'one'"});
     scene["instances"][0]["poses"] = "poses.f32";

@@ -203,6 +203,42 @@ TEST_CASE("materials and textures of a model are no place for an output") {
     CHECK(bytes_of(folder / "t.png") == "a picture");
 }
 
+TEST_CASE("animate: a sequence replaces nothing that its model names, and no report its materials") {
+    const Folder folder;
+    base(folder, "base.obj");
+    folder.write("m.obj", "mtllib m_2.mtl\nusemtl a\n" + bytes_of(folder / "base.obj"));
+    folder.write("m_2.mtl", "newmtl a\nmap_Kd m_0001.png\n");
+    folder.write("m_0001.png", "a picture");
+    const Words animate{"animate", "m.obj", "--swing", "9", "--frames", "2", "-o"};
+    refused(folder, 2, animate + Words{"m_%04d.png"}, {"-o", "replace", "MODEL"});
+    refused(folder, 2, animate + Words{"m_%d.obj"}, {"-o", "replace", "MODEL"});
+    refused(folder, 2, animate + Words{"f_%d.obj", "--json", "f_2.mtl"}, {"-o", "replace", "--json"});
+    CHECK(bytes_of(folder / "m_0001.png") == "a picture");
+    well(folder, animate + Words{"m_%d.ply"});
+}
+
+TEST_CASE("two outputs are two files, whatever links lead there") {
+    const Folder folder;
+    base(folder);
+    std::filesystem::create_symlink("out.ply", folder / "report.json");
+    const Result result = run(folder, {"bend", "base.ply", "-o", "out.ply", "--json", "report.json"});
+    CHECK(result.code == 2);
+    CHECK(result.err.find("--json: report.json would replace the file of -o") != std::string::npos);
+    CHECK(!std::filesystem::exists(folder / "out.ply"));
+}
+
+TEST_CASE("cache: what it is made from does not lie in its folder") {
+    const Folder folder;
+    nlohmann::json scene = scene_in(folder);
+    write(folder, scene);
+    well(folder, cache_words("cache"));
+    std::filesystem::copy_file(folder / "worm.ply", folder / "cache/shard-000009.gofferc");
+    scene["bodies"]["worm"]["file"] = "cache/shard-000009.gofferc";
+    write(folder, scene);
+    refused(folder, 1, cache_words("cache"),
+            {"cache/shard-000009.gofferc", "lies in the folder of the cache"});
+}
+
 TEST_CASE("cache: whichever way leads to the scene's folder, the cache is the same") {
     const Folder folder;
     nlohmann::json scene = scene_in(folder);

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,22 @@ TEST_CASE("bake: errors name the level and what is wrong with it") {
     level = fine.level();
     level.mesh.triangles = triangles;
     CHECK(error_of({level}).starts_with("levels[0].triangles[1]: vertex 100000 of "));
+    fit::Binding binding = bound_mesh(random_mesh(random, 12, 2), nullptr, some_options(random, 2)).binding;
+    const std::size_t count = binding.body.vertex_count();
+    const auto ordered = [&](std::vector<std::uint32_t> order) {
+        binding.order = std::move(order);
+        level = {.binding = &binding};
+        return error_of({level});
+    };
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    CHECK(ordered(order) != ordered({1, 2, 3}));
+    CHECK(ordered({1, 2, 3}).starts_with("levels[0].binding: its order has 3 vertices"));
+    order[2] = 0xfffffff0;
+    CHECK(ordered(order).starts_with("order[2]: vertex 4294967280 of "));
+    order[2] = 1;
+    CHECK(ordered(order).starts_with("order[2]: vertex 1 a second time"));
+    CHECK_THROWS_AS((void)binding.vertices_in_body(), fit::Error);
 }
 
 }  // namespace goffer::test

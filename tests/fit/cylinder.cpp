@@ -466,6 +466,8 @@ TEST_CASE("check of a cylinder names the field at fault") {
         CHECK(says(said_of([&](Cylinder& c) { c.radius = bad; }), "beyond what a mesh"));
         CHECK(says(said_of([&](Cylinder& c) { c.radii = {bad, bad}; }), "beyond what a mesh"));
     }
+    CHECK(says(said_of([&](Cylinder& c) { c.radii = {1e-5, 0.2 - 1e-5}; }), "a thousandth of it"));
+    CHECK(said_of([&](Cylinder& c) { c.radii = {1.01e-4, 0.2 - 1.01e-4}; }) == "");
     CHECK(says(said_of([&](Cylinder& c) { c.origin.z = -1e41; }), "beyond what a mesh"));
     CHECK(says(said_of([&](Cylinder& c) { c.rest_angle = nan; }), "rest_angle"));
     for (const double bad : {-1e-9, 5.0, 6.3, HUGE_VAL})  // length / (2 radius) is 5

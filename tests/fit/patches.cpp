@@ -96,6 +96,9 @@ TEST_CASE("patches: what does not fit is refused") {
               return fit::vertex_change(solid.geometry(), positions.first(3));
           }).starts_with("positions: 3 for "));
     CHECK(error_of([&] {
+              return fit::patches_of(solid.geometry(), {}, {.slices = 65536, .sides = 17});
+          }).ends_with("are more than 1048576 patches; give fewer"));
+    CHECK(error_of([&] {
               return fit::patch_change(solid.geometry(), positions, std::span(patches).first(2));
           }).starts_with("patches: 2 for "));
 }

@@ -104,6 +104,32 @@ TEST_CASE("atomic file: what is write-protected stays") {
     CHECK(folder.files() == 1);
 }
 
+TEST_CASE("atomic file: in a sticky folder, what is another user's is refused at once") {
+    const Folder folder;
+    if (geteuid() != 0) {
+        MESSAGE("skipped: root alone can make files of other users");
+        return;
+    }
+    constexpr uid_t one = 1001, other = 1002;
+    const fs::path file = folder.write("a", "old");
+    fs::permissions(file, fs::perms::all);
+    REQUIRE(chown(file.c_str(), one, one) == 0);
+    const auto refused_to = [&](uid_t user, fs::perms permissions) {
+        fs::permissions(folder / "", permissions);
+        const int status = status_of([&] {
+            if (seteuid(user) != 0) _exit(2);
+            _exit(tells(message_of<Error>([&] { const AtomicFile probe(file); }), "another user's") ? 1 : 0);
+        });
+        REQUIRE(WIFEXITED(status));
+        return WEXITSTATUS(status);
+    };
+    const fs::perms shared = fs::perms::all | fs::perms::sticky_bit;
+    CHECK(refused_to(other, shared) == 1);
+    CHECK(refused_to(one, shared) == 0);
+    CHECK(refused_to(0, shared) == 0);
+    CHECK(refused_to(other, fs::perms::all) == 0);
+}
+
 TEST_CASE("atomic file: when the disk is full nothing is left behind and the old file stays") {
     const Folder folder;
     folder.write("a", "old");

@@ -16,6 +16,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -150,7 +151,7 @@ std::filesystem::path resolved(const std::filesystem::path& file) {
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(file, error);
     if (error) throw InputError("the working folder is not there any more; change to one that is");
-    const std::filesystem::path place = std::filesystem::weakly_canonical(absolute, error);
+    const std::filesystem::path place = std::filesystem::weakly_canonical(io::link_target(absolute), error);
     return error ? file : place;
 }
 
@@ -240,20 +241,20 @@ void check_output(const std::filesystem::path& file) {
     const io::AtomicFile probe(file);
 }
 
-namespace {
-
-/// Returns the files that a model names. Where it cannot be read, reading it says why.
-std::vector<std::filesystem::path> files_named_by(const std::filesystem::path& file) {
-    const std::string ending = io::ending_of(file);
-    if (ending != ".gltf" && ending != ".glb" && ending != ".obj") return {};
-    try {
-        return mesh::named_files(file, {.allow_outside = true});
-    } catch (const mesh::Error&) {
-        return {};
+std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs) {
+    std::vector<NamedFile> files;
+    for (const NamedFile& input : inputs) {
+        const std::string ending = io::ending_of(input.file);
+        if (ending != ".gltf" && ending != ".glb" && ending != ".obj") continue;
+        try {
+            for (std::filesystem::path& named : mesh::named_files(input.file, {.allow_outside = true}))
+                files.push_back({input.option, std::move(named)});
+        } catch (const mesh::Error&) {
+            continue;
+        }
     }
+    return files;
 }
-
-}  // namespace
 
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
@@ -263,10 +264,7 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
         std::error_code error;
         return is_file(output) && std::filesystem::exists(output.file, error);
     });
-    for (const NamedFile& input : may_replace ? inputs : std::vector<NamedFile>{}) {
-        for (std::filesystem::path& named : files_named_by(input.file))
-            taken.push_back({input.option, std::move(named)});
-    }
+    if (may_replace) std::ranges::move(files_named_by(inputs), std::back_inserter(taken));
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {
             if (!is_file(output) || !is_file(other) || resolved(output.file) != resolved(other.file))
@@ -282,12 +280,14 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
     }
 }
 
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    const std::filesystem::path relative = resolved(file).lexically_relative(resolved(folder / ""));
+    return !relative.empty() && *relative.begin() != "..";
+}
+
 void check_outside(const std::filesystem::path& folder, const std::vector<NamedFile>& outputs) {
-    const std::filesystem::path place = resolved(folder / "");
     for (const NamedFile& output : outputs) {
-        if (output.file.empty() || output.file == "-") continue;
-        const std::filesystem::path relative = resolved(output.file).lexically_relative(place);
-        if (relative.empty() || *relative.begin() == "..") continue;
+        if (output.file.empty() || output.file == "-" || !lies_in(output.file, folder)) continue;
         throw UsageError(std::string(output.option) + ": " + output.file.string() +
                          " would lie in the folder of the cache; put it elsewhere");
     }

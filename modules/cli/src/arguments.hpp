@@ -88,8 +88,15 @@ struct NamedFile {
     std::filesystem::path file;  ///< empty or "-": none
 };
 
+/// Returns the files that models among `inputs` name, each for the option of its model. Those of one that
+/// cannot be read are left out, which reading it reports.
+[[nodiscard]] std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs);
+
 /// Refuses (UsageError) an output in the place of an input or of another output.
 void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+/// Whether a file lies in a folder, or below it.
+[[nodiscard]] bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 /// Throws UsageError where an output would lie in the folder of a cache, or below it.
 void check_outside(const std::filesystem::path& folder, const std::vector<NamedFile>& outputs);

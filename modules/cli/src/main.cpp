@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
     } catch (const UsageError& error) {
         return complain(wrong_usage, error.what());
     } catch (const std::bad_alloc&) {
-        return complain(failed, "not enough memory for this; use a smaller mesh");
+        return complain(failed, "not enough memory for this; use smaller files");
     } catch (const std::exception& error) {
         return complain(failed, error.what());
     }
@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
         goffer::cli::heed_signals();
         return goffer::cli::run(argc, argv);
     } catch (...) {  // not even a message could be put together
-        std::fputs("goffer: not enough memory for this; use a smaller mesh\n", stderr);
+        std::fputs("goffer: not enough memory for this; use smaller files\n", stderr);
         return 1;
     }
 }

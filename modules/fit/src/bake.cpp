@@ -40,8 +40,11 @@ void check_counts(const bend::DrawMesh& mesh, std::size_t vertices, std::size_t 
 
 /// `mesh` in the body's order, of which `memory` holds what had to be moved.
 bend::DrawMesh in_body_order(const bend::DrawMesh& mesh, const std::vector<std::uint32_t>& order,
-                             Sorted& memory) {
+                             std::size_t vertices, std::size_t level, Sorted& memory) {
     if (order.empty()) return mesh;
+    if (order.size() != vertices)
+        refuse(level, "binding: its order has " + std::to_string(order.size()) + " vertices, and its body " +
+                          std::to_string(vertices) + "; give what bind returned");
     const std::vector<std::uint32_t> place = places_in_body(order);
     memory.triangles.reserve(mesh.triangles.size());
     for (const std::uint32_t vertex : mesh.triangles) memory.triangles.push_back(place[vertex]);
@@ -58,8 +61,9 @@ std::vector<std::byte> bake(const BakeInput& input) {
     for (std::size_t i = 0; i < input.levels.size(); ++i) {
         const auto& [binding, mesh] = input.levels[i];
         if (binding == nullptr) refuse(i, "binding: null; give what bind returned");
-        check_counts(mesh, binding->body.vertex_count(), i);
-        levels.push_back({&binding->body, in_body_order(mesh, binding->order, memory[i])});
+        const std::size_t vertices = binding->body.vertex_count();
+        check_counts(mesh, vertices, i);
+        levels.push_back({&binding->body, in_body_order(mesh, binding->order, vertices, i, memory[i])});
     }
     bend::BodyFileFault fault;
     std::vector<std::byte> bytes = bend::save({levels, input.materials, input.sockets, input.notes}, &fault);

@@ -327,6 +327,7 @@ Binding bind_level(const Geometry& level, const Binding& rig) {
     check(level);
     if (rig.body.empty() || rig.body.region_count() != rig.regions.size())
         throw Error("rig: its body is empty or does not have its regions; give what bind returned");
+    check(rig.cylinder);
     const std::vector<RestRegion> places = rest_regions(rig);
     RestMesh mesh = rest_mesh(level, rig.cylinder, rig.profile, places, rig.parts.get());
     apply_mask(level, rig.cylinder, mesh);

@@ -157,7 +157,13 @@ void check_rest_angle(const Cylinder& cylinder) {
 
 void check_radii(const Cylinder& cylinder) {
     if (cylinder.radii.empty()) return;
-    for (const double radius : cylinder.radii) check_size(radius, "one of the radii");
+    constexpr double least = 1e-3;  // of the mean
+    for (const double radius : cylinder.radii) {
+        check_size(radius, "one of the radii");
+        if (radius < least * cylinder.radius)
+            throw Error("cylinder: one of the radii is " + text(radius) + ", and radius is " +
+                        text(cylinder.radius) + "; give a thousandth of it at least");
+    }
     const std::size_t count = cylinder.radii.size();
     if (count < 2) throw Error("cylinder: radii has one value; give two or more, or none");
     const double mean = paper::Spline(cylinder.length, cylinder.radii).mean();

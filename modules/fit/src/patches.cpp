@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -42,6 +43,10 @@ std::vector<std::uint32_t> patches_of(const Geometry& geometry, const Cylinder& 
     if (grid.slices < 1 || grid.slices > most || grid.sides < 1 || grid.sides > most)
         throw Error("patches: " + std::to_string(grid.slices) + " slices of " + std::to_string(grid.sides) +
                     " sides; give numbers within 1.." + std::to_string(most));
+    constexpr std::int64_t most_patches = std::int64_t{1} << 20;
+    if (std::int64_t{grid.slices} * grid.sides > most_patches)
+        throw Error("patches: " + std::to_string(grid.slices) + " slices of " + std::to_string(grid.sides) +
+                    " sides are more than " + std::to_string(most_patches) + " patches; give fewer");
     const Straightening straightening(cylinder);
     std::vector<std::uint32_t> patches;
     for (std::size_t t = 0; t < geometry.triangles.size(); t += 3) {

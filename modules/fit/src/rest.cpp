@@ -346,8 +346,17 @@ bend::RestVertex rest_vertex(const paper::Cylindrical& at, const RestRegion& reg
 }
 
 std::vector<std::uint32_t> places_in_body(std::span<const std::uint32_t> order) {
-    std::vector<std::uint32_t> places(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::vector<std::uint32_t> places(order.size(), none);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t vertex = order[i];
+        if (vertex >= places.size() || places[vertex] != none)
+            throw Error(
+                "order[" + std::to_string(i) + "]: vertex " + std::to_string(vertex) +
+                (vertex >= places.size() ? " of " + std::to_string(places.size()) : " a second time") +
+                "; give the order that bind returned");
+        places[vertex] = static_cast<std::uint32_t>(i);
+    }
     return places;
 }
 

@@ -17,14 +17,6 @@ namespace fs = std::filesystem;
     throw Error(about(file, what));
 }
 
-fs::path followed(fs::path target) {
-    std::error_code error;
-    constexpr int max_links = 40;  // as many as systems follow; what is still a link then is a loop
-    for (int i = 0; i < max_links && fs::is_symlink(target, error); ++i)
-        target = target.parent_path() / fs::read_symlink(target, error);
-    return target;
-}
-
 fs::path folder_of(const fs::path& target) {
     return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
@@ -46,11 +38,21 @@ void refuse_unwritable(const fs::path& target) {
     std::FILE* existing = std::fopen(target.string().c_str(), "r+b");
     if (!existing) fail(target, "is write-protected; give another name or change its permissions");
     std::fclose(existing);
+    if (!may_replace(folder, target))
+        fail(target, "is another user's, in a folder where only owners replace files; give another name");
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(followed(std::move(target))) {
+fs::path link_target(fs::path file) {
+    std::error_code error;
+    constexpr int max_links = 40;  // as many as systems follow; what is still a link then is a loop
+    for (int i = 0; i < max_links && fs::is_symlink(file, error); ++i)
+        file = file.parent_path() / fs::read_symlink(file, error);
+    return file;
+}
+
+AtomicFile::AtomicFile(fs::path target) : target_(link_target(std::move(target))) {
     refuse_unwritable(target_);
     remove_stale_parts(folder_of(target_));
     PartFile part = open_part(folder_of(target_));

@@ -128,6 +128,10 @@ void forget_part(int noted) {
 
 void remove_stale_parts(const fs::path&) {}
 
+bool may_replace(const fs::path&, const fs::path&) {
+    return true;
+}
+
 bool synchronize(std::FILE* stream) {
     return std::fflush(stream) == 0 && _commit(_fileno(stream)) == 0;
 }
@@ -144,6 +148,15 @@ void remove_stale_parts(const fs::path& folder) {
         const std::string name = entry->d_name;
         if (const int process = process_of(name)) remove_if_stale(folder / name, process);
     }
+}
+
+bool may_replace(const fs::path& folder, const fs::path& file) {
+    struct stat around {
+    }, old{};
+    if (stat(folder.c_str(), &around) != 0 || lstat(file.c_str(), &old) != 0) return true;
+    const uid_t user = geteuid();
+    const bool sticky = (around.st_mode & S_ISVTX) != 0;
+    return !sticky || user == 0 || user == around.st_uid || user == old.st_uid;
 }
 
 bool synchronize(std::FILE* stream) {

@@ -25,6 +25,10 @@ void forget_part(int noted);
 /// Removes the parts in `folder` that a process which is gone has left.
 void remove_stale_parts(const std::filesystem::path& folder);
 
+/// Whether this process may move a file over `file` in `folder`, both of which are there: false where the
+/// folder is sticky, as /tmp is, and neither is its own.
+[[nodiscard]] bool may_replace(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// Waits until the disk has what was written. Returns false with errno.
 [[nodiscard]] bool synchronize(std::FILE* stream);
 

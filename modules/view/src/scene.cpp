@@ -15,6 +15,13 @@ namespace {
 
 constexpr float clearance = 2e-5f;  // between a surface and the rays that leave it; the scene is 2 long
 
+/// What Embree reports, in words.
+std::string words_of(RTCError error) {
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        return "there is not enough memory; free some, or use a smaller mesh";
+    return "Embree error " + std::to_string(error);
+}
+
 bool finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -142,9 +149,7 @@ Scene::Scene(std::span<const Model> models, std::span<const glm::vec3> also) {
         throw Error("nothing to see: all vertices are in one point; give a mesh with an extent");
 
     device_.reset(rtcNewDevice(nullptr));
-    if (!device_)
-        throw Error("the renderer does not start: Embree error " +
-                    std::to_string(rtcGetDeviceError(nullptr)));
+    if (!device_) throw Error("the renderer does not start: " + words_of(rtcGetDeviceError(nullptr)));
     solids_ = empty_scene(device_.get());
     for (const Model& model : models) bodies_.push_back({model, nullptr});
     for (std::size_t i = 0; i < models.size(); ++i) {
@@ -157,7 +162,7 @@ Scene::Scene(std::span<const Model> models, std::span<const glm::vec3> also) {
     commit(solids_.get());
     for (const EmbreeScene& ghost : ghosts_) commit(ghost.get());
     if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
-        throw Error("the models cannot be prepared for rendering: Embree error " + std::to_string(error));
+        throw Error("the models cannot be prepared for rendering: " + words_of(error));
 }
 
 const glm::vec3* Scene::add(RTCScene scene, std::size_t index, const glm::dvec3& center, double scale) {

@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 
+#include <goffer/io/ending.hpp>
 #include <goffer/io/error.hpp>
 
 #include <algorithm>
@@ -53,6 +54,14 @@ bool Pattern::holds(const std::filesystem::path& file) const {
         return resolved(folder.empty() ? "." : folder);
     };
     return number_of(file.filename().string()) && folder_of(file.parent_path()) == folder_of(folder_);
+}
+
+bool Pattern::writes(const std::filesystem::path& file) const {
+    const std::string ending = io::ending_of(this->file(0));
+    if (ending != ".obj") return holds(file);
+    Pattern materials = *this;
+    materials.after_ = after_.substr(0, after_.size() - ending.size()) + ".mtl";
+    return holds(file) || materials.holds(file);
 }
 
 void Pattern::check_places(std::size_t frames) const {

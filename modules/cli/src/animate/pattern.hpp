@@ -21,6 +21,9 @@ public:
     /// Whether `file` lies where a frame of the sequence would, whatever its number.
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
 
+    /// The same, or where an OBJ of the sequence would have its materials.
+    [[nodiscard]] bool writes(const std::filesystem::path& file) const;
+
     /// Throws InputError if there are files of the sequence beyond `frames`, which would be taken for its
     /// end, or a folder in the place of a frame.
     void check_places(std::size_t frames) const;

@@ -10,7 +10,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace goffer::cli {
@@ -181,8 +183,9 @@ void AnimateRequest::check_files(const AnimateOptions& options) const {
     check_places(inputs, outputs);
     std::vector<NamedFile> others = inputs;
     others.push_back({"--json", options.json});
+    if (pattern) std::ranges::move(files_named_by(inputs), std::back_inserter(others));
     for (const NamedFile& other : others) {
-        if (pattern && !other.file.empty() && pattern->holds(other.file))
+        if (pattern && !other.file.empty() && pattern->writes(other.file))
             throw UsageError("-o: " + options.output.string() + " would replace the file of " +
                              std::string(other.option) + "; give another name");
     }

@@ -79,11 +79,16 @@ void refuse_planless(const fs::path& folder) {
                                    "give a new folder to -o"));
 }
 
-/// Refuses a report that would replace what the cache is made from.
+/// Refuses a cache in whose folder lies what it is made from, and a report that would replace that.
 void check_report(const CacheRequest& request, const Scene& scene) {
     std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
     for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
     check_places(inputs, {{"--json", request.json}});
+    for (const fs::path& file : scene.files) {
+        if (lies_in(file, request.folder))
+            throw InputError(
+                io::about(file, "lies in the folder of the cache; put it, or the cache, elsewhere"));
+    }
 }
 
 bend::BodyFile loaded(const fs::path& file, const std::string& bytes) {

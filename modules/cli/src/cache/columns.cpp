@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -26,13 +27,16 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
         text.remove_prefix(std::min(text.find_first_not_of(between), text.size()));
         if (text.empty()) return numbers;
         const std::string_view word = text.substr(0, text.find_first_of(between));
-        float number = 0;
+        double number = 0;  // a float would refuse what it rounds to 0
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
         if (error != std::errc() || end != word.data() + word.size())
             throw InputError(io::about(file, "'" + io::escaped(word.substr(0, 40)) + "', after " +
                                                  std::to_string(numbers.size()) +
                                                  " numbers, is not a number; correct it"));
-        numbers.push_back(number);
+        constexpr double largest = std::numeric_limits<float>::max();
+        numbers.push_back(std::fabs(number) > largest
+                              ? std::numeric_limits<float>::infinity()  // refused by read()
+                              : static_cast<float>(number));
         text.remove_prefix(word.size());
     }
 }

@@ -27,9 +27,8 @@ using nlohmann::json;
 }
 
 std::string read_text(const std::filesystem::path& file) {
-    constexpr std::uint64_t most = std::uint64_t{64} << 20;
-    if (io::size_of_file(file) > most)
-        refuse(file, "has more than " + io::size_text(most) + "; give fewer keys or points");
+    if (io::size_of_file(file) > most_motion_text)
+        refuse(file, "has more than " + io::size_text(most_motion_text) + "; give fewer keys or points");
     std::string text = io::read_file(file);
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     return text;

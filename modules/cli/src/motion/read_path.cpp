@@ -9,6 +9,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double farthest = 1e9;
+constexpr std::size_t most_points = 100'000;  // of a path: they take a kilobyte each
 
 glm::dvec3 read_point(const json& value, double scale, const std::string& place) {
     if (!value.is_array() || value.size() != 3)
@@ -52,6 +53,9 @@ PathWords read_path(const json& document, double scale, const std::string& where
         fields.finish();
     }
     if (path.points.size() < 2) throw InputError(where + ": has fewer than two points; give it more");
+    if (path.points.size() > most_points)
+        throw InputError(where + ": has " + std::to_string(path.points.size()) + " points; give it " +
+                         std::to_string(most_points) + " at most");
     return path;
 }
 

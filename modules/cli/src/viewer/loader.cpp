@@ -55,7 +55,7 @@ void Loader::work() {
         try {
             answer.loaded = std::make_unique<Loaded>(load(*wish));
         } catch (const std::bad_alloc&) {
-            answer.error = "not enough memory for this; use a smaller mesh";
+            answer.error = "not enough memory for this; use a smaller file";
         } catch (const std::exception& error) {
             answer.error = error.what();
         }

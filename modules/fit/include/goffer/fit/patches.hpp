@@ -20,7 +20,7 @@ namespace goffer::fit {
 /// of them into sides of equal angle. The middle of side 0 is the zero of beta (e1), and sides go on toward
 /// e2.
 struct PatchGrid {
-    int slices = 12;  ///< 1..2^16
+    int slices = 12;  ///< 1..2^16, and at most 2^20 patches in all
     int sides = 4;    ///< 1..2^16
 };
 

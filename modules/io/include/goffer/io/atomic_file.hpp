@@ -14,6 +14,10 @@
 
 namespace goffer::io {
 
+/// Returns where a file of this name is written: symbolic links are followed, also those to what is not
+/// there. Thread-safe.
+[[nodiscard]] std::filesystem::path link_target(std::filesystem::path file);
+
 /// A file being written beside its place, as .goffer-PROCESS-NUMBER.part; `commit` moves it there. Without a
 /// commit (an error, an early return) nothing is left of it, and a file that was there before is as it was.
 /// Several outputs are kept together by AtomicFiles. One object belongs to one thread; several may have the
