@@ -476,8 +476,17 @@ TEST_CASE("gltf: outer buffers are found beside the document, by their decoded n
     const auto file = folder.write("d.gltf", document.gltf());
     CHECK(tells(error_of([&] { (void)load(file); }),
                 "buffers[0].uri: names 'a%20b.bin', which is not there; put it"));
+    std::filesystem::create_directory(folder / "a b.bin");
+    CHECK(tells(error_of([&] { (void)load(file); }), "'a%20b.bin', which is no regular file; put it"));
+    std::filesystem::remove(folder / "a b.bin");
     folder.write("a b.bin", document.buffer + "and more");
     CHECK(load(file).positions[3] == glm::vec3(0, 0, 3));
+    for (int i = 0; i < 50; ++i) document.json["images"].push_back({{"uri", "gone.png"}});
+    folder.write("d.gltf", document.gltf());
+    const std::vector<std::string> warnings = load(file).warnings;
+    REQUIRE(warnings.size() == 21);
+    CHECK(warnings[19].starts_with("a texture is missing: images[19].uri"));
+    CHECK(warnings[20] == "so it is with 30 more of its textures");
     folder.write("a b.bin", document.buffer.substr(1));
     CHECK(tells(error_of([&] { (void)load(file); }), "copy it again"));
     document.json["buffers"][0]["uri"] = "https://example.com/a.bin";

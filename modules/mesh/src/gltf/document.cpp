@@ -115,7 +115,8 @@ std::string read_outer(const Value& uri, const io::NamedFiles& files, std::uint6
     const std::filesystem::path& file = *place;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
-        uri.fail("names " + mesh::quoted(uri.text()) + ", which is not there; put it beside the document");
+        const char* const what = std::filesystem::exists(file, error) ? "no regular file" : "not there";
+        uri.fail("names " + mesh::quoted(uri.text()) + ", which is " + what + "; put it beside the document");
     }
     const std::uint64_t present = std::filesystem::file_size(file, error);
     if (error || present < size) {
@@ -272,6 +273,12 @@ std::vector<std::string> missing_images(const Document& document) {
             missing.push_back("a texture is missing: " + names +
                               ", which is not there; put it beside the document");
         }
+    }
+    constexpr std::size_t most = 20;
+    if (missing.size() > most) {
+        const std::size_t more = missing.size() - most;
+        missing.resize(most);
+        missing.push_back("so it is with " + std::to_string(more) + " more of its textures");
     }
     return missing;
 }

@@ -52,7 +52,9 @@ double Value::number() const {
 
 std::uint64_t Value::whole() const {
     const double value = number();
-    if (!(value >= 0.0 && value <= largest_whole) || value != std::floor(value)) {
+    if (value > largest_whole)
+        fail("is " + json_->dump() + ", more than any file has; export the file again");
+    if (!(value >= 0.0) || value != std::floor(value)) {
         fail("is " + json_->dump() + ", expected a whole number of 0 or more; export the file again");
     }
     return static_cast<std::uint64_t>(value);
