@@ -18,13 +18,13 @@ const char* answered(Page& page, const Work& work) {
         try {
             page.answer = Json(work()).dump(-1, ' ', false, Json::error_handler_t::replace);
         } catch (const std::bad_alloc&) {
-            page.answer = R"({"error": "not enough memory for this; use a smaller mesh"})";
+            page.answer = R"({"error": "not enough memory for this; use a smaller file"})";
         } catch (const std::exception& error) {
             page.answer = Json{{"error", error.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
         }
         return page.answer.c_str();
     } catch (...) {
-        return R"({"error": "not enough memory for this; use a smaller mesh"})";
+        return R"({"error": "not enough memory for this; use a smaller file"})";
     }
 }
 

@@ -87,7 +87,8 @@ TEST_CASE("cache: columns that do not fit, or are no numbers") {
     folder.write("poses.csv", "1e50" + numbers.substr(3));
     const Result huge = run(folder, cache_words("huge"));
     CHECK(huge.code == 1);
-    CHECK(huge.err.find("poses.csv: number 0") != std::string::npos);
+    CHECK(huge.err.find("poses.csv: '1e50', after 0 numbers, is more than a 32-bit float holds") !=
+          std::string::npos);
     folder.write("poses.csv", numbers + "one");
     refused(folder, 1, cache_words("cache"), {"poses.csv", "'one'"});
     scene["instances"][0]["poses"] = "poses.f32";
@@ -138,7 +139,10 @@ TEST_CASE("cache: folders and words that are none") {
     refused(folder, 2, {"cache", "--extract", "1", "-o", "a.ply", "x"}, {"--extract", "'1'"});
     refused(folder, 1, {"cache", "--verify", "x"}, {"x: there is no such folder"});
     refused(folder, 1, {"cache", "--verify", "."}, {"manifest.json"});
-    refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "x"}, {"plan.json"});
+    refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "x"}, {"x: there is no such folder"});
+    std::filesystem::create_directory(folder / "empty");
+    refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "empty"}, {"plan.json"});
+    refused(folder, 1, {"cache", "--verify", "scene.json"}, {"scene.json: is no folder"});
     refused(folder, 2, cache_words("scene.json"), {"scene.json"});
 }
 

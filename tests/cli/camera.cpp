@@ -101,6 +101,15 @@ TEST_CASE("pictures: the plane that a body bends in is that of all its regions")
     CHECK(differ(seen("0,-70", "0,270"), bent, false, false) < 0.01);
     CHECK(differ(seen("10,70", "0,90"), bent, false, false) < 0.1);
     CHECK(differ(seen("0,70", "0,90"), seen("70,0", "90,0"), false, false) > 0.2);
-    // An S lies in its plane, too.
-    CHECK(differ(seen("50,-50", "90,90"), seen("50,50", "90,270"), false, false) < 0.01);
+    // An S lies in its plane, too, whichever way its directions are said.
+    const Pixels s_shape = seen("50,-50", "90,90");
+    for (const std::string directions : {"-270,450", "450,-270"})
+        CHECK(differ(seen("50,-50", directions), s_shape, false, false) < 0.01);
+    CHECK(differ(seen("50,50", "90,270"), s_shape, false, false) < 0.01);
+    CHECK(differ(seen("50,-50", "270,270"), seen("50,-50", "-90,-90"), false, false) < 0.01);
+    CHECK(differ(seen("50,-50", "0,0"), seen("-50,50", "180,180"), false, false) < 0.01);
+    // Where no plane is nearest, a little more or less of a bend makes no other picture.
+    const Pixels corner = seen("60,60", "0,90");
+    CHECK(differ(seen("60,60.01", "0,90"), corner, false, false) < 0.01);
+    CHECK(differ(seen("60.01,60", "0,90"), corner, false, false) < 0.01);
 }

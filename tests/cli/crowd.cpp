@@ -232,6 +232,15 @@ TEST_CASE("crowd: a straight chain is not straightened, and more than a full tur
         CHECK(round["warnings"][0].get<std::string>().find("more than a full turn") != std::string::npos);
     }
     CHECK(crowd(folder, {"--regions", "0.5,0.5", "--angles", "200,-200"})["warnings"] == json::array());
+    // From rest, instances swing each its own way: some, the way that the body is bent.
+    for (const std::string direction : {"0", "90"}) {
+        CAPTURE(direction);
+        well(folder, {"bend", "base.ply", "--angle", "200", "--direction", direction, "--amplitude", "none",
+                      "-o", "bent.ply"});
+        for (const std::string angle : {"200", "-200"})
+            CHECK(report(folder, {"crowd", "bent.ply", "--instances", "2", "--frames", "1", "--from-rest",
+                                  "--angle", angle})["models"][0]["beyond_full_turn"] == true);
+    }
 }
 
 TEST_CASE("crowd: a body that is bent at rest") {

@@ -215,6 +215,19 @@ TEST_CASE("animate: a sequence replaces nothing that its model names, and no rep
     refused(folder, 2, animate + Words{"f_%d.obj", "--json", "f_2.mtl"}, {"-o", "replace", "--json"});
     CHECK(bytes_of(folder / "m_0001.png") == "a picture");
     well(folder, animate + Words{"m_%d.ply"});
+    std::filesystem::rename(folder / "m_2.ply", folder / "kept.ply");
+    const std::string kept = bytes_of(folder / "kept.ply");
+    const Words again{"animate", "kept.ply", "--swing", "9", "--frames", "2", "-o"};
+    std::filesystem::create_symlink("kept.ply", folder / "m_2.ply");
+    CHECK(run(folder, again + Words{"m_%d.ply"}).err.find("m_2.ply") != std::string::npos);
+    std::filesystem::create_symlink("g_1.ply", folder / "report.json");
+    CHECK(run(folder, again + Words{"g_%d.ply", "--json", "report.json"}).code == 2);
+    std::filesystem::rename(folder / "kept.ply", folder / "g_2.ply");
+    std::filesystem::create_symlink("g_2.ply", folder / "kept.ply");
+    CHECK(run(folder, again + Words{"g_%d.ply"}).code == 2);
+    std::filesystem::create_symlink("m_2.mtl", folder / "h_1.mtl");
+    CHECK(run(folder, again + Words{"h_%d.obj"}).err.find("h_1.mtl: is a link") != std::string::npos);
+    CHECK(bytes_of(folder / "g_2.ply") == kept);
 }
 
 TEST_CASE("two outputs are two files, whatever links lead there") {

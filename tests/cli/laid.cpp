@@ -87,10 +87,11 @@ TEST_CASE("bend: on a path, nothing is said of angles that nobody gave") {
     const Folder folder;
     base(folder);
     well(folder, {"bend", "base.ply", "--angle", "70", "--amplitude", "none", "-o", "bent.ply"});
-    folder.write("line.txt", "0 0 0\n0 0 12\n");
+    folder.write("line.txt", "0 0 0\n3 7 10\n");
     const Result result = run(folder, {"bend", "bent.ply", "-o", "out.ply", "--path", "line.txt"});
     CHECK(result.out.find("this straightens 8 of 8 regions") != std::string::npos);
     CHECK(result.out.find("--by") == std::string::npos);
+    CHECK(result.out.find("are absolute") == std::string::npos);
     // Rounding reads as 0.
     const Result straight = run(folder, {"bend", "base.ply", "-o", "out.ply", "--path", "line.txt"});
     CHECK(straight.out.find("the center line is within 0 of it") != std::string::npos);

@@ -152,4 +152,6 @@ TEST_CASE("bend: shares that are rounded make a whole") {
     const mesh::Mesh equal =
         bent_mesh(folder, {"--regions", "0.3333333,0.3333333,0.3333334", "--angles", "60,0,-30"});
     CHECK(farthest(thirds, equal) < 1e-5);
+    well(folder,
+         {"bend", "base.ply", "--regions", "0.167,0.167,0.167,0.167,0.167,0.167", "-o", "sixths.ply"});
 }

@@ -171,9 +171,9 @@ TEST_CASE("bake: errors name the level and what is wrong with it") {
     CHECK(ordered(order) != ordered({1, 2, 3}));
     CHECK(ordered({1, 2, 3}).starts_with("levels[0].binding: its order has 3 vertices"));
     order[2] = 0xfffffff0;
-    CHECK(ordered(order).starts_with("order[2]: vertex 4294967280 of "));
+    CHECK(ordered(order).starts_with("levels[0].binding: order[2]: vertex 4294967280 of "));
     order[2] = 1;
-    CHECK(ordered(order).starts_with("order[2]: vertex 1 a second time"));
+    CHECK(ordered(order).starts_with("levels[0].binding: order[2]: vertex 1 a second time"));
     CHECK_THROWS_AS((void)binding.vertices_in_body(), fit::Error);
 }
 

@@ -486,7 +486,7 @@ TEST_CASE("gltf: outer buffers are found beside the document, by their decoded n
     const std::vector<std::string> warnings = load(file).warnings;
     REQUIRE(warnings.size() == 21);
     CHECK(warnings[19].starts_with("a texture is missing: images[19].uri"));
-    CHECK(warnings[20] == "so it is with 30 more of its textures");
+    CHECK(warnings[20] == "30 more images are missing or are not looked at");
     folder.write("a b.bin", document.buffer.substr(1));
     CHECK(tells(error_of([&] { (void)load(file); }), "copy it again"));
     document.json["buffers"][0]["uri"] = "https://example.com/a.bin";

@@ -41,7 +41,7 @@ inline MeshRecipe recipe(const mesh::Mesh& mesh, int axis, int folds = 1) {
 }
 
 inline mesh::Mesh refined_along(const mesh::Mesh& mesh, int axis, int folds = 1) {
-    return mesh::refined(mesh, recipe(mesh, axis, folds).pieces());
+    return mesh::refined(mesh, recipe(mesh, axis, folds).made);
 }
 
 /// The mesh without the file that it came from, so that new vertices are behind all others.

@@ -98,7 +98,7 @@ void report_regions(Report& report, const bend::Body& body, Notes notes) {
                            ", bends by " + number(limit) + " degrees at most";
         if (notes.regions[r].capacity > 0)
             line += ", " + counted(static_cast<std::size_t>(notes.regions[r].folds), "fold");
-        if (rest != 0) line += ", bent at rest by " + number(rest) + " toward " + number(direction);
+        if (rest != 0) line += ", bent at rest by " + number(rest) + " toward " + angle_text(direction);
         report.line(r == 0 ? "body" : "", line);
     }
 }

@@ -32,22 +32,33 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
 }
 
 /// Which way a body bends, radians: that of its region, or that of the plane which the bends of several
-/// regions are nearest to, and toward the side that more of them is on.
+/// regions are nearest to, and toward the side that more of them is on. Where no plane is nearest, as of two
+/// equal bends at right angles, that of their sum; where it has no side, as of an S, that of the first bend.
 double main_direction(const bend::Body& body, std::span<const bend::Pose> poses) {
+    constexpr double clear = 1e-3;
     double x = 0, y = 0;            // the bends added up
     double cosines = 0, sines = 0;  // of twice their directions, which are those of planes
+    double sum = 0, squares = 0;
+    double first = static_cast<double>(poses[0].direction) + (poses[0].angle < 0 ? std::numbers::pi : 0);
     for (std::size_t r = 0; r < poses.size(); ++r) {
-        const double angle = std::copysign(used_angle(body, r, poses[r]), poses[r].angle);
-        const auto direction = static_cast<double>(poses[r].direction);
+        const double angle = used_angle(body, r, poses[r]);
+        const double direction =
+            static_cast<double>(poses[r].direction) + (poses[r].angle < 0 ? std::numbers::pi : 0);
+        if (sum == 0 && angle > 0) first = direction;
         x += angle * std::cos(direction);
         y += angle * std::sin(direction);
         cosines += angle * angle * std::cos(2 * direction);
         sines += angle * angle * std::sin(2 * direction);
+        sum += angle;
+        squares += angle * angle;
     }
-    if (poses.size() == 1 || (cosines == 0 && sines == 0))
-        return static_cast<double>(poses[0].direction) + (poses[0].angle < 0 ? std::numbers::pi : 0);
+    if (poses.size() == 1 || sum == 0) return first;
+    const bool plane_is_clear = std::hypot(cosines, sines) > clear * squares;
+    const bool side_is_clear = std::hypot(x, y) > clear * sum;
+    if (!plane_is_clear) return side_is_clear ? std::atan2(y, x) : first;
     const double plane = 0.5 * std::atan2(sines, cosines);
-    const bool other_side = x * std::cos(plane) + y * std::sin(plane) < 0;
+    const double toward = x * std::cos(plane) + y * std::sin(plane);
+    const bool other_side = std::fabs(toward) > clear * sum ? toward < 0 : std::cos(first - plane) < 0;
     return plane + (other_side ? std::numbers::pi : 0);
 }
 

@@ -34,9 +34,9 @@ std::vector<fit::RegionOptions> read_regions(const std::string& text) {
         regions.push_back({share, std::nullopt});
         sum += share;
     }
-    constexpr double rounded = 2e-3;  // as three times 0.333
+    const double rounding = 5.001e-4 * static_cast<double>(regions.size());  // of three digits each
     for (fit::RegionOptions& region : regions)
-        if (std::fabs(sum - 1) <= rounded) region.share /= sum;
+        if (std::fabs(sum - 1) <= rounding) region.share /= sum;
     try {
         fit::check(regions);
     } catch (const fit::Error& error) {
@@ -162,8 +162,9 @@ bool report_rest_pose(Report& report, const PoseRequest& request, const std::vec
     report.json["asked_from"] = request.from_rest ? "rest" : "straight";
     report.json["straightens"] = straightened > 0;
     if (rest == 0) return false;
-    report.line("angles",
-                "are absolute: 0 is straight, and " + rest_words(body) + " is the shape of the file");
+    if (!request.along_path)
+        report.line("angles",
+                    "are absolute: 0 is straight, and " + rest_words(body) + " is the shape of the file");
     if (straightened == 0) return false;
     if (request.from_rest) return true;
     const std::string which = targets.size() == 1

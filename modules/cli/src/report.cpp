@@ -68,7 +68,8 @@ std::string number(double value) {
 }
 
 std::string angle_text(double degrees) {
-    return number(std::fabs(degrees) < 1e-9 ? 0 : degrees);
+    constexpr double rounding = 1e-5;  // of floats
+    return number(std::fabs(degrees) < rounding ? 0 : degrees);
 }
 
 std::string percent(double fraction) {
@@ -152,13 +153,13 @@ void report_fit(Report& report, const fit::Cylinder& cylinder) {
                                       number(cylinder.length / cylinder.radius) + ")");
     if (cylinder.rest_angle != 0) {
         report.line("at rest", "bent by " + number(degrees(cylinder.rest_angle)) + " degrees toward " +
-                                   number(degrees(cylinder.rest_direction)));
+                                   angle_text(degrees(cylinder.rest_direction)));
     }
     for (std::size_t i = 0; i < cylinder.arcs.size(); ++i) {
         const fit::RestArc& arc = cylinder.arcs[i];
         report.line(i == 0 ? "at rest" : "", region_words(i, cylinder.arcs.size()) + "bent by " +
-                                                 number(degrees(arc.angle)) + " degrees toward " +
-                                                 number(degrees(arc.direction)));
+                                                 angle_text(degrees(arc.angle)) + " degrees toward " +
+                                                 angle_text(degrees(arc.direction)));
     }
     if (!cylinder.radii.empty()) {
         const auto [thinnest, thickest] = std::ranges::minmax(cylinder.radii);

@@ -45,7 +45,13 @@ bend::DrawMesh in_body_order(const bend::DrawMesh& mesh, const std::vector<std::
     if (order.size() != vertices)
         refuse(level, "binding: its order has " + std::to_string(order.size()) + " vertices, and its body " +
                           std::to_string(vertices) + "; give what bind returned");
-    const std::vector<std::uint32_t> place = places_in_body(order);
+    const std::vector<std::uint32_t> place = [&] {
+        try {
+            return places_in_body(order);
+        } catch (const Error& error) {
+            refuse(level, std::string("binding: ") + error.what());
+        }
+    }();
     memory.triangles.reserve(mesh.triangles.size());
     for (const std::uint32_t vertex : mesh.triangles) memory.triangles.push_back(place[vertex]);
     memory.uvs = sorted(mesh.uvs, order);

@@ -89,7 +89,7 @@ std::vector<RegionBinding> plan(const Geometry& geometry, const Cylinder& cylind
             found.back().folds_capacity = static_cast<int>(std::ceil(smooth * rest.back().folds.count)) +
                                           (low < high ? rows.folds(options.profile, low, high) : 0);
         }
-        // As long as the rows bear, each where it stands, folds may be more than there are of one length.
+        // Folds that are each as long as the rows there need may be more than folds of one length.
         if (even && !asked) found.back().folds_capacity = std::max(found.back().folds_capacity, plan.folds);
     }
     if (even && options.folds_over_joints && options.amplitude != Amplitude::area) {

@@ -118,9 +118,11 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
                     double length, std::optional<int> asked) {
     const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
     const std::vector<double> radii = radii_at(cylinder, start, length, knots);
+    BindOptions lengths = options;
+    if (asked) lengths.fold_length.reset();
     std::vector<double> wanted(knots);  // lengths of folds
     std::ranges::transform(radii, wanted.begin(),
-                           [&](double radius) { return fold_length_at(cylinder, options, radius); });
+                           [&](double radius) { return fold_length_at(cylinder, lengths, radius); });
     paper::Shape::Knots shape;
     shape.radius = radii_of(cylinder, start, length);  // as Straightening has them
     FoldPlan plan{asked.value_or(0)};

@@ -53,15 +53,23 @@ bool Pattern::holds(const std::filesystem::path& file) const {
     const auto folder_of = [](const std::filesystem::path& folder) {
         return resolved(folder.empty() ? "." : folder);
     };
-    return number_of(file.filename().string()) && folder_of(file.parent_path()) == folder_of(folder_);
+    const auto is_one = [&](const std::filesystem::path& place) {
+        return number_of(place.filename().string()) && folder_of(place.parent_path()) == folder_of(folder_);
+    };
+    return is_one(file) || is_one(resolved(file));
+}
+
+std::optional<Pattern> Pattern::materials() const {
+    const std::string ending = io::ending_of(file(0));
+    if (ending != ".obj") return std::nullopt;
+    Pattern materials = *this;
+    materials.after_ = after_.substr(0, after_.size() - ending.size()) + ".mtl";
+    return materials;
 }
 
 bool Pattern::writes(const std::filesystem::path& file) const {
-    const std::string ending = io::ending_of(this->file(0));
-    if (ending != ".obj") return holds(file);
-    Pattern materials = *this;
-    materials.after_ = after_.substr(0, after_.size() - ending.size()) + ".mtl";
-    return holds(file) || materials.holds(file);
+    const std::optional<Pattern> beside = materials();
+    return holds(file) || (beside && beside->holds(file));
 }
 
 void Pattern::check_places(std::size_t frames) const {
@@ -77,6 +85,8 @@ void Pattern::check_places(std::size_t frames) const {
                                                            "; remove it, or give -o another name"));
         if (number && entry->is_directory(error))
             throw InputError(io::about(folder_ / name, "is a folder; remove it, or give -o another name"));
+        if (entry->is_symlink(error) && writes(folder_ / name))
+            throw InputError(io::about(folder_ / name, "is a link; remove it, or give -o another name"));
     }
 }
 

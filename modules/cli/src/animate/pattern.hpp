@@ -25,12 +25,15 @@ public:
     [[nodiscard]] bool writes(const std::filesystem::path& file) const;
 
     /// Throws InputError if there are files of the sequence beyond `frames`, which would be taken for its
-    /// end, or a folder in the place of a frame.
+    /// end, or a folder or a link in the place of a frame.
     void check_places(std::size_t frames) const;
 
 private:
     /// The number of a frame, from 1, that a file of this name would have.
     [[nodiscard]] std::optional<std::size_t> number_of(const std::string& name) const;
+
+    /// The names of the materials that OBJ files have beside them; nothing for other formats.
+    [[nodiscard]] std::optional<Pattern> materials() const;
 
     std::filesystem::path folder_;
     std::string before_, after_;

@@ -27,7 +27,7 @@ struct Survey {
     std::size_t worst_frame = 0;       ///< which that is, from 0
     std::vector<double> largest;       ///< of each region, the angle that it is bent by at most, radians
     std::size_t clamped = 0;           ///< frames in which a region was asked to bend further than it can
-    std::size_t beyond_full_turn = 0;  ///< frames in which the body bends by more than that
+    std::size_t beyond_full_turn = 0;  ///< frames in which it bends by more than a full turn
     double path_error = 0;             ///< the largest
     double milliseconds = 0;           ///< to deform a frame; the median
     view::Camera camera;               ///< in which also_seen is `seen`

@@ -79,16 +79,20 @@ void refuse_planless(const fs::path& folder) {
                                    "give a new folder to -o"));
 }
 
-/// Refuses a cache in whose folder lies what it is made from, and a report that would replace that.
-void check_report(const CacheRequest& request, const Scene& scene) {
-    std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
-    for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
-    check_places(inputs, {{"--json", request.json}});
+/// Refuses a cache in whose folder lies what it is made from.
+void check_sources(const CacheRequest& request, const Scene& scene) {
     for (const fs::path& file : scene.files) {
         if (lies_in(file, request.folder))
             throw InputError(
                 io::about(file, "lies in the folder of the cache; put it, or the cache, elsewhere"));
     }
+}
+
+/// Refuses a report that would replace what the cache is made from.
+void check_report(const CacheRequest& request, const Scene& scene) {
+    std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
+    for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
+    check_places(inputs, {{"--json", request.json}});
 }
 
 bend::BodyFile loaded(const fs::path& file, const std::string& bytes) {
@@ -112,6 +116,7 @@ std::optional<std::string> kept_bytes(const fs::path& folder, const PlanBody& be
 CacheRun::CacheRun(const CacheRequest& request) : folder_(request.folder) {
     check_folder(folder_);
     scene_ = read_scene(request.scene, request.load);
+    check_sources(request, scene_);
     check_report(request, scene_);
     before_ = plan_in(folder_);
     if (!before_ && !request.format) refuse_planless(folder_);

@@ -27,16 +27,15 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
         text.remove_prefix(std::min(text.find_first_not_of(between), text.size()));
         if (text.empty()) return numbers;
         const std::string_view word = text.substr(0, text.find_first_of(between));
-        double number = 0;  // a float would refuse what it rounds to 0
+        double number = 0;  // as a float, what rounds to 0 would be out of range
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size())
-            throw InputError(io::about(file, "'" + io::escaped(word.substr(0, 40)) + "', after " +
-                                                 std::to_string(numbers.size()) +
-                                                 " numbers, is not a number; correct it"));
-        constexpr double largest = std::numeric_limits<float>::max();
-        numbers.push_back(std::fabs(number) > largest
-                              ? std::numeric_limits<float>::infinity()  // refused by read()
-                              : static_cast<float>(number));
+        const bool too_large = std::fabs(number) > double{std::numeric_limits<float>::max()};
+        if (error != std::errc() || end != word.data() + word.size() || too_large)
+            throw InputError(io::about(
+                file, "'" + io::escaped(word.substr(0, 40)) + "', after " + std::to_string(numbers.size()) +
+                          " numbers, is " + (too_large ? "more than a 32-bit float holds" : "not a number") +
+                          "; correct it"));
+        numbers.push_back(static_cast<float>(number));
         text.remove_prefix(word.size());
     }
 }

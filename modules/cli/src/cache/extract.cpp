@@ -144,6 +144,7 @@ mesh::Mesh mesh_of_block(const Block& block, const BoundModel& model, const Plan
 void extract(const ExtractRequest& request) {
     check_model_output(request.output);
     Report report(request.json);
+    check_cache(request.folder);
     const Plan plan = read_plan(request.folder / plan_name);
     if (request.frame >= plan.frames || request.instance >= plan.instances)
         throw InputError(io::about(

@@ -43,8 +43,7 @@ void write_manifest(const fs::path& folder, const Manifest& manifest) {
 Manifest read_manifest(const fs::path& folder) {
     const fs::path file = folder / manifest_name;
     std::error_code error;
-    if (!fs::is_directory(folder, error))
-        throw InputError(io::about(folder, "there is no such folder; check the name"));
+    check_cache(folder);
     if (!fs::exists(file, error))
         throw InputError(io::about(file, "is missing: the cache is not whole; 'goffer cache SCENE.json -o " +
                                              io::escaped(folder.string()) + "' bakes what it lacks"));

@@ -105,6 +105,9 @@ void cut(Plan& plan, const std::function<std::uint64_t(std::uint64_t)>& block);
 /// Reads it from a file. Throws an error that names that too.
 [[nodiscard]] Plan read_plan(const std::filesystem::path& file);
 
+/// Throws InputError where the folder of a cache that is to be read is not there, or is none.
+void check_cache(const std::filesystem::path& folder);
+
 /// The checksum of a scene and all files that it names; large ones that are as `before` are not read. Puts
 /// these into `files`. Throws an error that names the file.
 [[nodiscard]] std::uint64_t checksum_of(const Scene& scene, const std::vector<PlanFile>& before,

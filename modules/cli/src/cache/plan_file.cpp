@@ -121,6 +121,15 @@ Plan plan_of(const Members& fields) {
     return plan;
 }
 
+void check_cache(const std::filesystem::path& folder) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(folder, error);
+    if (!std::filesystem::exists(status))
+        throw InputError(io::about(folder, "there is no such folder; check the name"));
+    if (!std::filesystem::is_directory(status))
+        throw InputError(io::about(folder, "is no folder; give the folder of a cache"));
+}
+
 Plan read_plan(const std::filesystem::path& file) {
     const nlohmann::json document = read_document(file, most_plan_bytes);
     return plan_of(Members(document, io::escaped(file.string())));

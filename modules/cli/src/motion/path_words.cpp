@@ -74,7 +74,7 @@ Laid lay(const bend::Body& body, const PathOptions& words) {
 
 void report_path(Report& report, const Laid& laid, const PathOptions& words) {
     const auto error = static_cast<double>(laid.fit.error);
-    constexpr double rounding = 1e-9;  // of the body's length
+    constexpr double rounding = 1e-6;  // of floats, in lengths of the body
     report.json["path"] = {{"file", words.file.string()},
                            {"length", laid.length},
                            {"scale", laid.scale},

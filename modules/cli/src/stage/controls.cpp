@@ -132,7 +132,8 @@ Wish wish_of(const Controls& controls, Wish wish) {
     } else if (controls.folds >= 0) {
         words.folds = std::to_string(controls.folds);
     }
-    if (controls.fold_length > 0) words.fold_length = static_cast<double>(controls.fold_length);
+    if (controls.fold_length > 0 && !words.folds)
+        words.fold_length = static_cast<double>(controls.fold_length);
     if (controls.onset >= 0) words.onset = static_cast<double>(controls.onset);
     const bool same = controls.region_count == static_cast<int>(controls.regions.size());
     const std::vector<Bend> regions =
@@ -226,7 +227,7 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         const BindWords& words = now.bind;
         add_unless("profile", words.profile, usual.profile);
         if (words.folds) add("folds", *words.folds);
-        if (words.fold_length && !words.folds) add("fold-length", number(*words.fold_length));
+        if (words.fold_length) add("fold-length", number(*words.fold_length));
         add_unless("amplitude", words.amplitude, usual.amplitude);
         add_unless("shape", words.shape, usual.shape);
         add_unless("roundness", number(words.roundness), number(usual.roundness));

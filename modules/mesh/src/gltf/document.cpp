@@ -105,6 +105,14 @@ void check_version(const Value& root) {
     }
 }
 
+/// What to say of a name where there is no file to read, after the name itself.
+std::string absent(const std::filesystem::path& place) {
+    std::error_code error;
+    const bool other = std::filesystem::exists(place, error);
+    return std::string(", which is ") + (other ? "no regular file" : "not there") +
+           "; put it beside the document";
+}
+
 std::string read_outer(const Value& uri, const io::NamedFiles& files, std::uint64_t size, Budget& budget) {
     if (uri.text().empty() || has_scheme(uri.text())) {
         uri.fail("is " + mesh::quoted(uri.text()) +
@@ -115,8 +123,7 @@ std::string read_outer(const Value& uri, const io::NamedFiles& files, std::uint6
     const std::filesystem::path& file = *place;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
-        const char* const what = std::filesystem::exists(file, error) ? "no regular file" : "not there";
-        uri.fail("names " + mesh::quoted(uri.text()) + ", which is " + what + "; put it beside the document");
+        uri.fail("names " + mesh::quoted(uri.text()) + absent(file));
     }
     const std::uint64_t present = std::filesystem::file_size(file, error);
     if (error || present < size) {
@@ -270,15 +277,14 @@ std::vector<std::string> missing_images(const Document& document) {
         if (!place) {
             missing.push_back("a texture is not looked at: " + names + io::NamedFiles::outside);
         } else if (!std::filesystem::is_regular_file(*place, error)) {
-            missing.push_back("a texture is missing: " + names +
-                              ", which is not there; put it beside the document");
+            missing.push_back("a texture is missing: " + names + absent(*place));
         }
     }
     constexpr std::size_t most = 20;
     if (missing.size() > most) {
         const std::size_t more = missing.size() - most;
         missing.resize(most);
-        missing.push_back("so it is with " + std::to_string(more) + " more of its textures");
+        missing.push_back(std::to_string(more) + " more images are missing or are not looked at");
     }
     return missing;
 }

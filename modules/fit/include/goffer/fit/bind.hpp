@@ -20,8 +20,9 @@ namespace goffer::fit {
 struct RegionBinding {
     double length = 0;  ///< of the region's outer line, model units
     int folds = 0;      ///< k in use; 0: no wrinkle
-    /// Most folds that the mesh has vertices for. After bind() with Profile::even and a wrinkle_range: those
-    /// within the range, and as many as there are beyond it, where the surface is smooth.
+    /// Most folds that the mesh has vertices for. After bind() with Profile::even: at least `folds`, unless a
+    /// number was asked for; with a wrinkle_range, those within it, and as many as there are beyond it, where
+    /// the surface is smooth.
     int folds_capacity = 0;
     /// How its radius and its folds change along it; null: not at all.
     std::shared_ptr<const paper::Shape> shape = {};
@@ -61,7 +62,8 @@ struct Binding {
     [[nodiscard]] int folds_capacity(std::size_t region = 0) const { return regions[region].folds_capacity; }
 
     /// Returns the body's vertex for each vertex of the geometry, the inverse of `order`: an index buffer of
-    /// the geometry becomes one of the body where each index i is replaced by the i-th of these. Thread-safe.
+    /// the geometry becomes one of the body where each index i is replaced by the i-th of these. Throws Error
+    /// if `order` is not what bind() set. Thread-safe.
     [[nodiscard]] std::vector<std::uint32_t> vertices_in_body() const;
 };
 
@@ -102,8 +104,9 @@ struct Binding {
 /// of the rig's does not lower the largest angles: near them it may fold through the body. `rig` may itself
 /// be a level, and is not needed afterward.
 ///
-/// Throws Error as check(level) does, and if the rig's body is empty or does not have the rig's regions, a
-/// vertex of a triangle lies beyond the ends, or a number is outside bend::WorkingRange. Thread-safe.
+/// Throws Error as check(level) and check(rig.cylinder) do, and if the rig's body is empty or does not have
+/// the rig's regions, a vertex of a triangle lies beyond the ends, or a number is outside bend::WorkingRange.
+/// Thread-safe.
 [[nodiscard]] Binding bind_level(const Geometry& level, const Binding& rig);
 
 /// Makes the wrinkle table of one region: `rows` rows (2..4096) from angle 0 to `max_angle` (radians), in
