@@ -120,10 +120,9 @@ public:
 /// rest_angle is negative or not below both 2 pi and length / (2 radius), axis and zero are not of unit
 /// length or not orthogonal, within 1e-3, or the radii are fewer than two, do not have the radius as their
 /// mean, within 1e-3, have one below a thousandth of it, or one that leaves the rest_angle no room, as the
-/// radius does. Likewise if an
-/// angle of the arcs is not so with the largest radius along it, one is shorter than 1e-5 of the length,
-/// there are more than bend::max_regions, their lengths do not add up to that of the cylinder, within 1e-6,
-/// or rest_angle is not 0 beside them. Thread-safe.
+/// radius does. Likewise if an angle of the arcs is not so with the largest radius along it, one is shorter
+/// than 1e-5 of the length, there are more than bend::max_regions, their lengths do not add up to that of the
+/// cylinder, within 1e-6, or rest_angle is not 0 beside them. Thread-safe.
 void check(const Cylinder& cylinder);
 
 /// Throws Error if no mesh can be bound to `cylinder`, since its origin or radius is outside
