@@ -17,6 +17,18 @@
 using namespace goffer;
 using namespace goffer::test;
 
+namespace {
+
+/// Makes m.obj, with materials of that name, which have a texture of that name.
+void make_textured(const Folder& folder, const std::string& materials, const std::string& texture) {
+    base(folder, "base.obj");
+    folder.write("m.obj", "mtllib " + materials + "\nusemtl a\n" + bytes_of(folder / "base.obj"));
+    folder.write(materials, "newmtl a\nmap_Kd " + texture + "\n");
+    folder.write(texture, "a picture");
+}
+
+}  // namespace
+
 TEST_CASE("animate: a report does not replace a frame") {
     const Folder folder;
     base(folder);
@@ -192,10 +204,7 @@ TEST_CASE("cache: buffers that a glTF names are part of what a cache is made fro
 
 TEST_CASE("materials and textures of a model are no place for an output") {
     const Folder folder;
-    base(folder, "base.obj");
-    folder.write("m.obj", "mtllib m.mtl\n" + bytes_of(folder / "base.obj"));
-    folder.write("m.mtl", "newmtl a\nmap_Kd t.png\n");
-    folder.write("t.png", "a picture");
+    make_textured(folder, "m.mtl", "t.png");
     const Words bend{"bend", "m.obj", "--angle", "9", "-o", "b.glb"};
     refused(folder, 2, bend + Words{"--json", "m.mtl"}, {"--json", "replace"});
     refused(folder, 2, bend + Words{"--png", "t.png"}, {"--png", "replace"});
@@ -205,10 +214,7 @@ TEST_CASE("materials and textures of a model are no place for an output") {
 
 TEST_CASE("animate: a sequence replaces nothing that its model names, and no report its materials") {
     const Folder folder;
-    base(folder, "base.obj");
-    folder.write("m.obj", "mtllib m_2.mtl\nusemtl a\n" + bytes_of(folder / "base.obj"));
-    folder.write("m_2.mtl", "newmtl a\nmap_Kd m_0001.png\n");
-    folder.write("m_0001.png", "a picture");
+    make_textured(folder, "m_2.mtl", "m_0001.png");
     const Words animate{"animate", "m.obj", "--swing", "9", "--frames", "2", "-o"};
     refused(folder, 2, animate + Words{"m_%04d.png"}, {"-o", "replace", "MODEL"});
     refused(folder, 2, animate + Words{"m_%d.obj"}, {"-o", "replace", "MODEL"});
@@ -218,6 +224,8 @@ TEST_CASE("animate: a sequence replaces nothing that its model names, and no rep
     std::filesystem::rename(folder / "m_2.ply", folder / "kept.ply");
     const std::string kept = bytes_of(folder / "kept.ply");
     const Words again{"animate", "kept.ply", "--swing", "9", "--frames", "2", "-o"};
+    std::filesystem::create_symlink("k_1.ply", folder / "latest.ply");
+    CHECK(run(folder, again + Words{"k_%d.ply"}).code == 0);  // a link to a frame is no frame
     std::filesystem::create_symlink("kept.ply", folder / "m_2.ply");
     CHECK(run(folder, again + Words{"m_%d.ply"}).err.find("m_2.ply") != std::string::npos);
     std::filesystem::create_symlink("g_1.ply", folder / "report.json");

@@ -31,6 +31,11 @@ glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
 }
 
+/// Which way a pose bends, radians: a negative angle, the other way.
+double direction_of(const bend::Pose& pose) {
+    return static_cast<double>(pose.direction) + (pose.angle < 0 ? std::numbers::pi : 0);
+}
+
 /// Which way a body bends, radians: that of its region, or that of the plane which the bends of several
 /// regions are nearest to, and toward the side that more of them is on. Where no plane is nearest, as of two
 /// equal bends at right angles, that of their sum; where it has no side, as of an S, that of the first bend.
@@ -39,11 +44,9 @@ double main_direction(const bend::Body& body, std::span<const bend::Pose> poses)
     double x = 0, y = 0;            // the bends added up
     double cosines = 0, sines = 0;  // of twice their directions, which are those of planes
     double sum = 0, squares = 0;
-    double first = static_cast<double>(poses[0].direction) + (poses[0].angle < 0 ? std::numbers::pi : 0);
+    double first = direction_of(poses[0]);
     for (std::size_t r = 0; r < poses.size(); ++r) {
-        const double angle = used_angle(body, r, poses[r]);
-        const double direction =
-            static_cast<double>(poses[r].direction) + (poses[r].angle < 0 ? std::numbers::pi : 0);
+        const double angle = used_angle(body, r, poses[r]), direction = direction_of(poses[r]);
         if (sum == 0 && angle > 0) first = direction;
         x += angle * std::cos(direction);
         y += angle * std::sin(direction);

@@ -35,8 +35,8 @@ std::vector<fit::RegionOptions> read_regions(const std::string& text) {
         sum += share;
     }
     const double rounding = 5.001e-4 * static_cast<double>(regions.size());  // of three digits each
-    for (fit::RegionOptions& region : regions)
-        if (std::fabs(sum - 1) <= rounding) region.share /= sum;
+    if (std::fabs(sum - 1) <= rounding)
+        for (fit::RegionOptions& region : regions) region.share /= sum;
     try {
         fit::check(regions);
     } catch (const fit::Error& error) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace goffer::fit {
@@ -105,12 +106,13 @@ int count_and_fade(double length, double radius, const std::vector<double>& radi
 
 }  // namespace
 
-double fold_length_at(const Cylinder& cylinder, const BindOptions& options, double radius) {
+double fold_length_at(const Cylinder& cylinder, Profile profile, std::optional<double> in_radii,
+                      double radius) {
     constexpr double least_folds = 12;    // fewer are too deep on a stout body
     constexpr double shortest = 1.0 / 8;  // radii: on a ring nobody sees them
-    if (options.fold_length) return *options.fold_length * radius;
-    const double length = default_fold_length(options.profile) * radius;
-    if (options.profile.kind != Profile::Kind::even) return length;
+    if (in_radii) return *in_radii * radius;
+    const double length = default_fold_length(profile) * radius;
+    if (profile.kind != Profile::Kind::even) return length;
     return std::min(length, std::max(cylinder.length / least_folds, shortest * radius));
 }
 
@@ -118,11 +120,11 @@ FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOption
                     double length, std::optional<int> asked) {
     const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
     const std::vector<double> radii = radii_at(cylinder, start, length, knots);
-    BindOptions lengths = options;
-    if (asked) lengths.fold_length.reset();
+    const std::optional<double> said = asked ? std::nullopt : options.fold_length;
     std::vector<double> wanted(knots);  // lengths of folds
-    std::ranges::transform(radii, wanted.begin(),
-                           [&](double radius) { return fold_length_at(cylinder, lengths, radius); });
+    std::ranges::transform(radii, wanted.begin(), [&](double radius) {
+        return fold_length_at(cylinder, options.profile, said, radius);
+    });
     paper::Shape::Knots shape;
     shape.radius = radii_of(cylinder, start, length);  // as Straightening has them
     FoldPlan plan{asked.value_or(0)};

@@ -263,7 +263,7 @@ void add_even(std::vector<Stretch>& stretches, const Cylinder& cylinder, const B
     std::vector<double> folds;
     double sum = 0;
     for (const double radius : radii) {
-        folds.push_back(step / fold_length_at(cylinder, options, radius));
+        folds.push_back(step / fold_length_at(cylinder, options.profile, options.fold_length, radius));
         sum += folds.back();
     }
     // A body has a whole number of them.

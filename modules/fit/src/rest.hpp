@@ -162,7 +162,8 @@ private:
 };
 
 /// Returns how long a fold is to be where the body has `radius`; model units.
-[[nodiscard]] double fold_length_at(const Cylinder& cylinder, const BindOptions& options, double radius);
+[[nodiscard]] double fold_length_at(const Cylinder& cylinder, Profile profile, std::optional<double> in_radii,
+                                    double radius);
 
 /// The shape of a region and of its folds.
 struct FoldPlan {

@@ -73,6 +73,7 @@ bool Pattern::writes(const std::filesystem::path& file) const {
 }
 
 void Pattern::check_places(std::size_t frames) const {
+    const std::optional<Pattern> beside = materials();
     std::error_code error;
     std::filesystem::directory_iterator entry(folder_.empty() ? "." : folder_, error);
     for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
@@ -85,7 +86,7 @@ void Pattern::check_places(std::size_t frames) const {
                                                            "; remove it, or give -o another name"));
         if (number && entry->is_directory(error))
             throw InputError(io::about(folder_ / name, "is a folder; remove it, or give -o another name"));
-        if (entry->is_symlink(error) && writes(folder_ / name))
+        if (entry->is_symlink(error) && (number || (beside && beside->number_of(name))))
             throw InputError(io::about(folder_ / name, "is a link; remove it, or give -o another name"));
     }
 }

@@ -135,10 +135,13 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
 bool warn_of_full_turn(Report& report, const CrowdRequest& request, const bend::Body& body,
                        const std::string& where) {
     std::vector<bend::Pose> poses = request.plan.poses;
-    // From rest, each instance swings its own way: some, the way that the body is bent.
-    for (std::size_t r = 0; request.plan.from_rest && r < poses.size(); ++r)
-        poses[r] = pose_from_rest(body, r, degrees(static_cast<double>(std::fabs(poses[r].angle))),
-                                  rest_direction(body), 1);
+    if (request.plan.from_rest) {
+        // Each instance swings its own way: some, the way that the body is bent.
+        const double toward = rest_direction(body);
+        for (std::size_t r = 0; r < poses.size(); ++r)
+            poses[r] =
+                pose_from_rest(body, r, degrees(static_cast<double>(std::fabs(poses[r].angle))), toward, 1);
+    }
     const bool beyond = beyond_full_turn(body, poses);
     if (beyond) report.warn(where + "at its ends the swing is " + full_turn_words);
     return beyond;

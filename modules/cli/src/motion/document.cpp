@@ -22,13 +22,15 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::uint64_t most_bytes = std::uint64_t{8} << 20;  // read, they have taken 50 times as many
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(io::about(file, what));
 }
 
 std::string read_text(const std::filesystem::path& file) {
-    if (io::size_of_file(file) > most_motion_text)
-        refuse(file, "has more than " + io::size_text(most_motion_text) + "; give fewer keys or points");
+    if (io::size_of_file(file) > most_bytes)
+        refuse(file, "has more than " + io::size_text(most_bytes) + "; give fewer keys or points");
     std::string text = io::read_file(file);
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     return text;
