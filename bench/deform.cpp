@@ -32,26 +32,25 @@ struct DeformCase {
     Shape shape = Shape::plain;
     float wrinkle_weight = 1;
     bool scratch = false;  ///< what lies between instances may be written over
+    bool dense = false;    ///< nothing lies there; else each instance begins on a cache line of every plane
+
+    /// From one instance's first vertex to the next one's.
+    [[nodiscard]] std::size_t vertex_step() const {
+        constexpr std::size_t line = column_alignment / sizeof(float);
+        return dense ? size.vertices : (size.vertices + line - 1) / line * line;
+    }
+    [[nodiscard]] std::size_t memory_floats() const {
+        return layout.memory_floats(size.instances * vertex_step());
+    }
 };
-
-/// Each instance begins on a cache line of every plane: what a user is advised to do.
-std::size_t padded_vertices(const Size& size) {
-    constexpr std::size_t line = column_alignment / sizeof(float);
-    return (size.vertices + line - 1) / line * line;
-}
-
-std::size_t memory_floats(const StreamLayout& layout, const Size& size) {
-    return layout.memory_floats(size.instances * padded_vertices(size));
-}
 
 /// Instances whose poses change from sample to sample.
 class Crowd {
 public:
     Crowd(Fixture& fixture, const DeformCase& what)
         : what_(what),
-          scene_({{&fixture.body(what.size.vertices, what.shape), what.size.instances,
-                   padded_vertices(what.size)}},
-                 what.layout, fixture.memory(memory_floats(what.layout, what.size))),
+          scene_({{&fixture.body(what.size.vertices, what.shape), what.size.instances, what.vertex_step()}},
+                 what.layout, fixture.memory(what.memory_floats())),
           weights_(what.size.instances, what.wrinkle_weight) {
         if (what.scratch) scene_.batches()[0].scratch_gaps = true;
         if (what.wrinkle_weight != 1) scene_.batches()[0].wrinkle_weights = strided(std::span(weights_));
@@ -159,9 +158,13 @@ void register_deform(Fixture& fixture) {
     }
     for (const char* streams : {"positions", "positions+normals"}) {
         for (const Isa isa : built_isas()) {
-            if (runs_here(isa))
-                register_case(fixture, "deform", "crowd10000x200-scratch",
-                              {stream_layout(streams), {10'000, 200}, isa, 1, Shape::plain, 1, true});
+            if (!runs_here(isa)) continue;
+            DeformCase what = {stream_layout(streams), {10'000, 200}, isa, 1};
+            what.scratch = true;
+            register_case(fixture, "deform", "crowd10000x200-scratch", what);
+            what.scratch = false;
+            what.dense = true;
+            register_case(fixture, "deform", "crowd10000x200-dense", what);
         }
     }
     // Its output stays in the cache: the gate compares it in pairs.
@@ -177,12 +180,13 @@ void register_sweep(Fixture& fixture) {
     for (const char* streams : {"positions", "positions+normals"}) {
         for (const std::size_t vertices : {200, 500, 2'000, 10'000, 50'000, 200'000, 1'000'000}) {
             for (const std::size_t instances : {1, 10, 100, 1'000, 10'000}) {
-                const Size size{instances, vertices};
-                if (memory_floats(stream_layout(streams), size) * sizeof(float) > max_bytes) continue;
+                DeformCase what = {stream_layout(streams), {instances, vertices}, resolve(Isa::automatic), 1};
+                if (what.memory_floats() * sizeof(float) > max_bytes) continue;
                 const std::string name = std::to_string(instances) + "x" + std::to_string(vertices);
-                for (const int threads : Fixture::thread_counts())
-                    register_case(fixture, "sweep", name,
-                                  {stream_layout(streams), size, resolve(Isa::automatic), threads});
+                for (const int threads : Fixture::thread_counts()) {
+                    what.threads = threads;
+                    register_case(fixture, "sweep", name, what);
+                }
             }
         }
     }

@@ -238,6 +238,34 @@ bool flags_tell_nothing() {
 
 }  // namespace
 
+TEST_CASE("floating point: what decays becomes 0 before its products are subnormal, which takes long") {
+    Random random(4);
+    const std::size_t counts[] = {60, 50, 40};
+    for (int trial = 0; trial < 6; ++trial) {
+        const bend::Body body = trial < 2 ? loose_body(random, 100) : loose_chain(random, counts);
+        const auto outputs = [&](const bend::Pose& pose, float weight, Isa isa) {
+            OutputBuffer out("x y z u v w a b c d", body.vertex_count());
+            const std::vector<bend::Pose> poses(body.region_count(), pose);
+            bend::DeformJob job{.body = &body, .poses = poses, .wrinkle_weight = weight, .isa = isa};
+            out.attach(job);
+            bend::run(job);
+            return out.hash();
+        };
+        for (const Isa isa : isas_here()) {
+            CAPTURE(name(isa));
+            const std::uint64_t still = outputs({0, 2}, 1, isa), along_zero = outputs({1, 0}, 1, isa),
+                                bare = outputs({1, 2}, 0, isa);
+            for (const float decayed : {9e-13f, 1e-20f, 1e-38f, 1e-41f}) {
+                CAPTURE(decayed);
+                CHECK(outputs({decayed, 2}, 1, isa) == still);
+                CHECK(outputs({1, 9e3f * decayed}, 1, isa) == along_zero);
+                CHECK(outputs({1, -decayed}, 1, isa) == along_zero);
+                CHECK(outputs({1, 2}, decayed, isa) == bare);
+            }
+        }
+    }
+}
+
 TEST_CASE("floating point: nothing that a trap could be set for") {
     if (flags_tell_nothing()) return;
     each_case([](const bend::DeformJob& job, const bend::Sockets& sockets) {

@@ -98,7 +98,8 @@ TEST_CASE("each layout is written on its way") {
         OutputBuffer out(one.picture, test_mesh.count());
         bend::Batch batch = bend::batch_of(test_mesh.job(out));
         batch.scratch_gaps = one.scratch_gaps;
-        const bend::OutputPlan plan(batch, kernels, false);
+        // Gaps are scratch past the cache alone.
+        const bend::OutputPlan plan(batch, kernels, one.scratch_gaps);
         for (const bend::PassPlan& pass : plan.passes()) CHECK(pass.mode == one.mode);
     }
 }
@@ -126,8 +127,12 @@ TEST_CASE("planes that compete for the same places of the cache are not written 
         for (std::size_t c = 0; c < 3; ++c)
             batch.positions.component[c] = memory + c * one.apart / sizeof(float);
         const bend::KernelSet& kernels = bend::kernels(Isa::automatic);
-        CHECK(bend::OutputPlan(batch, kernels, true).passes()[0].mode == one.past_cache);
-        CHECK(bend::OutputPlan(batch, kernels, false).passes()[0].mode == bend::WriteMode::planes);
+        CHECK(bend::OutputPlan(batch, kernels, true, true).passes()[0].mode == one.past_cache);
+        CHECK(bend::OutputPlan(batch, kernels, false, true).passes()[0].mode == bend::WriteMode::planes);
+        // The last but one begin their lines at different vertices.
+        const bend::WriteMode any_distance =
+            one.apart % 64 == 0 ? bend::WriteMode::planes : bend::WriteMode::staged;
+        CHECK(bend::OutputPlan(batch, kernels, true, false).passes()[0].mode == any_distance);
     }
 }
 

@@ -55,6 +55,7 @@ struct BatchStyle {
     bend::TransformColumn::MatrixLayout transforms = bend::TransformColumn::MatrixLayout::columns3;
     bool indices = false;   ///< elements at random places of a pool of twice as many
     bool places = false;    ///< vertices in another order; else by step
+    bool dense = false;     ///< no vertices between instances, unless by `places`
     bool masks = false;     ///< visible, changed and update_intervals are given
     bool defaults = false;  ///< transforms and weights are not given
     bool hostile = false;   ///< one pose or weight in four holds any bits
@@ -232,7 +233,7 @@ private:
     /// Returns how many vertices there must be room for: none to spare.
     std::size_t set_places(Random& random) {
         const std::size_t vertices = body_.vertex_count();
-        step_ = vertices + random() % (random() % 2 == 0 ? 4 : 40);
+        step_ = vertices + (style_.dense ? 0 : random() % (random() % 2 == 0 ? 4 : 40));
         if (!style_.places || count_ == 0) return count_ == 0 ? 1 : (count_ - 1) * step_ + vertices;
         for (Worm& worm : worms_) worm.place = std::numeric_limits<std::uint32_t>::max();  // of nobody's
         std::vector<std::size_t> order(count_);

@@ -83,8 +83,8 @@ void goffer_crowd_free(goffer_crowd* crowd) {
 
 int goffer_crowd_set(goffer_crowd* crowd, size_t index, const goffer_batch* batch, goffer_error* error) {
     return guarded(error, [&]() -> int {
-        if (crowd == nullptr || index >= crowd->batches.size())
-            throw std::out_of_range("index: the crowd has no such batch");
+        if (crowd == nullptr) throw std::invalid_argument("crowd: null");
+        if (index >= crowd->batches.size()) throw std::out_of_range("index: the crowd has no such batch");
         if (batch == nullptr) throw std::invalid_argument("batch: null");
         crowd->batches[index] = batch_of(*batch);
         return 1;

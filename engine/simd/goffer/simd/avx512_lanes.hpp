@@ -35,6 +35,13 @@ struct Avx512Lanes : XsimdLanes<xsimd::avx512bw>, X86Rows<Avx512Lanes> {
         const auto lanes = static_cast<__mmask16>(count >= width ? 0xffffu : (1u << count) - 1u);
         _mm512_mask_storeu_ps(to, lanes, value);
     }
+    /// Returns the first `count` < width lanes of `a`, and behind them the first ones of `b`.
+    static Vec spliced(Vec a, Vec b, std::size_t count) {
+        const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        const __m512i from = _mm512_sub_epi32(lanes, _mm512_set1_epi32(static_cast<int>(count)));
+        const auto of_b = static_cast<__mmask16>(0xffffu << count);
+        return Vec(_mm512_mask_permutexvar_ps(a, of_b, from, b));
+    }
     /// Stores the lanes for which Picks::at(lane) is true.
     template <class Picks>
     static void store_lanes(float* to, Vec value) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <goffer/bend/body_file.hpp>
 #include <goffer/bend/body_file_fault.hpp>
 
 #include <cstdio>
@@ -15,7 +16,7 @@ const char* words_of(FileReason reason) noexcept {
         case FileReason::byte_order:
             return "made on a machine of the other byte order; bake it again for this one";
         case FileReason::version:
-            return "of a version that this library does not know; bake it again, or use a newer library";
+            return "of a version that this library does not know";
         case FileReason::truncated:
             return "has fewer bytes than it says; copy or bake it again";
         case FileReason::too_long:
@@ -59,6 +60,13 @@ FaultText describe(const BodyFileFault& fault) noexcept {
     FaultText result;
     if (fault.none()) {
         std::snprintf(result.text, sizeof result.text, "no fault");
+        return result;
+    }
+    if (fault.reason == FileReason::version) {
+        std::snprintf(result.text, sizeof result.text,
+                      "%s: of version %zu, and this library reads 1 to %u; bake it again, or use a newer "
+                      "library",
+                      name_of(fault.section), fault.index, unsigned{body_file_version});
         return result;
     }
     char level[40] = "", index[24] = "";

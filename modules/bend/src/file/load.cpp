@@ -185,7 +185,8 @@ BodyFileFault check_start(const FileHeader& header, std::uint64_t size) noexcept
         constexpr std::uint32_t other_order = 0x04030201;
         return fault(header.byte_order == other_order ? FileReason::byte_order : FileReason::not_a_body_file);
     }
-    if (header.version == 0 || header.version > body_file_version) return fault(FileReason::version);
+    if (header.version == 0 || header.version > body_file_version)
+        return {.reason = FileReason::version, .index = header.version};
     if (header.bytes > size) return fault(FileReason::truncated);
     return fault(header.bytes < size ? FileReason::too_long : FileReason::none);
 }

@@ -47,7 +47,9 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       kernels_(kernels),
       plan_(batch, kernels, non_temporal),
       regions_(body_.regions.size()),
-      pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty()),
+      pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty() &&
+            batch.vertex_step != body_.vertex_count),
+      shares_lines_(may_share_lines()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, PosedGroup::capacity(regions_)),
       staging_(plan_) {
@@ -98,6 +100,11 @@ void BatchRunner::take_poses(bool counts) noexcept {
 /// Deforms the vertices [first, last) of the group that is set up, if there is one.
 void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
     if (group_->count == 0) return;
+    if (shares_lines_ && last - first == body_.vertex_count) {
+        deform_row();
+        group_->count = 0;
+        return;
+    }
     for (std::size_t begin = first; begin < last;) {
         const std::size_t end = (begin / block_vertices + 1) * block_vertices;
         for (std::size_t i = 0; i < group_->count; ++i) {
@@ -110,6 +117,51 @@ void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
     }
     write_staged();
     group_->count = 0;
+}
+
+/// Whether whole instances are deformed by deform_row(): those of a body of one block and one region, to
+/// planes past the cache, if there are kernels for shared lines.
+bool BatchRunner::may_share_lines() const noexcept {
+    const std::size_t vertices = body_.vertex_count;
+    if (!plan_.non_temporal() || pads_ || regions_ != 1) return false;
+    if (vertices < line_floats || vertices > block_vertices) return false;
+    return std::ranges::all_of(plan_.passes(), [&](const PassPlan& pass) {
+        return pass.mode == WriteMode::planes &&
+               kernels_.shared_line_kernel(Squeeze::none, pass.streams) != nullptr &&
+               floats_to_line<Record>(pass.planes.position[0]) == plan_.peeled(0);
+    });
+}
+
+/// Deforms the group that is set up, instance after instance. The line that an instance shares with the next
+/// one is written whole: in parts, it would have to be read.
+void BatchRunner::deform_row() noexcept {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < group_->count; ++i) {
+        const bool shares = shares_line(i);
+        const std::size_t last = shares ? line_before(i, body_.vertex_count) : body_.vertex_count;
+        for (const PassPlan& pass : plan_.passes()) {
+            const std::size_t set = set_of(pass.pass);
+            const std::size_t vertex = group_->members[i].vertex;
+            const Coefficients& k = *coefficients(i, set);
+            const Squeeze squeeze = *squeezes(i, set);
+            kernels_.plane_kernel(squeeze, pass.streams)(body_.columns, k, pass.planes, vertex + first, first,
+                                                         last - first, Write::non_temporal);
+            if (shares)
+                kernels_.shared_line_kernel(squeeze, pass.streams)(
+                    body_.columns, k, *coefficients(i + 1, set), pass.planes, vertex + last, last,
+                    body_.vertex_count - last);
+        }
+        first = shares ? group_->members[i + 1].peeled : 0;
+    }
+}
+
+/// Whether an instance's last line is the first one of the next in the group, and a kernel can write it.
+bool BatchRunner::shares_line(std::size_t member) const noexcept {
+    if (member + 1 == group_->count) return false;
+    const Member &ending = group_->members[member], &beginning = group_->members[member + 1];
+    const Squeeze* const squeeze = squeezes_ + member * set_count_;  // it depends on no pose
+    return beginning.peeled != 0 && beginning.vertex == ending.vertex + body_.vertex_count &&
+           squeeze[0] == squeeze[set_count_];
 }
 
 /// Sets up the group that was gathered, in place of the one that was deformed.

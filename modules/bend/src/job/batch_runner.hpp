@@ -93,6 +93,9 @@ private:
     void set_up(bool sets_bounds) noexcept;
     void set_up_poses(std::size_t set, bool normals) noexcept;
     void deform_group(std::size_t first, std::size_t last) noexcept;
+    [[nodiscard]] bool may_share_lines() const noexcept;
+    void deform_row() noexcept;
+    [[nodiscard]] bool shares_line(std::size_t member) const noexcept;
     void set_up_packed(std::size_t member, const Bounds& bounds) noexcept;
     void deform(std::size_t member, std::size_t first, std::size_t last) noexcept;
     void deform_planes(std::size_t member, std::size_t first, std::size_t last) noexcept;
@@ -136,8 +139,9 @@ private:
     const KernelSet& kernels_;
     OutputPlan plan_;
     std::size_t regions_;
-    bool pads_;     // the last lines of instances may be filled up
-    bool bounded_;  // bounds are wanted: by the caller, or for packed vertices
+    bool pads_;          // the last lines of instances may be filled up
+    bool shares_lines_;  // whole instances are deformed by deform_row()
+    bool bounded_;       // bounds are wanted: by the caller, or for packed vertices
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones

@@ -108,8 +108,7 @@ GOFFER_OWN_FRAME CrowdResult run_lanes(const Batch& batch, const CrowdJob& job, 
         LaneRunner runner(batch, kernels(job.isa), non_temporal, wrinkled);
         for (std::size_t i = first; i < last; ++i) {
             if (!active[i]) continue;
-            const bool wrinkles =
-                batch.wrinkle_weights.empty() || batch.wrinkle_weights[element_of(batch, i)] > 0;
+            const bool wrinkles = weight_at(batch.wrinkle_weights, element_of(batch, i)) > 0;
             if (wrinkles == wrinkled) runner.add(i);
         }
         runner.finish();

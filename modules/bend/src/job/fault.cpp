@@ -104,7 +104,8 @@ std::string_view reason_of_stride(Field field) noexcept {
         case Field::vertex_offsets:
             return "elements are nearer to each other than the size of one";
         default:
-            return "the stride is not a multiple of 4, or components of it write to the same bytes";
+            return "the stride is too small or no multiple of 4, or components share bytes within `count` "
+                   "vertices";
     }
 }
 

@@ -101,6 +101,13 @@ struct PlaneOutput {
 using PlaneKernel = void (*)(const RestColumns& rest, const Coefficients& k, const PlaneOutput& out,
                              std::size_t out_first, std::size_t first, std::size_t count, Write write);
 
+/// Deforms the line of each plane that one instance ends in and the next one begins in: `count` vertices of
+/// the one from vertex `first` on, and the first ones of the other. The line begins at vertex `out_first` of
+/// the planes, and goes past the cache, to be fenced by the caller.
+using SharedLineKernel = void (*)(const RestColumns& rest, const Coefficients& ending,
+                                  const Coefficients& beginning, const PlaneOutput& out,
+                                  std::size_t out_first, std::size_t first, std::size_t count);
+
 /// What lies between a kernel's vectors in a record.
 enum class RecordGaps : unsigned char {
     none,
@@ -243,6 +250,8 @@ struct KernelSet {
     LaneSetup lane_setup;
     Untile untile;
     Prefetch prefetch;
+    /// Of positions, and of normals too; null where there is none.
+    SharedLineKernel shared_lines[squeeze_count][2];
 
     [[nodiscard]] PlaneKernel plane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
         return planes[static_cast<unsigned char>(squeeze)][static_cast<unsigned char>(streams)];
@@ -255,6 +264,12 @@ struct KernelSet {
         const bool normals = streams == StreamSet::positions_normals;
         return normals || streams == StreamSet::positions
                    ? pairs[static_cast<unsigned char>(squeeze)][normals ? 1 : 0]
+                   : nullptr;
+    }
+    [[nodiscard]] SharedLineKernel shared_line_kernel(Squeeze squeeze, StreamSet streams) const noexcept {
+        const bool normals = streams == StreamSet::positions_normals;
+        return normals || streams == StreamSet::positions
+                   ? shared_lines[static_cast<unsigned char>(squeeze)][normals ? 1 : 0]
                    : nullptr;
     }
     [[nodiscard]] LaneKernel lane_kernel(Squeeze squeeze, StreamSet streams) const noexcept {

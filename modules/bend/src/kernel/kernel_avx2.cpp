@@ -7,6 +7,6 @@
 namespace goffer::bend {
 
 extern constexpr KernelSet kernels_avx2 =
-    with_lanes<simd::Avx2Lanes>(kernel_set<simd::DoubledLanes<simd::Avx2Lanes>>());
+    with_small_bodies<simd::Avx2Lanes>(kernel_set<simd::DoubledLanes<simd::Avx2Lanes>>());
 
 }  // namespace goffer::bend

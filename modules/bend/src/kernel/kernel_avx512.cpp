@@ -6,7 +6,7 @@
 
 namespace goffer::bend {
 
-extern constexpr KernelSet kernels_avx512 = with_lanes<simd::Avx512Lanes>(
+extern constexpr KernelSet kernels_avx512 = with_small_bodies<simd::Avx512Lanes>(
     with_pairs<simd::DoubledLanes<simd::Avx512Lanes>>(kernel_set<simd::DoubledLanes<simd::Avx512Lanes>>()));
 
 }  // namespace goffer::bend

@@ -9,6 +9,7 @@
 #include "kernel/record_kernel.hpp"
 #include "kernel/rows_kernel.hpp"
 #include "kernel/setup_kernel.hpp"
+#include "kernel/shared_line_kernel.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -71,15 +72,32 @@ constexpr void add_lanes(KernelSet& set) {
     add_lanes<L, squeeze, StreamSet::positions_normals_tangents>(set);
 }
 
-/// Adds the kernels that deform many instances at a time, if they are wanted. `L` has at most setup_width
-/// lanes.
+/// Lines that two instances share are written by kernels of their own where a line is one register. Where it
+/// is two, nothing is gained.
+template <class L, Squeeze squeeze>
+constexpr void add_shared_lines(KernelSet& set) {
+    if constexpr (L::width == line_floats) {
+        SharedLineKernel(&kernels)[2] = set.shared_lines[static_cast<unsigned char>(squeeze)];
+        kernels[0] = &bend_shared_line<L, squeeze, StreamSet::positions>;
+        kernels[1] = &bend_shared_line<L, squeeze, StreamSet::positions_normals>;
+    }
+}
+
+template <class L, Squeeze squeeze>
+constexpr void add_small_bodies(KernelSet& set) {
+    add_lanes<L, squeeze>(set);
+    add_shared_lines<L, squeeze>(set);
+}
+
+/// Adds the kernels for many small bodies, if these are wanted: those that deform many instances at a time,
+/// and those for lines that two share. `L` has at most setup_width lanes.
 template <class L>
-constexpr KernelSet with_lanes(KernelSet set) {
+constexpr KernelSet with_small_bodies(KernelSet set) {
 #ifdef GOFFER_SMALL_BODIES
-    add_lanes<L, Squeeze::none>(set);
-    add_lanes<L, Squeeze::plain>(set);
-    add_lanes<L, Squeeze::relative>(set);
-    add_lanes<L, Squeeze::shaped>(set);
+    add_small_bodies<L, Squeeze::none>(set);
+    add_small_bodies<L, Squeeze::plain>(set);
+    add_small_bodies<L, Squeeze::relative>(set);
+    add_small_bodies<L, Squeeze::shaped>(set);
     set.lane_setup = &set_up_lanes<L>;
     set.untile = &untile<L>;
     set.prefetch = &L::prefetch;

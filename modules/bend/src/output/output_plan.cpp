@@ -29,14 +29,14 @@ Stream3 words_of(const PackedStream& packed) noexcept {
 }
 
 /// Whether a kernel can write planes past the cache side by side. They must begin their cache lines at the
-/// same vertices, and must not lie near a multiple of a kilobyte apart: such planes compete for the same
-/// places of the first-level cache, and are written faster one after the other.
-bool side_by_side(std::span<float* const> planes) noexcept {
+/// same vertices and, where that matters, must not lie near a multiple of a kilobyte apart: see
+/// planes_compete(). Such planes are written faster one after the other.
+bool side_by_side(std::span<float* const> planes, bool compete) noexcept {
     constexpr std::uintptr_t line = line_floats * sizeof(float), way = 1024, near = 2 * line;
     for (std::size_t i = 1; i < planes.size(); ++i) {
         const auto start = reinterpret_cast<std::uintptr_t>(planes[i]);
         if ((start - reinterpret_cast<std::uintptr_t>(planes[0])) % line != 0) return false;
-        for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t j = 0; compete && j < i; ++j) {
             const std::uintptr_t apart = (start - reinterpret_cast<std::uintptr_t>(planes[j])) % way;
             if (apart < near || apart > way - near) return false;
         }
@@ -138,8 +138,8 @@ void OutputPlan::add(Pass pass, StreamSet streams, std::size_t value, const Stre
         components_[component_count_++] = {stream.component[c], stream.stride, first + c};
 }
 
-OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept
-    : non_temporal_(non_temporal) {
+OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal, bool compete) noexcept
+    : non_temporal_(non_temporal), compete_(compete) {
     if (!batch.previous_positions.empty())
         add(Pass::previous, StreamSet::positions, 0, batch.previous_positions);
     if (!batch.positions.empty() || !batch.normals.empty() || !batch.tangents.empty()) {
@@ -151,7 +151,7 @@ OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_te
         add(Pass::current, streams, 6, batch.tangents);
     }
     if (!batch.packed.empty()) add(Pass::packed, StreamSet::packed, 0, words_of(batch.packed));
-    find_records(batch.scratch_gaps);
+    find_records(batch.scratch_gaps && non_temporal);
     const Squeeze squeeze = squeeze_of(*batch.body->data());
     bool staged = false;
     for (PassPlan& pass : std::span(passes_, pass_count_)) {
@@ -259,7 +259,7 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (!planes.take(positions_of(pass, batch), pass.planes.position)) return false;
     if (writes_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
     if (writes_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
-    return !non_temporal_ || side_by_side(planes.all());
+    return !non_temporal_ || side_by_side(planes.all(), compete_);
 }
 
 std::size_t vertex_bytes(const Batch& batch) noexcept {

@@ -3,6 +3,7 @@
 
 #include "kernel/args.hpp"
 #include "kernel/lines.hpp"
+#include "output/processor.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
@@ -79,8 +80,9 @@ struct PassPlan {
 
 class OutputPlan {
 public:
-    /// For writes by `kernels`. `non_temporal`: past the cache.
-    OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal) noexcept;
+    /// For writes by `kernels`. `non_temporal`: past the cache. `compete`: see planes_compete().
+    OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal,
+               bool compete = planes_compete()) noexcept;
     OutputPlan(const OutputPlan&) = delete;
     OutputPlan& operator=(const OutputPlan&) = delete;
 
@@ -133,6 +135,7 @@ private:
     std::size_t value_count_ = 0;
     PairOrder pair_order_ = {};
     bool non_temporal_ = false;
+    bool compete_ = true;
     bool has_[write_mode_count] = {};
     bool in_lines_[write_mode_count] = {};
     const Record* lines_ = nullptr;  // the first record that is written as whole lines

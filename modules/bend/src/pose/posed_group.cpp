@@ -14,16 +14,6 @@
 namespace goffer::bend {
 namespace {
 
-/// Takes a weight of any bits to 0..1.
-float usable_weight(float weight) noexcept {
-    return weight > 0 ? std::min(weight, 1.0f) : 0.0f;
-}
-
-/// The weight at an element of a column, which may not be given.
-inline float usable_weight(const StridedView<float>& weights, std::size_t element) noexcept {
-    return weights.empty() ? 1.0f : usable_weight(weights[element]);
-}
-
 /// The state of a pose. Inline, since a call for each instance takes time.
 inline PoseState state_in(const Region& region, const Pose& pose) noexcept {
     const bool at_rest =
@@ -125,7 +115,7 @@ inline bool PosedGroup::take_usual_poses(const StridedView<Pose>& poses, const S
     bool usual = true;
     for (std::size_t i = 0; i < elements.size(); ++i) {
         const Pose& pose = poses[elements[i]];
-        const float weight = usable_weight(weights, elements[i]);
+        const float weight = weight_at(weights, elements[i]);
         const std::size_t place = count_ + i;
         angle_[place] = pose.angle;
         direction_[place] = pose.direction;
@@ -163,7 +153,7 @@ void PosedGroup::add(const Batch& batch, std::span<const std::size_t> elements, 
         return;
     }
     for (const std::size_t element : elements) {
-        const float weight = usable_weight(batch.wrinkle_weights, element);
+        const float weight = weight_at(batch.wrinkle_weights, element);
         bend::count(set_poses({poses.at(element), region_count_}, count_++, weight), result);
     }
 }

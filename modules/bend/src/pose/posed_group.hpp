@@ -32,6 +32,18 @@ inline void count(const PoseState& state, CrowdResult& result) noexcept {
     result.at_rest += state.at_rest ? 1 : 0;
 }
 
+/// Takes a wrinkle weight of any bits to 0..1. One so small that its products might be subnormal is 0: see
+/// tiny_angle in kernel/setup_kernel.hpp.
+[[nodiscard]] inline float usable_weight(float weight) noexcept {
+    constexpr float tiny = 1e-12f;
+    return weight >= tiny ? std::min(weight, 1.0f) : 0.0f;
+}
+
+/// The weight at an element of a column, which may not be given.
+[[nodiscard]] inline float weight_at(const StridedView<float>& weights, std::size_t element) noexcept {
+    return weights.empty() ? 1.0f : usable_weight(weights[element]);
+}
+
 /// Whether the current or the previous poses and transforms of an instance are meant.
 enum class Time : std::uint8_t { now, before };
 

@@ -61,7 +61,7 @@ struct BodyFileFault {
     FileSection section = FileSection::header;
     std::size_t level = nowhere;  ///< `nowhere`: a section that all levels share
     std::size_t index = nowhere;  ///< entry of the section (of columns the vertex, of triangles the
-                                  ///< triangle); `nowhere`: all of it
+                                  ///< triangle), or its version; `nowhere`: all of it
     BodyFault body = {};          ///< more of it, where the fault is a body's or a socket's number
 
     [[nodiscard]] bool none() const noexcept { return reason == FileReason::none; }

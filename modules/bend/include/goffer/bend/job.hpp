@@ -29,6 +29,12 @@
 
 namespace goffer::bend {
 
+// GLM_FORCE_DEFAULT_ALIGNED_GENTYPES with GLM_FORCE_INTRINSICS gives its types other sizes, under the same
+// names: the program and the library would look for members in different places.
+static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::mat4x3) == 48,
+              "goffer's structs hold GLM's packed types: include its headers in sources that do not define "
+              "GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+
 /// An axis-aligned box.
 struct Bounds {
     glm::vec3 low{0};
