@@ -298,7 +298,7 @@ TEST_CASE("bodies without a long axis are refused, with what was measured and th
         const Placing placing = test::random_placing(20, random);
         const std::string message = cylinder_fault(test::placed(solid, placing));
         CHECK(says(message, "no long axis"));
-        CHECK(says(message, "times as far"));
+        CHECK(says(message, "as wide as it is long"));
         CHECK(says(message, "give an axis"));
         CHECK_THROWS_AS((void)fit_to(test::placed(solid, placing)), fit::AxisError);
         CHECK(cylinder_fault(test::placed(solid, placing), placing.turn[2]) == "");

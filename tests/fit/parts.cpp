@@ -5,6 +5,7 @@
 #include "synthetic.hpp"
 
 #include <goffer/bend/job.hpp>
+#include <goffer/fit/base.hpp>
 #include <goffer/fit/bind.hpp>
 
 #include <doctest/doctest.h>
@@ -254,6 +255,25 @@ TEST_CASE("parts: one bears as much wherever it lies about the axis") {
     MESSAGE("weights from ", least, " to ", most);
     CHECK(most < 1);
     CHECK(most < 1.005 * least);
+}
+
+TEST_CASE("parts: they bear more where the body cannot make up for their area") {
+    const test::Solid solid = tube_and_rods({.radius = 0.3, .distance = 1.5, .count = 6, .apart = 1.05});
+    fit::BindOptions options;
+    options.amplitude = fit::Amplitude::mesh;
+    const fit::Binding binding = fit::bind(solid.geometry(), base_of_tube(), options);
+    const double rest = fit::surface_area(solid.positions, solid.triangles);
+    std::vector<glm::vec3> bent(solid.positions.size());
+    double mean = 0;
+    for (int i = 0; i < 16; ++i) {
+        const auto direction = static_cast<float>(2 * std::numbers::pi * i / 16);
+        bend::DeformJob job{.body = &binding.body, .pose = {std::numbers::pi_v<float> / 2, direction}};
+        job.positions = interleaved<3>(&bent[0].x, bent.size());
+        bend::run(job);
+        mean += fit::surface_area(bent, solid.triangles) / rest / 16;
+    }
+    MESSAGE("area ", mean);
+    CHECK(std::fabs(mean - 1) < 0.005);  // 0.98 if they bore as little as elsewhere
 }
 
 TEST_CASE("parts: levels of one rig agree") {

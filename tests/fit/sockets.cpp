@@ -88,9 +88,11 @@ TEST_CASE("sockets: a surface without area has none") {
     const Solid solid = tube();
     const fit::Binding binding = fit::bind(solid.geometry(), upright());
     fit::Geometry flat = solid.geometry();
-    const std::vector<std::uint32_t> slivers{0, 0, 1, 2, 2, 2};
-    for (const std::span<const std::uint32_t> none : {std::span<const std::uint32_t>(), std::span(slivers)}) {
-        flat.triangles = none;
-        CHECK_THROWS_AS((void)fit::socket_near(binding, flat, {0, 0, 1}), fit::Error);
-    }
+    flat.triangles = {};
+    CHECK_THROWS_WITH_AS((void)fit::socket_near(binding, flat, {0, 0, 1}),
+                         doctest::Contains("has no triangles"), fit::Error);
+    const std::vector<std::uint32_t> slivers{0, 0, 4, 8, 8, 200, 400, 400, 700};
+    flat.triangles = slivers;
+    CHECK_THROWS_WITH_AS((void)fit::socket_near(binding, flat, {0, 0, 1}),
+                         doctest::Contains("no triangle has an area"), fit::Error);
 }

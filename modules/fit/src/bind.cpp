@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -156,8 +157,9 @@ bool chooses_folds(const BindOptions& options) {
 }
 
 /// Weighs what parts bear of the wrinkles of `regions`: in a body that is bent by a right angle, but so that
-/// surfaces stay in order in any pose.
-void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> regions, Profile profile) {
+/// surfaces stay in order in any pose. `ease`: as Parts::weigh() has it.
+void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> regions, Profile profile,
+           double ease) {
     std::vector<WrinkleDepth> depths, deepest;
     for (const RestRegion& region : regions) {
         depths.emplace_back(region, cylinder.radius, profile, right_angle, cylinder.length);
@@ -172,7 +174,7 @@ void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> r
             return all[r](z - regions[r].start);
         };
     };
-    parts.weigh(of(depths), of(deepest));
+    parts.weigh(of(depths), of(deepest), ease);
 }
 
 /// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it. None: 1.
@@ -217,21 +219,21 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
 
 /// The parts of the body, with what they bear of its wrinkles; null where all bear all.
 std::shared_ptr<Parts> parts_of(const Geometry& geometry, const Cylinder& cylinder,
-                                const BindOptions& options, std::span<const RestRegion> places) {
+                                const BindOptions& options, std::span<const RestRegion> places, double ease) {
     const bool wrinkles =
         std::ranges::any_of(places, [](const RestRegion& region) { return region.folds.count > 0; });
     if (!wrinkles || options.profile.kind != Profile::Kind::even || options.shape != ShapeMode::automatic ||
         options.amplitude == Amplitude::area || !chooses_folds(options))
         return nullptr;
     auto parts = std::make_shared<Parts>(geometry, cylinder);
-    weigh(*parts, cylinder, places, options.profile);
+    weigh(*parts, cylinder, places, options.profile, ease);
     return parts;
 }
 
 /// Solves the factors with which `body`, made from `draft`, keeps the area of what may wrinkle, and lowers
-/// the largest angles where wrinkles become deeper by them.
-void keep_area(const bend::Body& body, const Geometry& geometry, const Cylinder& cylinder,
-               const WrinkleRange& range, Draft& draft, const Share& share) {
+/// the largest angles where wrinkles become deeper by them. Returns what solve_factors() does.
+double keep_area(const bend::Body& body, const Geometry& geometry, const Cylinder& cylinder,
+                 const WrinkleRange& range, Draft& draft, const Share& share) {
     Geometry wrinkled = geometry;
     wrinkled.wrinkle_mask = {};  // wrinkles are those that there would be without it
     std::vector<std::uint32_t> triangles;
@@ -240,10 +242,11 @@ void keep_area(const bend::Body& body, const Geometry& geometry, const Cylinder&
         wrinkled.triangles = triangles;
     }
     auto& [mesh, plans, regions] = draft;
-    solve_factors(body, wrinkled, mesh.order, regions, share);
+    const double missing = solve_factors(body, wrinkled, mesh.order, regions, share);
     for (std::size_t i = 0; i < regions.size(); ++i)
         regions[i].max_angle =
             std::min(regions[i].max_angle, plans[i].max_angle(largest_factor(regions[i].factors)));
+    return missing;
 }
 
 /// What bind() tells BindOptions::progress: its parts, and how much of the time each takes of a large mesh.
@@ -260,6 +263,65 @@ struct BindShares {
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
+
+/// A body, with what is solved on it.
+class Attempt {
+public:
+    /// All must outlive the attempt. `ease`: as Parts::weigh() has it.
+    Attempt(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
+            std::vector<RestRegion> places, std::vector<RegionBinding> found, double ease = 1)
+        : geometry_(&geometry),
+          cylinder_(&cylinder),
+          options_(&options),
+          places_(std::move(places)),
+          found_(std::move(found)),
+          parts_(parts_of(geometry, cylinder, options, places_, ease)) {
+        draft_ = make_draft(onset);
+        body_ = make(cylinder, draft_->regions, draft_->mesh);
+        const std::function<void(double)> nobody;  // what is tried again has been told
+        const BindShares shares(ease == 1 ? options.progress : nobody, options.amplitude);
+        shares.draft.tell(1, 1);
+        if (!keeps_area()) return;
+        if (options.profile.kind == Profile::Kind::even) {
+            weigh_slices(body_, geometry, options, draft_->mesh, places_, found_, shares.weights);
+            if (parts_) weigh(*parts_, cylinder, places_, options.profile, ease);
+            draft_ = make_draft(onset);
+            body_ = make(cylinder, draft_->regions, draft_->mesh);
+            shares.weighted_draft.tell(1, 1);
+        }
+        missing_ = keep_area(body_, geometry, cylinder, options.wrinkle_range, *draft_, shares.factors);
+    }
+
+    /// The share of the area that is missing: see solve_factors().
+    [[nodiscard]] double missing() const { return missing_; }
+    /// Whether there are parts that bear less than all.
+    [[nodiscard]] bool eases() const { return parts_ != nullptr && !parts_->sound(); }
+
+    [[nodiscard]] Binding finish(double milliseconds) && {
+        apply_mask(*geometry_, *cylinder_, draft_->mesh);
+        if (keeps_area() || !geometry_->wrinkle_mask.empty())
+            body_ = make(*cylinder_, draft_->regions, draft_->mesh);
+        return {std::move(body_),  std::move(found_), std::move(draft_->mesh.order),
+                *cylinder_,        options_->profile, options_->amplitude,
+                std::move(parts_), milliseconds};
+    }
+
+private:
+    [[nodiscard]] bool keeps_area() const { return options_->amplitude == Amplitude::mesh; }
+    [[nodiscard]] std::unique_ptr<Draft> make_draft(double onset) const {
+        return std::make_unique<Draft>(*geometry_, *cylinder_, *options_, onset, places_, parts_.get());
+    }
+
+    const Geometry* geometry_;
+    const Cylinder* cylinder_;
+    const BindOptions* options_;
+    std::vector<RestRegion> places_;
+    std::vector<RegionBinding> found_;
+    std::shared_ptr<Parts> parts_;
+    std::unique_ptr<Draft> draft_;  // refers to `places_`
+    bend::Body body_;
+    double missing_ = 0;
+};
 
 }  // namespace
 
@@ -294,29 +356,26 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     check_options(options, cylinder, onset);
 
     std::vector<RestRegion> places;
-    std::vector<RegionBinding> found = plan(geometry, cylinder, options, onset, places);
-    std::shared_ptr<Parts> parts = parts_of(geometry, cylinder, options, places);
-    std::optional<Draft> draft(std::in_place, geometry, cylinder, options, onset, places, parts.get());
-    bend::Body body = make(cylinder, draft->regions, draft->mesh);
-    const BindShares shares(options.progress, options.amplitude);
-    shares.draft.tell(1, 1);
-    const bool keeps_area = options.amplitude == Amplitude::mesh;
-    if (keeps_area && options.profile.kind == Profile::Kind::even) {
-        weigh_slices(body, geometry, options, draft->mesh, places, found, shares.weights);
-        if (parts) weigh(*parts, cylinder, places, options.profile);
-        draft.emplace(geometry, cylinder, options, onset, places, parts.get());
-        body = make(cylinder, draft->regions, draft->mesh);
-        shares.weighted_draft.tell(1, 1);
+    const std::vector<RegionBinding> found = plan(geometry, cylinder, options, onset, places);
+    // Thin parts hardly wrinkle. Where the others cannot make up for their area, they bear more, if that
+    // helps.
+    constexpr double most_missing = 0.0075;
+    Attempt best(geometry, cylinder, options, onset, places, found);
+    for (const double ease : {4.0, 16.0}) {
+        if (best.missing() <= most_missing || !best.eases()) break;
+        Attempt eased(geometry, cylinder, options, onset, places, found, ease);
+        if (eased.missing() < best.missing() / 2) best = std::move(eased);
     }
-    if (keeps_area) keep_area(body, geometry, cylinder, options.wrinkle_range, *draft, shares.factors);
-    apply_mask(geometry, cylinder, draft->mesh);
-    if (keeps_area || !geometry.wrinkle_mask.empty()) body = make(cylinder, draft->regions, draft->mesh);
-    return {std::move(body),   std::move(found), std::move(draft->mesh.order), cylinder, options.profile,
-            options.amplitude, std::move(parts), milliseconds_since(start)};
+    return std::move(best).finish(milliseconds_since(start));
 }
 
 std::vector<std::uint32_t> Binding::vertices_in_body() const {
-    if (!order.empty()) return places_in_body(order);
+    if (!order.empty()) {
+        if (order.size() != body.vertex_count())
+            throw Error("order: has " + std::to_string(order.size()) + " vertices, and the body " +
+                        std::to_string(body.vertex_count()) + "; give what bind returned");
+        return places_in_body(order);
+    }
     std::vector<std::uint32_t> vertices(body.vertex_count());
     std::iota(vertices.begin(), vertices.end(), 0u);
     return vertices;

@@ -178,7 +178,7 @@ double slimmest(const Body& body) {
 
 /// Whether all of the body lies between the ends of the cylinder. A ring, say, has none that a chain finds.
 bool holds(const Cylinder& cylinder, const Body& body) {
-    constexpr double slack = 2.5e-4;  // of the first and the last arc: see rest_mesh()
+    constexpr double slack = 2.5e-4;  // of the first and the last arc: half of what rest_mesh() clamps to
     const Straightening straightening(cylinder);
     return std::ranges::all_of(body.triangles, [&](std::uint32_t i) {
         const double z = straightening.height(from_eigen(body.middle + body.size * body.points[i]));

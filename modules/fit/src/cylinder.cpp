@@ -35,9 +35,9 @@ constexpr double nearly_round = 0.1;
 /// The long axis, signed so that its largest component is positive.
 Vector3d long_axis(const Principal& principal) {
     if (principal.distinct < long_enough) {
-        throw AxisError("the mesh has no long axis: its surface spreads " + text(principal.distinct) +
-                        " times as far along its longest direction as along the next, and " +
-                        text(long_enough) + " is needed; give an axis");
+        throw AxisError("the mesh has no long axis: it is about as wide as it is long (its surface spreads " +
+                        text(principal.distinct) + " to 1, and " + text(long_enough) +
+                        " is needed); give an axis");
     }
     return principal.axis;
 }
@@ -227,8 +227,10 @@ Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector
         while (more <= bend::max_regions && !fit_chain_of(body, more, axis)) ++more;
         throw Error("arcs: the body does not follow a chain of " + std::to_string(arcs) +
                     (axis ? " along that axis" : "") +
-                    (more <= bend::max_regions ? ", but of " + std::to_string(more) + "; give that, or none"
-                                               : ", nor of more; give none"));
+                    (more <= bend::max_regions
+                         ? ", but of " + std::to_string(more) +
+                               "; give that, or none to have a straight body or one arc"
+                         : ", nor of more; give none to have a straight body or one arc"));
     }
     check_size(*chain, body);
     return *chain;
@@ -260,8 +262,13 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     const Line best = kept ? line : straighten(body, line);
     std::optional<Fitted> found;
     if (rest != RestPose::straight) found = arc_instead(body, principal, best, axis);
-    if (found && !is_bent_tube(body, cylinder_of(body, *found))) found.reset();
-    if (!found) found = measured(body, axis ? line : best);
+    const Fitted straight = measured(body, axis ? line : best);
+    if (found) {
+        const auto residual = [](const Fitted& fit) { return fit.section.residual * fit.section.radius; };
+        const bool better = residual(*found) < residual(straight);
+        if (!better || !is_bent_tube(body, cylinder_of(body, *found))) found.reset();
+    }
+    if (!found) found = straight;
     const std::optional<Cylinder> chain = chain_instead(found->line);
     Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));
     check_size(cylinder, body);

@@ -14,6 +14,8 @@
 #include <new>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace goffer::fit {
@@ -133,15 +135,17 @@ double solve_square(const std::vector<NormalPowers>& normals, double wanted, dou
     return gain > 1e-6 * wanted ? std::clamp((wanted - bare) / gain, least, 0.0) : guess * guess;
 }
 
-/// Solves one direction's column of a region's table. Calls row_done() for each row.
+/// Solves one direction's column of a region's table. Calls row_done() for each row. Returns the area that is
+/// missing in the last pose whose angle is `told_angle` at most.
 template <class RowDone>
-void solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
-                     std::span<const std::uint32_t> triangles, double wanted, bend::FactorTable& table,
-                     const RowDone& row_done) {
+double solve_direction(const bend::Body& body, std::size_t region, std::size_t direction,
+                       std::span<const std::uint32_t> triangles, double wanted, double told_angle,
+                       bend::FactorTable& table, const RowDone& row_done) {
     Poser poser(body, triangles);
     Surface surface;
     std::vector<NormalPowers> normals;
     double square = 1;
+    std::optional<double> missing;
     for (std::size_t row = rows - 1; row > 0; --row) {  // from where it is best determined
         const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
         const float turned = 2 * std::numbers::pi_v<float> * static_cast<float>(direction) /
@@ -150,38 +154,52 @@ void solve_direction(const bend::Body& body, std::size_t region, std::size_t dir
         poser.bend(region, {root * root * table.max_angle, toward}, surface);
         gather(surface, triangles, normals);
         square = solve_square(normals, wanted, square > 0 ? std::sqrt(square) : 1);
+        if (!missing && static_cast<double>(root * root * table.max_angle) <= told_angle)
+            missing = wanted - area_of(normals, std::sqrt(std::max(square, 0.0))).area;
         table.rows[row][direction] = static_cast<float>(square);
         row_done();
     }
     table.rows[0][direction] = table.rows[1][direction];
+    return missing.value_or(0);
 }
 
-bend::FactorTable factors_of(const bend::Body& body, std::size_t region,
-                             std::span<const std::uint32_t> triangles, double wanted, const Share& share) {
+/// A region's table, and the area that is missing with it, on the mean of all directions.
+struct SolvedTable {
+    bend::FactorTable factors;
+    double missing = 0;
+};
+
+SolvedTable factors_of(const bend::Body& body, std::size_t region, std::span<const std::uint32_t> triangles,
+                       double wanted, const Share& share) {
     constexpr std::size_t steps = (rows - 1) * bend::FactorTable::directions;
     bend::FactorTable table;
     table.max_angle = body.max_angle(region);
     table.rows.resize(rows);
+    const double told_angle = std::numbers::pi / 2 * static_cast<double>(body.regions()[region].length) /
+                              static_cast<double>(body.length());
+    std::array<double, bend::FactorTable::directions> missing{};
     std::atomic<bool> failed = false;
     std::atomic<std::size_t> done = 0;
     parallel_ranges(bend::FactorTable::directions, 1, [&](std::size_t first, std::size_t last) {
         try {
             for (; first < last; ++first)
-                solve_direction(body, region, first, triangles, wanted, table,
-                                [&] { share.tell(++done, steps); });
+                missing[first] = solve_direction(body, region, first, triangles, wanted, told_angle, table,
+                                                 [&] { share.tell(++done, steps); });
         } catch (...) {  // no memory: nothing else throws here
             failed = true;
         }
     });
     if (failed) throw std::bad_alloc();
-    return table;
+    const double sum = std::accumulate(missing.begin(), missing.end(), 0.0);
+    return {std::move(table), sum / bend::FactorTable::directions};
 }
 
 }  // namespace
 
-void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
-                   std::span<bend::RegionInput> regions, const Share& share) {
+double solve_factors(const bend::Body& body, const Geometry& geometry, std::span<const std::uint32_t> order,
+                     std::span<bend::RegionInput> regions, const Share& share) {
     const std::vector<std::uint32_t> place = places_in_body(order);
+    double all = 0, missing = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {
         std::vector<std::uint32_t> triangles = triangles_of(body.regions()[r], geometry.triangles, place);
         if (regions[r].table.empty() || triangles.empty()) continue;
@@ -190,8 +208,12 @@ void solve_factors(const bend::Body& body, const Geometry& geometry, std::span<c
         std::vector<NormalPowers> normals;
         gather(Poser(body, triangles).rest(), triangles, normals);
         const double wanted = area_of(normals, 0).area;
-        regions[r].factors = factors_of(body, r, triangles, wanted, share.step(r, regions.size()));
+        SolvedTable solved = factors_of(body, r, triangles, wanted, share.step(r, regions.size()));
+        regions[r].factors = std::move(solved.factors);
+        all += wanted;
+        missing += solved.missing;
     }
+    return all > 0 ? missing / all : 0;
 }
 
 }  // namespace goffer::fit

@@ -288,7 +288,7 @@ double Parts::outermost(double low, double high) const {
     return most * radius_;
 }
 
-void Parts::weigh(const Depth& depth, const Depth& deepest) {
+void Parts::weigh(const Depth& depth, const Depth& deepest, double ease) {
     sound_ = true;
     for (std::size_t i = 0; i < slice_count; ++i) {
         Slice& slice = slices_[i];
@@ -297,7 +297,7 @@ void Parts::weigh(const Depth& depth, const Depth& deepest) {
         slice.sound = true;
         for (Part& part : slice.parts) {
             const double bearable =
-                std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.size;
+                ease * std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.size;
             part.weight = deep > 0 ? std::min(bearable / deep, 1.0) : 1;
             part.priority = priority_of(part.weight, part.share, part.distance / slice.blend);
             slice.sound = slice.sound && part.weight == 1 && part.disc.beside == 0;

@@ -47,7 +47,8 @@ public:
 
     /// Sets weights with which every part bears its wrinkle. `depth`: in the pose that parts are to bear;
     /// `deepest`: in any.
-    void weigh(const Depth& depth, const Depth& deepest);
+    /// `ease`: how many times as much as usual each part bears.
+    void weigh(const Depth& depth, const Depth& deepest, double ease = 1);
 
     /// Returns how far from the axis the mesh reaches between two heights; model units. At least as far as it
     /// does.

@@ -77,8 +77,8 @@ struct BindOptions {
     std::vector<RegionOptions> regions = {};
     /// Folds of Profile::even run on over the joints of regions that wrinkle alike, and pass into each other
     /// within a quarter of a fold on both sides, where they would else fade out. Has no effect with other
-    /// profiles, and with Amplitude::area. See modules/paper/README.md, "Folds over joints", for what alike
-    /// means.
+    /// profiles, and with Amplitude::area. Vertices near such joints take about twice as long in a run. See
+    /// modules/paper/README.md, "Folds over joints", for what alike means.
     bool folds_over_joints = true;
     /// Onset q0, 0..1: squeezes far below it make no wrinkle, so that wrinkles begin gently. Columns become
     /// shorter by up to about q0 of their length for it. Unset: gentle_onset for a body that is bent at rest,

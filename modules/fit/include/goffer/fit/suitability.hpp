@@ -38,7 +38,8 @@ enum class FoldShortage {
     /// It has at least half as many folds as suit it. Or none suit it: with profiles other than even, where
     /// it is longer than 2048 radii.
     none,
-    /// The mesh's rows of vertices are too far apart; folds that were asked for are made all the same.
+    /// The mesh's rows of vertices are too far apart, for more than a tenth of the folds that were asked for;
+    /// these are made all the same.
     rows,
     /// What BindOptions::wrinkle_range leaves of it is too short for folds, or its rows are too far apart.
     range,
