@@ -35,7 +35,7 @@ std::string bent_base(const Folder& folder, const Words& words) {
 void write_keys(const Folder& folder) {
     folder.write("keys.json", R"({"interpolation": "linear", "keys": [
         {"time": 0, "angle": 0}, {"time": 1, "angle": 60, "direction": 30}, {"time": 2, "angle": -20, "direction": 30}]})");
-    folder.write("keys.csv", "time,angle,direction\n0,0,0\n1,60,30\n2,-20,30\n");
+    folder.write("keys.csv", "\"time\",\"angle\",direction\n\"0\",0,0\n\" 1 \",60,30\n2,-20,30\n");
     folder.write("path.txt", "0 0 0\n5 0 10\n0 3 20\n10 0 30\n20 -5 20\n");
 }
 

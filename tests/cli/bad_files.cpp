@@ -66,13 +66,19 @@ TEST_CASE("bad files: fits that are none") {
     const Place place;
     place.refuse_bend({"-o", "out.ply", "--fit", "none.json"}, {"none.json: there is no such file"});
     place.refuse_bend({"-o", "out.ply", "--fit", "sub.ply"}, {"sub.ply", "goffer inspect --json"});
-    for (const std::string text : {"", "garbage", "{", "[]", "{}", "null", "3", "{\"fit\": []}",
-                                   "{\"fit\": {}}", "\xff\xfe\x00\x01", "{\"fit\": {\"origin\": [0, 0]}}"}) {
+    for (const std::string text :
+         {"[]", "{}", "null", "3", "{\"fit\": []}", "{\"fit\": {}}", "{\"fit\": {\"origin\": [0, 0]}}"}) {
         CAPTURE(text);
         place.refuse_fit(text, {"not a fit", "goffer inspect --json"});
     }
-    place.refuse_fit(place.fit.dump().substr(0, 200), {"not a fit"});
-    place.refuse_fit(std::string(100000, '['), {"not a fit"});
+    for (const std::string text : {"", "garbage", "{", "\xff\xfe\x00\x01"}) {
+        CAPTURE(text);
+        place.refuse_fit(text, {"is not JSON", "goffer inspect --json"});
+    }
+    place.refuse_fit(place.fit.dump().substr(0, 200), {"is not JSON"});
+    place.refuse_fit(std::string(100000, '['), {"nested more than 32 deep"});
+    place.refuse_field("arcs", nlohmann::json::parse(std::string(500, '[') + std::string(500, ']')),
+                       {"nested more than 32 deep"});
 }
 
 TEST_CASE("bad files: fits with a field that cannot be") {

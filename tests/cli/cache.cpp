@@ -38,7 +38,7 @@ std::vector<float> pose_file(const Folder& folder, std::size_t count) {
 /// 3 frames of 2 instances that such a file moves, all of them carried by `transform`.
 void write_posed_scene(const Folder& folder, const nlohmann::json& transform) {
     base(folder, "worm.ply", {"--columns", "8", "--rows", "33"});
-    folder.write("places.csv", "1,0,0 0,1,0 0,0,1 0,0,0\n0,1,0 -1,0,0 0,0,1 5,6,7\n");
+    folder.write("places.csv", "\xEF\xBB\xBF+1,0,0 0,1,0 0,0,1 0,0,0\n0,1,0 -1,0,0 0,0,1 5,6,7\n");
     const nlohmann::json scene{{"version", 1},
                                {"fps", 24},
                                {"frames", 3.0},  // a whole number all the same

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -391,6 +392,9 @@ TEST_CASE("figures: what is refused, with nothing written") {
     refused(folder, 1, {"figures", "base.ply", "-o", "base.ply/x", "--no-charts"}, {"base.ply/x"});
     well(folder, {"bake", "base.ply", "-o", "base.goffer"});
     refused(folder, 1, Words{"figures", "base.goffer"} + page, {"base.goffer"});
+    std::filesystem::create_directory(folder / "pipe");
+    REQUIRE(mkfifo((folder / "pipe/index.html").c_str(), 0600) == 0);
+    refused(folder, 1, {"figures", "base.ply", "-o", "pipe", "--quick", "--no-charts"}, {"has files"});
 
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nowhere", 1);

@@ -209,7 +209,28 @@ TEST_CASE("materials and textures of a model are no place for an output") {
     refused(folder, 2, bend + Words{"--json", "m.mtl"}, {"--json", "replace"});
     refused(folder, 2, bend + Words{"--png", "t.png"}, {"--png", "replace"});
     refused(folder, 2, {"bake", "m.obj", "-o", "t.png"}, {"-o", "replace"});
+    // A model is told by its content.
+    std::filesystem::copy_file(folder / "m.obj", folder / "m.txt");
+    const Words text{"bend", "m.txt", "--angle", "9", "-o", "b.glb"};
+    refused(folder, 2, text + Words{"--json", "m.mtl"}, {"--json", "replace"});
+    refused(folder, 2, text + Words{"--png", "t.png"}, {"--png", "replace"});
     CHECK(bytes_of(folder / "t.png") == "a picture");
+}
+
+TEST_CASE("files that a large model names are no place for an output, whatever memory it may take") {
+    const Folder folder;
+    well(folder, {"base", "--length", "10", "--radius", "1", "-o", "m.gltf"});
+    auto model = nlohmann::json::parse(bytes_of(folder / "m.gltf"));
+    model["images"] = {{{"uri", "t.png"}}};
+    std::string many = "[0";
+    for (int i = 0; i < 35'000'000; ++i) many += ",0";
+    std::string text = model.dump();
+    text.insert(1, "\"extras\":" + many + "],");
+    folder.write("m.gltf", text);
+    folder.write("t.png", "a picture");
+    const Words bend{"bend", "m.gltf", "--angle", "9", "-o", "b.glb", "--png", "t.png", "--max-memory"};
+    refused(folder, 1, bend + Words{"1G"}, {"m.gltf", "--max-memory"});
+    refused(folder, 2, bend + Words{"8G"}, {"--png", "replace"});
 }
 
 TEST_CASE("animate: a sequence replaces nothing that its model names, and no report its materials") {

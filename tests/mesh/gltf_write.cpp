@@ -307,6 +307,12 @@ TEST_CASE("gltf: images beside the source are taken into a GLB, and named from t
     CHECK(glb.json["images"][1]["uri"] == "gone.png");
     CHECK(glb.json["images"][2]["bufferView"] == 5);  // one file is taken in once
 
+    // Those that are more than the memory allowed stay names.
+    const Mesh frugal = load(folder / "d.gltf", {.limits = {.memory = 1 << 20}});
+    folder.write("a b.png", png + std::string(2 << 20, 'x'));
+    CHECK(saved_document(frugal).json["images"][0]["uri"].get<std::string>().ends_with("a%20b.png"));
+    folder.write("a b.png", png);
+
     std::filesystem::create_directory(folder / "sub");
     save(mesh, folder / "sub/out.gltf");
     save(mesh, folder / "out.gltf");

@@ -182,6 +182,16 @@ TEST_CASE("limits: a mesh that is repeated, a buffer that is named again and aga
     CHECK(tells(within(small, "d.gltf", document.gltf()), "Limits::memory"));
 }
 
+TEST_CASE("limits: members of the JSON's objects, each of which is looked up among all before it") {
+    const auto with_members = [](int count) {
+        Document document = tetra();
+        for (int i = 0; i < count; ++i) document.json["extras"]["k" + std::to_string(i)] = 0;
+        return load_error("d.gltf", document.gltf());
+    };
+    CHECK(with_members(3000).empty());
+    CHECK(tells(with_members(40000), "objects of too many members"));
+}
+
 TEST_CASE("limits: materials of an OBJ, used and unused") {
     const Folder folder;
     std::string names, text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

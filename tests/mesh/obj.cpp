@@ -262,3 +262,43 @@ TEST_CASE("obj: a material for each face takes no more than a moment, to read an
     CHECK(saved(mesh, "b.obj").find("usemtl same_200000\n") != std::string::npos);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }
+
+TEST_CASE("obj: numbers beyond float's range are 0 or an infinity by their size, however they are written") {
+    const auto triangle = [](const std::string& x) { return "v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"; };
+    const std::string zeros(60, '0');
+    for (const std::string& small :
+         std::vector<std::string>{"0.01e-60", "10.0e-60", "." + zeros + "1", "000.0" + zeros + "1", "-1e-60",
+                                  "1e-99999999999999999999", "+0.5E-70"}) {
+        CAPTURE(small);
+        CHECK(load_text("a.obj", triangle(small)).positions[0].x == 0);
+    }
+    for (const std::string& large :
+         std::vector<std::string>{"10.0e60", "0.01e60", "1" + zeros, "0.1e99999999999999999999", "-1e60"}) {
+        CAPTURE(large);
+        CHECK(load_error("a.obj", triangle(large)).find("not finite") != std::string::npos);
+    }
+}
+
+TEST_CASE("obj: faces without a material get a name that no material has, and none is blank") {
+    Mesh mesh = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\nf 2 1 3\n");
+    mesh.source = nullptr;
+    mesh.materials.resize(2);
+    mesh.materials[0].name = "none";
+    mesh.materials[1].name = "  ";
+    mesh.parts = {{"a", 0, 0, 1}, {"b", -1, 1, 1}, {"c", 1, 2, 1}};
+    const std::string text = saved(mesh, "b.obj");
+    CHECK(text.find("usemtl none\n") < text.find("usemtl none_2\n"));
+    CHECK(text.find("usemtl none_2\n") < text.find("usemtl material\n"));
+    CHECK(text.find("usemtl material\n") != text.npos);
+}
+
+TEST_CASE("obj: a material file may be named as on Windows") {
+    const Folder folder;
+    std::filesystem::create_directory(folder / "sub");
+    folder.write("sub/m.mtl", "newmtl red\nKd 1 0 0\n");
+    const Mesh mesh =
+        load(folder.write("a.obj", "mtllib sub\\m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"));
+    CHECK(mesh.warnings.empty());
+    REQUIRE(mesh.materials.size() == 1);
+    CHECK(mesh.materials[0].base_color.r == 1);
+}

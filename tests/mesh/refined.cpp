@@ -438,3 +438,17 @@ TEST_CASE("refined: pieces of another mesh are refused") {
               r.made.triangles.resize(3 * r.made.parents.size());
           }).find("11 of 12 triangles") != std::string::npos);
 }
+
+TEST_CASE("refined: numbers of a text PLY that are doubles stay so") {
+    const Mesh mesh = load_text(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property double stamp\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property double share\nend_header\n0 0 0 1234567890.123\n1 0 0 1234567890.123\n"
+        "0 1 0 1234567890.123\n3 0 1 2 0.123456789012\n");
+    const Mesh half = refined(mesh, halves(mesh).pieces());
+    const std::string text = saved(half, "b.ply");
+    CHECK(half.positions.size() > 3);
+    CHECK(count(text, "1234567890.123\n") == half.positions.size());
+    CHECK(count(text, "0.123456789012\n") == half.faces.size());
+}

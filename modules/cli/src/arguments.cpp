@@ -70,9 +70,11 @@ fit::Cylinder cylinder_from(const nlohmann::json& fit) {
     cylinder.rest_angle = radians(fit.value("rest_angle", 0.0));
     cylinder.rest_direction = radians(fit.value("rest_direction", 0.0));
     cylinder.residual = fit.value("residual", 0.0);
-    for (const nlohmann::json& arc : fit.value("arcs", nlohmann::json::array()))
-        cylinder.arcs.push_back({arc.at("length").get<double>(), radians(arc.at("angle").get<double>()),
-                                 radians(arc.at("direction").get<double>())});
+    if (fit.contains("arcs")) {
+        for (const nlohmann::json& arc : fit.at("arcs"))
+            cylinder.arcs.push_back({arc.at("length").get<double>(), radians(arc.at("angle").get<double>()),
+                                     radians(arc.at("direction").get<double>())});
+    }
     if (fit.contains("radii")) cylinder.radii = fit.at("radii").get<std::vector<double>>();
     return cylinder;
 }
@@ -211,12 +213,14 @@ fit::Cylinder read_fit(const std::filesystem::path& file) {
     if (text.size() > most) throw InputError(file.string() + ": has more than " + io::size_text(most) + mend);
     fit::Cylinder cylinder;
     try {
-        const nlohmann::json report = nlohmann::json::parse(text);
+        const nlohmann::json report = parse_json(file, text);
         const nlohmann::json& said = report.contains("fit") ? report.at("fit") : report;
-        if (!said.is_object()) throw InputError(file.string() + ": not a fit" + mend);
+        if (!said.is_object()) throw InputError(file.string() + ": not a fit");
         cylinder = cylinder_from(said);
     } catch (const nlohmann::json::exception& error) {
         throw InputError(file.string() + ": not a fit (" + reason(error) + ")" + mend);
+    } catch (const InputError& error) {
+        throw InputError(error.what() + mend);
     }
     in_file(file, [&] { fit::check(cylinder); });
     return cylinder;
@@ -241,13 +245,14 @@ void check_output(const std::filesystem::path& file) {
     const io::AtomicFile probe(file);
 }
 
-std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs) {
+std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs, const mesh::Limits& limits) {
     std::vector<NamedFile> files;
     for (const NamedFile& input : inputs) {
-        const std::string ending = io::ending_of(input.file);
-        if (ending != ".gltf" && ending != ".glb" && ending != ".obj") continue;
+        std::error_code none;
+        if (!std::filesystem::is_regular_file(input.file, none)) continue;  // a pipe can be read but once
         try {
-            for (std::filesystem::path& named : mesh::named_files(input.file, {.allow_outside = true}))
+            for (std::filesystem::path& named :
+                 mesh::named_files(input.file, {.allow_outside = true, .limits = limits}))
                 files.push_back({input.option, std::move(named)});
         } catch (const mesh::Error&) {
             continue;
@@ -256,7 +261,8 @@ std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs) {
     return files;
 }
 
-void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
+                  const mesh::Limits& limits) {
     const auto is_file = [](const NamedFile& named) { return !named.file.empty() && named.file != "-"; };
     std::vector<NamedFile> taken = inputs;
     // A file that an output would replace is there: most runs need not look for any.
@@ -264,7 +270,7 @@ void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedF
         std::error_code error;
         return is_file(output) && std::filesystem::exists(output.file, error);
     });
-    if (may_replace) std::ranges::move(files_named_by(inputs), std::back_inserter(taken));
+    if (may_replace) std::ranges::move(files_named_by(inputs, limits), std::back_inserter(taken));
     for (const NamedFile& output : outputs) {
         for (const NamedFile& other : taken) {
             if (!is_file(output) || !is_file(other) || resolved(output.file) != resolved(other.file))

@@ -89,11 +89,14 @@ struct NamedFile {
 };
 
 /// Returns the files that models among `inputs` name, each for the option of its model. Those of one that
-/// cannot be read are left out, which reading it reports.
-[[nodiscard]] std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs);
+/// cannot be read, or is beyond `limits`, are left out, which reading it reports.
+[[nodiscard]] std::vector<NamedFile> files_named_by(const std::vector<NamedFile>& inputs,
+                                                    const mesh::Limits& limits);
 
-/// Refuses (UsageError) an output in the place of an input or of another output.
-void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+/// Refuses (UsageError) an output in the place of an input, of a file that one names, or of another output.
+/// `limits`: those that inputs are read with.
+void check_places(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
+                  const mesh::Limits& limits = {});
 
 /// Whether a file lies in a folder, or below it.
 [[nodiscard]] bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -17,8 +17,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace goffer::cli {
@@ -79,7 +83,7 @@ struct BakeRequest {
                              " is the name of a model; a body file ends in .goffer, or as you like");
         std::vector<NamedFile> inputs{{"MODEL", options.model}, {"--fit", options.fit}};
         for (const std::filesystem::path& level : options.levels) inputs.push_back({"--lod", level});
-        check_places(inputs, {{"-o", options.output}, {"--json", options.json}});
+        check_places(inputs, {{"-o", options.output}, {"--json", options.json}}, options.bind.load.limits);
         check_output(options.output);
     }
 };
@@ -138,14 +142,15 @@ std::vector<bend::DrawPart> parts_of(const mesh::Mesh& mesh, const std::vector<s
 /// The levels' materials, those of equal name and color once. Sets the levels' parts.
 std::vector<bend::DrawMaterial> materials_of(std::vector<Level>& levels) {
     std::vector<bend::DrawMaterial> all;
+    std::map<std::pair<std::string, std::array<float, 4>>, std::int32_t> known;
     for (Level& level : levels) {
         std::vector<std::int32_t> place;
         for (const mesh::Material& own : level.model.mesh.materials) {
-            const auto same = std::ranges::find_if(all, [&](const bend::DrawMaterial& other) {
-                return other.name == own.name && other.base_color == own.base_color;
-            });
-            place.push_back(static_cast<std::int32_t>(same - all.begin()));
-            if (same == all.end()) all.push_back({own.name, own.base_color});
+            const glm::vec4& color = own.base_color;
+            const auto [entry, is_new] = known.try_emplace({own.name, {color.r, color.g, color.b, color.a}},
+                                                           static_cast<std::int32_t>(all.size()));
+            place.push_back(entry->second);
+            if (is_new) all.push_back({own.name, color});
         }
         level.parts = parts_of(level.model.mesh, place);
     }

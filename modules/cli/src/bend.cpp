@@ -70,7 +70,8 @@ struct Request {
             throw UsageError("--axis: the axis is in the file of --fit; give one of them");
         if (options.path.scale != "fit") (void)read_path_scale(options.path.scale);
         check_places({{"MODEL", options.model}, {"--fit", options.fit}, {"--path", options.path.file}},
-                     {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}});
+                     {{"-o", options.output}, {"--png", options.picture.file}, {"--json", options.json}},
+                     options.bind.load.limits);
         if (options.output.empty() && options.picture.file.empty() && options.json.empty())
             throw UsageError("give -o, --png or --json; see goffer bend --help");
         if (!options.output.empty()) check_model_output(options.output);

@@ -108,7 +108,7 @@ void inspect_body_file(const InspectOptions& options) {
         throw UsageError("--axis, --rest, --arcs: " + options.model.string() +
                          " is a body file, which was fitted already; leave them out");
     }
-    check_places({{"MODEL", options.model}}, {{"--json", options.json}});
+    check_places({{"MODEL", options.model}}, {{"--json", options.json}}, options.load.limits);
     Report report(options.json);
     const bend::BodyFile file = read_body_file(options.model, options.load.limits);
     const Notes notes = read_notes(file);
@@ -169,7 +169,7 @@ void run_inspect(const InspectOptions& options) {
     words.fit = options.fit;
     words.load = options.load;
     const BindRequest request(words);
-    check_places({{"MODEL", options.model}}, {{"--json", options.json}});
+    check_places({{"MODEL", options.model}}, {{"--json", options.json}}, options.load.limits);
     Report report(options.json);
     const BoundModel model = bind_model(options.model, request);
     report_model(report, options.model, model.mesh,

@@ -47,6 +47,8 @@ struct PoseRequest {
     std::optional<double> shared;             ///< the angle that all regions share, if it is one
     std::vector<std::optional<double>> directions;  ///< degrees, one per region, where they are said
 
+    /// To be filled in.
+    PoseRequest() = default;
     /// `arcs`: of --arcs, 0 where nobody says. `baked`: the regions of a body that has them already, if it
     /// has several.
     explicit PoseRequest(const PoseWords& words, std::size_t arcs = 0,

@@ -44,7 +44,7 @@ void run_refine(const RefineOptions& options) {
     if (!options.fit.empty() && request.axis)
         throw UsageError("--axis: the axis is in the file of --fit; give one of them");
     check_places({{"MODEL", options.model}, {"--fit", options.fit}},
-                 {{"-o", options.output}, {"--json", options.json}});
+                 {{"-o", options.output}, {"--json", options.json}}, options.load.limits);
     check_model_output(options.output);
     Report report(options.json);
     refuse_body_file(options.model);

@@ -25,6 +25,21 @@ std::string_view without_plus(std::string_view token) {
     return token.starts_with('+') && !token.starts_with("+-") ? token.substr(1) : token;
 }
 
+/// Whether the decimal number `token`, which is not 0, is below 1 or above it: by its exponent, which may be
+/// beyond any range itself.
+bool is_below_one(std::string_view token) {
+    const std::size_t e = std::min(token.find_first_of("eE"), token.size());
+    const std::string_view digits = token.substr(0, e);
+    const std::string_view exponent = without_plus(token.substr(std::min(e + 1, token.size())));
+    const auto point = static_cast<double>(std::min(digits.find('.'), digits.size()));
+    const auto first = static_cast<double>(digits.find_first_of("123456789"));
+    double power = 0;
+    if (std::from_chars(exponent.data(), exponent.data() + exponent.size(), power).ec ==
+        std::errc::result_out_of_range)
+        power = exponent.starts_with('-') ? -1e300 : 1e300;
+    return point - first + power <= 0;
+}
+
 template <class Real>
 std::optional<Real> to_real(std::string_view token) {
     token = without_plus(token);
@@ -33,9 +48,7 @@ std::optional<Real> to_real(std::string_view token) {
     const auto [stop, error] = std::from_chars(token.data(), end, value);
     if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
     if (error == std::errc{}) return value;
-    const bool small =
-        token.find("e-") != token.npos || token.find("E-") != token.npos || token.find("0.0") < 2;
-    const Real magnitude = small ? Real{0} : std::numeric_limits<Real>::infinity();
+    const Real magnitude = is_below_one(token) ? Real{0} : std::numeric_limits<Real>::infinity();
     return token.starts_with('-') ? -magnitude : magnitude;
 }
 
@@ -53,9 +66,10 @@ void fail(const std::filesystem::path& file, const std::string& what) {
 
 std::string quoted(std::string_view text) {
     constexpr std::size_t longest = 40;
-    std::string out = "'";
-    for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';
-    return out + (text.size() > longest ? "...'" : "'");
+    const auto is_inside = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80; };
+    std::size_t length = std::min(text.size(), longest);
+    while (length < text.size() && length > 0 && is_inside(text[length])) --length;  // no half of a character
+    return "'" + io::escaped(text.substr(0, length)) + (text.size() > length ? "...'" : "'");
 }
 
 std::string line_of(std::string_view text, const char* place) {

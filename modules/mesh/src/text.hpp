@@ -16,7 +16,7 @@ namespace goffer::mesh {
 /// Throws Error "<file>: <what>".
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what);
 
-/// `text` in quotes, cut short and with unprintable bytes as '?', so that a message stays one line.
+/// `text` in quotes, cut short and escaped, so that a message stays one line.
 [[nodiscard]] std::string quoted(std::string_view text);
 
 /// "line N", where `place` points into `text`; lines count from 1.

@@ -180,10 +180,11 @@ void AnimateRequest::check_files(const AnimateOptions& options) const {
     }
     if (writer->write == &write_mdd || writer->write == &write_pc2)
         outputs.push_back({"-o", mesh_beside(options.output)});
-    check_places(inputs, outputs);
+    const mesh::Limits& limits = options.bind.load.limits;
+    check_places(inputs, outputs, limits);
     std::vector<NamedFile> others = inputs;
     others.push_back({"--json", options.json});
-    if (pattern) std::ranges::move(files_named_by(inputs), std::back_inserter(others));
+    if (pattern) std::ranges::move(files_named_by(inputs, limits), std::back_inserter(others));
     for (const NamedFile& other : others) {
         if (pattern && !other.file.empty() && pattern->writes(other.file))
             throw UsageError("-o: " + options.output.string() + " would replace the file of " +

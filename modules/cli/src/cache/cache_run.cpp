@@ -92,7 +92,7 @@ void check_sources(const CacheRequest& request, const Scene& scene) {
 void check_report(const CacheRequest& request, const Scene& scene) {
     std::vector<NamedFile> inputs = {{"SCENE", request.scene}};
     for (const fs::path& file : scene.files) inputs.push_back({"the scene", file});
-    check_places(inputs, {{"--json", request.json}});
+    check_places(inputs, {{"--json", request.json}}, request.load.limits);
 }
 
 bend::BodyFile loaded(const fs::path& file, const std::string& bytes) {

@@ -23,12 +23,15 @@ std::vector<float> numbers_in(const std::filesystem::path& file) {
     const std::string bytes = io::read_file(file);
     std::vector<float> numbers;
     std::string_view text = bytes;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (true) {
         text.remove_prefix(std::min(text.find_first_not_of(between), text.size()));
         if (text.empty()) return numbers;
         const std::string_view word = text.substr(0, text.find_first_of(between));
         double number = 0;  // as a float, what rounds to 0 would be out of range
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        const bool plus = word.starts_with('+') && !word.starts_with("+-");
+        const auto [end, error] =
+            std::from_chars(word.data() + (plus ? 1 : 0), word.data() + word.size(), number);
         const bool too_large = std::fabs(number) > double{std::numeric_limits<float>::max()};
         if (error != std::errc() || end != word.data() + word.size() || too_large)
             throw InputError(io::about(

@@ -78,7 +78,8 @@ struct CrowdRequest {
         }
         std::vector<NamedFile> inputs;
         for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
-        check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}});
+        check_places(inputs, {{"--png", options.picture.file}, {"--json", options.json}},
+                     options.bind.load.limits);
         picture = picture_settings(options.picture);
     }
 
@@ -188,7 +189,7 @@ void report_models(Report& report, const CrowdRequest& request, std::span<const 
     }
 }
 
-/// Two decimals, and no sign.
+/// One decimal, and no sign.
 std::string percentage(double fraction) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f %%", 100 * fraction);

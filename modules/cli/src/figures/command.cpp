@@ -55,14 +55,10 @@ void check_words(const FiguresOptions& options) {
                          std::to_string(most_models) + " at most");
     std::vector<NamedFile> inputs;
     for (const std::filesystem::path& model : options.models) inputs.push_back({"MODEL", model});
-    check_places(inputs, {{"-o", options.folder / "index.html"}, {"--json", options.json}});
-    const auto place = [](const std::filesystem::path& path) {
-        std::error_code error;
-        return std::filesystem::weakly_canonical(path / "", error).parent_path();
-    };
+    check_places(inputs, {{"-o", options.folder / "index.html"}, {"--json", options.json}},
+                 options.load.limits);
     if (options.json.empty() || options.json == "-") return;
-    if (place(options.json) == place(options.folder) ||
-        place(options.json).parent_path() == place(options.folder))
+    if (lies_in(options.json, options.folder))
         throw UsageError("--json: '" + options.json.string() +
                          "' lies in the page's folder; give it another place");
 }

@@ -4,13 +4,14 @@
 #include "arguments.hpp"
 
 #include <goffer/io/error.hpp>
+#include <goffer/io/read_file.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <ranges>
-#include <regex>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace goffer::cli {
@@ -20,17 +21,30 @@ namespace fs = std::filesystem;
 
 /// The text of a page of goffer figures; nothing where it is none.
 std::string page_in(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(in), {});
+    constexpr std::uint64_t most = std::uint64_t{8} << 20;
+    if (!fs::is_regular_file(file) || fs::file_size(file) > most) return {};
+    std::string text = io::read_file(file);
     return text.find(page_mark) == std::string::npos ? std::string() : text;
 }
 
+/// Whether a figure has such a name.
+bool is_name_of_figure(std::string_view name) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_.";
+    constexpr std::array<std::string_view, 4> endings{".csv", ".gp", ".png", ".svg"};
+    return !name.starts_with('.') && name.find_first_not_of(letters) == name.npos &&
+           std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
 /// What it shows and links, by the names that figures have.
-std::vector<std::string> files_of(const std::string& page) {
-    const std::regex link(R"re((?:src|href)="([a-z0-9_.]+\.(?:csv|gp|png|svg))")re");
+std::vector<std::string> files_of(std::string_view page) {
     std::vector<std::string> files;
-    for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found)
-        files.push_back((*found)[1]);
+    for (const std::string_view attribute : {"src=\"", "href=\""}) {
+        for (std::size_t at = 0; (at = page.find(attribute, at)) != page.npos;) {
+            at += attribute.size();
+            const std::string_view name = page.substr(at, page.find('"', at) - at);
+            if (is_name_of_figure(name)) files.emplace_back(name);
+        }
+    }
     return files;
 }
 

@@ -132,8 +132,7 @@ RegionAngles on_body(const RegionAngles& said, const bend::Body& body) {
 }
 
 std::vector<bend::Pose> poses_for(const bend::Body& body, const RegionAngles& angles, bool from_rest) {
-    PoseRequest request{PoseWords{}};
-    request.shared.reset();
+    PoseRequest request;
     request.angles = angles.angles;
     request.directions = angles.directions;
     request.from_rest = from_rest;

@@ -46,6 +46,12 @@ std::string_view trimmed(std::string_view text) {
     return first == text.npos ? "" : text.substr(first, last - first + 1);
 }
 
+/// As spreadsheets write cells.
+std::string_view unquoted(std::string_view cell) {
+    const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
 /// A line of a table, as its cells.
 struct Row {
     std::size_t line = 0;  ///< from 1
@@ -71,7 +77,7 @@ std::vector<Row> rows_of(const std::string& text, bool spaces) {
         std::istringstream cells(std::string(content) + (spaces ? "" : ","));
         for (std::string cell;
              spaces ? static_cast<bool>(cells >> cell) : static_cast<bool>(std::getline(cells, cell, ','));)
-            row.cells.emplace_back(trimmed(cell));
+            row.cells.emplace_back(unquoted(trimmed(cell)));
     }
     return rows;
 }

@@ -230,6 +230,7 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         if (words.fold_length) add("fold-length", number(*words.fold_length));
         add_unless("amplitude", words.amplitude, usual.amplitude);
         add_unless("shape", words.shape, usual.shape);
+        add_unless("joints", words.joints, usual.joints);
         add_unless("roundness", number(words.roundness), number(usual.roundness));
         if (words.onset) add("onset", number(*words.onset));
         if (words.wrinkle_range) add("wrinkle-range", *words.wrinkle_range);

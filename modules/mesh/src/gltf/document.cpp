@@ -65,6 +65,10 @@ Container parts_of(std::string_view bytes) {
 void check_nesting(std::string_view text, Budget& budget, Share share) {
     constexpr std::uint64_t per_value = 2 * sizeof(Json), per_name = 2 * (sizeof(std::string) + sizeof(Json)),
                             per_list = 4 * sizeof(Json);
+    // To look up a member takes time in proportion to how many an object has.
+    constexpr double few_lookups = 4e8, per_byte = 64;
+    double lookups = 0;
+    std::vector<double> members = {0};  // of all that is open
     std::uint64_t bytes = text.size();
     int depth = 0;
     bool in_string = false;
@@ -75,14 +79,21 @@ void check_nesting(std::string_view text, Budget& budget, Share share) {
         if (in_string && c == '\\') ++i;
         if (in_string) continue;
         if (c == ',') bytes += per_value;
-        if (c == ':') bytes += per_name;
+        if (c == ':') bytes += per_name, lookups += members.back()++;
         if (c == '{' || c == '[') bytes += per_list;
-        if (c == '}' || c == ']') --depth;
-        if ((c == '{' || c == '[') && ++depth > deepest) {
-            throw Error("the JSON is nested more than " + std::to_string(deepest) +
-                        " deep; remove such extras");
+        if (c == '}' || c == ']') {
+            --depth;
+            if (members.size() > 1) members.pop_back();
+        }
+        if (c == '{' || c == '[') {
+            members.push_back(0);
+            if (++depth > deepest)
+                throw Error("the JSON is nested more than " + std::to_string(deepest) +
+                            " deep; remove such extras");
         }
     }
+    if (lookups > few_lookups + per_byte * static_cast<double>(text.size()))
+        throw Error("the JSON has objects of too many members; remove such extras");
     budget.take(bytes);
 }
 

@@ -167,6 +167,7 @@ std::size_t Edit::add_view(std::string bytes, Json view, std::optional<std::size
 void Edit::settle_images(const std::filesystem::path& file, bool embed) {
     if (!json_.contains("images") || !json_["images"].is_array()) return;
     std::map<std::filesystem::path, std::pair<std::string, std::size_t>> taken;  // type and view of a file
+    std::uint64_t room = document_.limits.memory;
     for (std::size_t i = 0; i < json_["images"].size(); ++i) {
         Json image = json_["images"][i];
         if (!image.contains("uri") || !image["uri"].is_string()) continue;
@@ -175,7 +176,8 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         if (is_data_uri(uri) || has_scheme(uri)) continue;
         const std::filesystem::path named = document_.files.folder() / path_of(uri);
         if (!std::filesystem::is_regular_file(named, error)) continue;
-        if (!embed) {  // it stays a name, whether it may be read or not
+        const std::uint64_t size = std::filesystem::file_size(named, error);
+        if (!embed || error || size > room) {  // it stays a name, whether it may be read or not
             const auto from = std::filesystem::weakly_canonical(named, error);
             const auto to =
                 std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
@@ -191,6 +193,7 @@ void Edit::settle_images(const std::filesystem::path& file, bool embed) {
         const auto [entry, is_new] = taken.try_emplace(std::filesystem::weakly_canonical(*readable, error));
         auto& [type, view] = entry->second;
         if (is_new) {
+            room -= size;
             std::ifstream stream(*readable, std::ios::binary);
             std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
             type = mime_type(bytes);

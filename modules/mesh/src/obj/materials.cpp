@@ -132,11 +132,11 @@ void MaterialReader::warn_of_textures(const std::filesystem::path& library, cons
     std::set<std::string> missing;
     for (const tinyobj::material_t& material : materials) {
         for (const std::string& texture : texture_names(material)) {
+            if (texture.empty()) continue;
             const std::string name = with_slashes(texture);
             std::error_code error;
             const auto place = files.find(name);
-            if (!name.empty() && place && !std::filesystem::is_regular_file(*place, error))
-                missing.insert(name);
+            if (place && !std::filesystem::is_regular_file(*place, error)) missing.insert(name);
         }
     }
     for (const std::string& name : missing)
@@ -160,7 +160,10 @@ void MaterialReader::each_library(const Visit& visit) {
                                          std::to_string(most) + " material files; merge them");
                 return;
             }
-            const std::optional<std::filesystem::path> library = files_.find(name);
+            std::optional<std::filesystem::path> library = files_.find(name);
+            std::error_code error;
+            if (!library || !std::filesystem::exists(*library, error))
+                library = files_.find(with_slashes(std::string(name)));
             if (!library) {
                 mesh_.warnings.push_back("materials are left out: " + line_of(text_, name.data()) +
                                          ": mtllib names " + quoted(name) + io::NamedFiles::outside);

@@ -104,7 +104,8 @@ std::vector<std::string> material_names(const Mesh& mesh) {
     std::unordered_set<std::string> taken;
     std::unordered_map<std::string, int> next;  // number to try for a name that is taken
     for (const Material& material : mesh.materials) {
-        const std::string name = io::one_line(material.name.empty() ? "material" : trimmed(material.name));
+        const std::string_view said = trimmed(material.name);
+        const std::string name = said.empty() ? "material" : io::one_line(said);
         std::string unique = name;
         for (int& i = next.try_emplace(name, 2).first->second; !taken.insert(unique).second; ++i)
             unique = name + "_" + std::to_string(i);
@@ -113,8 +114,16 @@ std::vector<std::string> material_names(const Mesh& mesh) {
     return names;
 }
 
+/// A name that no material has.
+std::string name_of_none(const std::vector<std::string>& names) {
+    std::string none = "none";
+    for (int i = 2; std::ranges::find(names, none) != names.end(); ++i) none = "none_" + std::to_string(i);
+    return none;
+}
+
 void append_faces(std::string& out, const Mesh& mesh) {
     const std::vector<std::string> names = material_names(mesh);
+    const std::string none = name_of_none(names);
     std::size_t face = 0, corner = 0;
     const auto append_run = [&](std::size_t count) {
         for (const std::size_t end = face + count; face < end; ++face) {
@@ -132,7 +141,7 @@ void append_faces(std::string& out, const Mesh& mesh) {
         // OBJ has no way back to no material: faces without one that follow faces with one choose a name that
         // has no entry.
         if (part.material != material)
-            out += "usemtl " + (part.material < 0 ? "none" : names[static_cast<std::size_t>(part.material)]) +
+            out += "usemtl " + (part.material < 0 ? none : names[static_cast<std::size_t>(part.material)]) +
                    '\n';
         material = part.material;
         append_run(part.face_count);

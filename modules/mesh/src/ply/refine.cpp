@@ -45,7 +45,7 @@ void append_number(std::string& out, const Header& header, Type type, double num
         if (is_integer(type)) {
             out += std::to_string(std::llround(number));
         } else {
-            append(out, static_cast<float>(number));
+            type == Type::f64 ? append(out, number) : append(out, static_cast<float>(number));
         }
         return;
     }
