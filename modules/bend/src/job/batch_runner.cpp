@@ -49,7 +49,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       regions_(body_.regions.size()),
       pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty() &&
             batch.vertex_step != body_.vertex_count),
-      shares_lines_(may_share_lines()),
+      shares_lines_(non_temporal && may_share_lines()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       posed_(body_, PosedGroup::capacity(regions_)),
       staging_(plan_) {
@@ -123,7 +123,7 @@ void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
 /// planes past the cache, if there are kernels for shared lines.
 bool BatchRunner::may_share_lines() const noexcept {
     const std::size_t vertices = body_.vertex_count;
-    if (!plan_.non_temporal() || pads_ || regions_ != 1) return false;
+    if (pads_ || regions_ != 1) return false;
     if (vertices < line_floats || vertices > block_vertices) return false;
     return std::ranges::all_of(plan_.passes(), [&](const PassPlan& pass) {
         return pass.mode == WriteMode::planes &&

@@ -137,9 +137,11 @@ private:
             doublings_ = doublings_ + L::where_less(limit, part_, one, zero);
             part_ = L::where_less(limit, part_, part_ * L::splat(0.5f), part_);
         }
-        const Vec square = part_ * part_;
+        // Below this, terms beyond the first are less than they are rounded to, and might become subnormal.
+        const Vec least = L::splat(1e-8f);
+        Vec square = part_ * part_;
+        square = L::where_less(square, least, zero, square);
         Vec power = L::splat(region_.length);
-        const Vec least = L::splat(1e-20f * region_.length);
         Vec arc_z[arc_terms], arc_x[arc_terms];
         const Vec quarter = L::splat(half_turn / 2);
         for (std::size_t n = 0; n < arc_terms; ++n) {
@@ -149,7 +151,6 @@ private:
             arc_z[n] = power * term(half_terms.sinc[n], quarter_terms.sinc[n]);
             arc_x[n] = power * part_ * term(half_terms.versine[n], quarter_terms.versine[n]);
             power = power * square;
-            power = L::where_less(power, least, zero, power);  // beside the first term that is nothing
         }
         put([](auto& k) { return &k.arc_z[0]; }, arc_z[0], arc_z[1], arc_z[2], arc_z[3]);
         put([](auto& k) { return &k.arc_x[0]; }, arc_x[0], arc_x[1], arc_x[2], arc_x[3]);

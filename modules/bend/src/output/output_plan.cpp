@@ -2,6 +2,7 @@
 #include "output/output_plan.hpp"
 
 #include "body/body_data.hpp"
+#include "output/processor.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -138,7 +139,8 @@ void OutputPlan::add(Pass pass, StreamSet streams, std::size_t value, const Stre
         components_[component_count_++] = {stream.component[c], stream.stride, first + c};
 }
 
-OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal, bool compete) noexcept
+OutputPlan::OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal,
+                       std::optional<bool> compete) noexcept
     : non_temporal_(non_temporal), compete_(compete) {
     if (!batch.previous_positions.empty())
         add(Pass::previous, StreamSet::positions, 0, batch.previous_positions);
@@ -259,7 +261,7 @@ bool OutputPlan::set_planes(PassPlan& pass, const Batch& batch) const noexcept {
     if (!planes.take(positions_of(pass, batch), pass.planes.position)) return false;
     if (writes_normals(pass) && !planes.take(batch.normals, pass.planes.normal)) return false;
     if (writes_tangents(pass) && !planes.take(batch.tangents, pass.planes.tangent)) return false;
-    return !non_temporal_ || side_by_side(planes.all(), compete_);
+    return !non_temporal_ || side_by_side(planes.all(), compete_ ? *compete_ : planes_compete());
 }
 
 std::size_t vertex_bytes(const Batch& batch) noexcept {

@@ -3,12 +3,12 @@
 
 #include "kernel/args.hpp"
 #include "kernel/lines.hpp"
-#include "output/processor.hpp"
 
 #include <goffer/bend/crowd.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 /// What a batch writes and where, found once for all its instances: which passes of kernels compute it, where
@@ -80,9 +80,9 @@ struct PassPlan {
 
 class OutputPlan {
 public:
-    /// For writes by `kernels`. `non_temporal`: past the cache. `compete`: see planes_compete().
+    /// For writes by `kernels`. `non_temporal`: past the cache. `compete`: in the place of planes_compete().
     OutputPlan(const Batch& batch, const KernelSet& kernels, bool non_temporal,
-               bool compete = planes_compete()) noexcept;
+               std::optional<bool> compete = {}) noexcept;
     OutputPlan(const OutputPlan&) = delete;
     OutputPlan& operator=(const OutputPlan&) = delete;
 
@@ -135,7 +135,7 @@ private:
     std::size_t value_count_ = 0;
     PairOrder pair_order_ = {};
     bool non_temporal_ = false;
-    bool compete_ = true;
+    std::optional<bool> compete_;
     bool has_[write_mode_count] = {};
     bool in_lines_[write_mode_count] = {};
     const Record* lines_ = nullptr;  // the first record that is written as whole lines
