@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "every_way.hpp"
 #include "job/lane_runner.hpp"
 #include "kernel/kernels.hpp"
-#include "pieces.hpp"
-#include "support/arena.hpp"
 #include "support/faults.hpp"
 #include "support/rounds.hpp"
-#include "support/test_batch.hpp"
 
 #include <doctest/doctest.h>
 
@@ -92,21 +90,7 @@ TEST_CASE("P5: small bodies that are deformed many at a time have the bits of si
             crowd.stores = random() % 2 == 0 ? bend::Stores::cached : bend::Stores::non_temporal;
             crowd.isa = isa;
             if (!hostile) REQUIRE(told(bend::validate(crowd)) == "none");
-            const bend::CrowdResult expected = tested.expect(isa, crowd.frame);
-            const auto check = [&](const bend::CrowdResult& result) {
-                REQUIRE(tested.fault(crowd.frame) == "");
-                REQUIRE(result.deformed == expected.deformed);
-                REQUIRE(result.clamped == expected.clamped);
-                REQUIRE(result.at_rest == expected.at_rest);
-            };
-            tested.clear();
-            check(bend::run(crowd));
-            tested.clear();
-            check(run_pieces(crowd, 0, 1, 1 + random() % 9));
-            tested.clear();
-            bend::CrowdResult result;
-            in_arena(2, [&] { result = bend::run_parallel(crowd); });
-            check(result);
+            check_every_way(tested, crowd, 1 + random() % 9);
         }
         const bool has_lanes = bend::kernels(isa).lane_setup != nullptr;
         CHECK((together > trials) == has_lanes);

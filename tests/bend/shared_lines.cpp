@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "every_way.hpp"
 #include "job/batch_runner.hpp"
 #include "kernel/kernels.hpp"
-#include "pieces.hpp"
-#include "support/arena.hpp"
 #include "support/rounds.hpp"
-#include "support/test_batch.hpp"
 
 #include <doctest/doctest.h>
 
@@ -77,21 +75,7 @@ TEST_CASE("P5: small bodies that share cache lines have the bits of single jobs"
             bend::CrowdJob crowd{.batches = tested.batches, .frame = static_cast<std::uint32_t>(trial)};
             crowd.stores = bend::Stores::non_temporal;
             crowd.isa = isa;
-            const bend::CrowdResult expected = tested.expect(isa, crowd.frame);
-            const auto check = [&](const bend::CrowdResult& result) {
-                REQUIRE(tested.fault(crowd.frame) == "");
-                REQUIRE(result.deformed == expected.deformed);
-                REQUIRE(result.clamped == expected.clamped);
-                REQUIRE(result.at_rest == expected.at_rest);
-            };
-            tested.clear();
-            check(bend::run(crowd));
-            tested.clear();
-            check(run_pieces(crowd, 0, 1, 1 + random() % 9));
-            tested.clear();
-            bend::CrowdResult result;
-            in_arena(2, [&] { result = bend::run_parallel(crowd); });
-            check(result);
+            check_every_way(tested, crowd, 1 + random() % 9);
         }
     }
 }

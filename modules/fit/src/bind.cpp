@@ -217,17 +217,15 @@ void weigh_slices(const bend::Body& body, const Geometry& geometry, const BindOp
     }
 }
 
-/// The parts of the body, with what they bear of its wrinkles; null where all bear all.
-std::shared_ptr<Parts> parts_of(const Geometry& geometry, const Cylinder& cylinder,
-                                const BindOptions& options, std::span<const RestRegion> places, double ease) {
+/// The parts of the body, not weighed yet; null where all bear all.
+std::unique_ptr<const Parts> parts_of(const Geometry& geometry, const Cylinder& cylinder,
+                                      const BindOptions& options, std::span<const RestRegion> places) {
     const bool wrinkles =
         std::ranges::any_of(places, [](const RestRegion& region) { return region.folds.count > 0; });
     if (!wrinkles || options.profile.kind != Profile::Kind::even || options.shape != ShapeMode::automatic ||
         options.amplitude == Amplitude::area || !chooses_folds(options))
         return nullptr;
-    auto parts = std::make_shared<Parts>(geometry, cylinder);
-    weigh(*parts, cylinder, places, options.profile, ease);
-    return parts;
+    return std::make_unique<const Parts>(geometry, cylinder);
 }
 
 /// Solves the factors with which `body`, made from `draft`, keeps the area of what may wrinkle, and lowers
@@ -267,15 +265,17 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 /// A body, with what is solved on it.
 class Attempt {
 public:
-    /// All must outlive the attempt. `ease`: as Parts::weigh() has it.
+    /// The first three must outlive the attempt. `parts`: as parts_of() has them. `ease`: as Parts::weigh().
     Attempt(const Geometry& geometry, const Cylinder& cylinder, const BindOptions& options, double onset,
-            std::vector<RestRegion> places, std::vector<RegionBinding> found, double ease = 1)
+            std::vector<RestRegion> places, std::vector<RegionBinding> found, const Parts* parts,
+            double ease = 1)
         : geometry_(&geometry),
           cylinder_(&cylinder),
           options_(&options),
           places_(std::move(places)),
           found_(std::move(found)),
-          parts_(parts_of(geometry, cylinder, options, places_, ease)) {
+          parts_(parts != nullptr ? std::make_shared<Parts>(*parts) : nullptr) {
+        if (parts_) weigh(*parts_, cylinder, places_, options.profile, ease);
         draft_ = make_draft(onset);
         body_ = make(cylinder, draft_->regions, draft_->mesh);
         const std::function<void(double)> nobody;  // what is tried again has been told
@@ -360,10 +360,11 @@ Binding bind(const Geometry& geometry, const Cylinder& given, const BindOptions&
     // Thin parts hardly wrinkle. Where the others cannot make up for their area, they bear more, if that
     // helps.
     constexpr double most_missing = 0.0075;
-    Attempt best(geometry, cylinder, options, onset, places, found);
+    const std::unique_ptr<const Parts> parts = parts_of(geometry, cylinder, options, places);
+    Attempt best(geometry, cylinder, options, onset, places, found, parts.get());
     for (const double ease : {4.0, 16.0}) {
         if (best.missing() <= most_missing || !best.eases()) break;
-        Attempt eased(geometry, cylinder, options, onset, places, found, ease);
+        Attempt eased(geometry, cylinder, options, onset, places, found, parts.get(), ease);
         if (eased.missing() < best.missing() / 2) best = std::move(eased);
     }
     return std::move(best).finish(milliseconds_since(start));

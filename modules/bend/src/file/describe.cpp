@@ -10,13 +10,12 @@ namespace {
 const char* words_of(FileReason reason) noexcept {
     switch (reason) {
         case FileReason::none:
+        case FileReason::version:  // says more: see describe()
             break;
         case FileReason::not_a_body_file:
             return "not a body file; goffer bake makes one";
         case FileReason::byte_order:
             return "made on a machine of the other byte order; bake it again for this one";
-        case FileReason::version:
-            return "of a version that this library does not know";
         case FileReason::truncated:
             return "has fewer bytes than it says; copy or bake it again";
         case FileReason::too_long:

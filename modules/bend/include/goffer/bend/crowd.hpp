@@ -101,7 +101,7 @@ struct Batch {
     PackedStream packed = {};
     Stream3 previous_positions = {};
     /// Empty, or one per instance i, whatever `indices` says, which a run sets unless it skips the instance.
-    /// They cost from a third of a microsecond each, which with few vertices may be more than these do.
+    /// They cost from half a microsecond each, which with few vertices may be more than these do.
     std::span<Bounds> bounds = {};
     /// A column, as above: the first vertex of an instance in the buffer. Default: i * vertex_step.
     StridedView<std::uint32_t> vertex_offsets = {};
