@@ -114,7 +114,7 @@ TEST_CASE("P5: batches in pieces, in arenas and on threads give the bits of sing
                 style.hostile = trial == 5;
                 style.scratch_gaps = random() % 2 == 0;
                 style.picture = batch_pictures[random() % std::size(batch_pictures)];
-                tested.add(random, all[i], random() % 12, style);
+                tested.add(random, all[i], random() % (all[i].vertex_count() > 1000 ? 40 : 12), style);
             }
             bend::CrowdJob crowd{.batches = tested.batches, .frame = static_cast<std::uint32_t>(trial)};
             crowd.stores = both_stores[static_cast<std::size_t>(trial) / 2 % 2];
@@ -249,6 +249,36 @@ TEST_CASE("pieces share what is not skipped equally") {
     const bend::CrowdJob crowd{.batches = {&batch, 1}};
     for (std::size_t piece = 0; piece < pieces; ++piece)
         CHECK(bend::run_piece(crowd, piece, pieces).deformed == count / 3 / pieces);
+}
+
+TEST_CASE("pieces of large bodies are the same vertices of many instances") {
+    constexpr std::size_t count = 40, half = 1024, vertices = 2 * half;
+    constexpr std::size_t row = 16, pieces = 5;  // of half a row each
+    Random random(105);
+    const bend::Body body = loose_body(random, vertices);
+    const std::vector<bend::Pose> poses(count, {1, 2});
+    std::vector<std::uint8_t> visible(count);
+    for (std::size_t i = 0; i < count; ++i) visible[i] = i % 4 == 0 ? 1 : 0;
+    OutputBuffer out("x y z", count * vertices);
+    bend::Batch batch{.body = &body, .count = count};
+    batch.poses = strided(std::span(poses));
+    batch.visible = strided(std::span(std::as_const(visible)));
+    batch.vertex_step = vertices;
+    out.attach(batch);
+    const bend::CrowdJob crowd{.batches = {&batch, 1}};
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        CAPTURE(piece);
+        out.clear();
+        bend::run_piece(crowd, piece, pieces);
+        const bool last = piece + 1 == pieces;  // its row is half as long
+        const std::size_t begin = piece % 2 * half, end = last ? vertices : begin + half;
+        for (std::size_t i = 0; i < count; i += 4) {
+            const bool mine = i / row == piece / 2;
+            for (const std::size_t v : {std::size_t{0}, half - 1, half, vertices - 1})
+                CHECK((out.value('x', i * vertices + v) != OutputBuffer::guard) ==
+                      (mine && v >= begin && v < end));
+        }
+    }
 }
 
 TEST_CASE("every n-th frame: each instance has its turn, and the turns are spread") {

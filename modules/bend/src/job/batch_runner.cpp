@@ -51,6 +51,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
             batch.vertex_step != body_.vertex_count),
       shares_lines_(non_temporal && may_share_lines()),
       bounded_(!batch.packed.empty() || !batch.bounds.empty()),
+      part_{0, body_.vertex_count},
       posed_(body_, PosedGroup::capacity(regions_)),
       staging_(plan_) {
     bool streams = false;
@@ -69,25 +70,22 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
                                 PosedGroup::capacity(regions_));
 }
 
-void BatchRunner::add_part(std::size_t instance, std::size_t first, std::size_t last) noexcept {
+void BatchRunner::set_part(std::size_t first, std::size_t last) noexcept {
+    if (first == part_.first && last == part_.last) return;
     finish();
-    gather(instance);
-    const bool begins = first == 0 && last != 0;
-    take_poses(begins);
-    set_up(begins);
-    deform_group(first, last);
+    part_ = {first, last};
 }
 
 void BatchRunner::finish() noexcept {
     if (gathered_->count != 0) next_group();
-    deform_group(0, body_.vertex_count);
+    deform_group();
 }
 
 /// Deforms the group that is set up, and sets up the one that was gathered.
 void BatchRunner::next_group() noexcept {
-    take_poses(true);
-    deform_group(0, body_.vertex_count);
-    set_up(true);
+    take_poses(begins());
+    deform_group();
+    set_up(begins());
 }
 
 /// Takes the current poses of the group that was gathered. `counts`: result() counts them.
@@ -97,9 +95,10 @@ void BatchRunner::take_poses(bool counts) noexcept {
     if (!posed_now_) posed_.clear();
 }
 
-/// Deforms the vertices [first, last) of the group that is set up, if there is one.
-void BatchRunner::deform_group(std::size_t first, std::size_t last) noexcept {
+/// Deforms the group that is set up, if there is one.
+void BatchRunner::deform_group() noexcept {
     if (group_->count == 0) return;
+    const auto [first, last] = part_;
     if (shares_lines_ && last - first == body_.vertex_count) {
         deform_row();
         group_->count = 0;

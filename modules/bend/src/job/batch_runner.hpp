@@ -31,9 +31,9 @@ public:
         gather(instance);
         if (gathered_->count == group_size_) next_group();
     }
-    /// Deforms the vertices [first, last) of an instance that is not skipped. result() counts an instance
-    /// when its vertex 0 is deformed.
-    void add_part(std::size_t instance, std::size_t first, std::size_t last) noexcept;
+    /// Of instances that are added from now on, only the vertices [first, last) are deformed. Those that
+    /// still wait are finished before. result() counts an instance when its vertex 0 is deformed.
+    void set_part(std::size_t first, std::size_t last) noexcept;
     /// Deforms the instances that still wait.
     void finish() noexcept;
 
@@ -88,11 +88,12 @@ private:
         gathered_->elements[gathered_->count] = element_of(batch_, instance);
         gathered_->members[gathered_->count++] = {instance, vertex, plan_.peeled(vertex)};
     }
+    [[nodiscard]] bool begins() const noexcept { return part_.first == 0 && part_.last != 0; }
     void next_group() noexcept;
     void take_poses(bool counts) noexcept;
     void set_up(bool sets_bounds) noexcept;
     void set_up_poses(std::size_t set, bool normals) noexcept;
-    void deform_group(std::size_t first, std::size_t last) noexcept;
+    void deform_group() noexcept;
     [[nodiscard]] bool may_share_lines() const noexcept;
     void deform_row() noexcept;
     [[nodiscard]] bool shares_line(std::size_t member) const noexcept;
@@ -147,6 +148,7 @@ private:
     bool posed_now_ = false;  // current poses are wanted, not only previous ones
     bool normals_ = false;    // of current poses, more than positions are wanted
     std::size_t group_size_ = 0;
+    Span part_;  // of each instance, that is deformed
     CrowdResult result_;
     Group groups_[2];
     Group* group_ = &groups_[0];     // that is set up, and not yet deformed

@@ -32,12 +32,20 @@ constexpr std::size_t bytes_per_instance = sizeof(Batch::indices[0]) + sizeof(Ba
                                            sizeof(Batch::changed[0]) + sizeof(Batch::update_intervals[0]);
 static_assert(bytes_per_instance <= 32);
 
-/// A place in the crowd: a vertex of an instance of a batch.
+/// A place in the crowd: a vertex of a row of instances of a batch. Before it lie the rows before this one,
+/// and of each instance of this row the vertices before that one.
 struct Place {
     std::size_t batch = 0;
-    std::size_t instance = 0;
+    std::size_t instance = 0;  ///< the first one of the row
     std::size_t vertex = 0;
 };
+
+/// How many instances are in a row; the last one may have fewer. Those of large bodies are cut together, so
+/// that the columns of a piece serve many instances: those of the whole body may not stay in a cache.
+std::size_t row_of(const Body& body) noexcept {
+    constexpr std::size_t large = 1024;  // vertices
+    return body.vertex_count() < large ? 1 : setup_width;
+}
 
 /// Tells which instances of a batch are deformed in this frame: those that are not skipped.
 class Activity {
@@ -54,10 +62,12 @@ public:
         return (batch_.visible.empty() || batch_.visible[element] != 0) &&
                (batch_.changed.empty() || batch_.changed[element] != 0) && has_turn(instance, element);
     }
-    [[nodiscard]] std::size_t count() const noexcept {
-        if (all()) return batch_.count;
+    [[nodiscard]] std::size_t count() const noexcept { return count(0, batch_.count); }
+    /// Of the instances [first, last).
+    [[nodiscard]] std::size_t count(std::size_t first, std::size_t last) const noexcept {
+        if (all()) return last - first;
         std::size_t active = 0;
-        for (std::size_t i = 0; i < batch_.count; ++i) active += (*this)[i] ? 1 : 0;
+        for (std::size_t i = first; i < last; ++i) active += (*this)[i] ? 1 : 0;
         return active;
     }
 
@@ -138,16 +148,16 @@ CrowdResult run_lanes_twice(const Batch& batch, const CrowdJob& job, std::size_t
 GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, Place to,
                                             bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
-    const std::size_t vertices = batch.body->vertex_count();
+    const std::size_t vertices = batch.body->vertex_count(), row = row_of(*batch.body);
     BatchRunner runner(batch, kernels(job.isa), non_temporal);
-    for (std::size_t i = from.instance; i < batch.count && i <= to.instance; ++i) {
-        const std::size_t first = i == from.instance ? from.vertex : 0;
-        const std::size_t last = i == to.instance ? to.vertex : vertices;
-        if (first >= last || !active[i]) continue;
-        if (last - first == vertices) {
-            runner.add(i);
-        } else {
-            runner.add_part(i, first, last);
+    for (std::size_t begin = from.instance; begin < batch.count && begin <= to.instance; begin += row) {
+        const std::size_t first = begin == from.instance ? from.vertex : 0;
+        const std::size_t last = begin == to.instance ? to.vertex : vertices;
+        if (first >= last) continue;
+        runner.set_part(first, last);
+        const std::size_t end = std::min(begin + row, batch.count);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (active[i]) runner.add(i);
         }
     }
     runner.finish();
@@ -157,7 +167,7 @@ GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& 
 /// Deforms a batch from one of its places to another.
 CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
                       bool non_temporal) noexcept {
-    const std::size_t first = from.instance + (from.vertex != 0 ? 1 : 0);
+    const std::size_t first = from.instance + (from.vertex != 0 ? row_of(*batch.body) : 0);
     const std::size_t whole = to.instance - std::min(first, to.instance);
     if (!LaneRunner::suits(batch, whole, kernels(job.isa)))
         return run_one_by_one(batch, job, from, to, non_temporal);
@@ -206,21 +216,22 @@ private:
     bool found(std::size_t wanted) noexcept {
         const Batch& batch = job_.batches[place_.batch];
         const Activity active(batch, job_.frame);
-        const std::size_t size = batch.body->vertex_count();
+        const std::size_t size = batch.body->vertex_count(), row = row_of(*batch.body);
         place_.vertex = 0;
         if (active.all() && size != 0) {
-            const std::size_t skipped = std::min((wanted - before_) / size, batch.count - place_.instance);
-            place_.instance += skipped;
-            before_ += skipped * size;
+            const std::size_t rows = std::min((wanted - before_) / size, batch.count - place_.instance) / row;
+            place_.instance += rows * row;
+            before_ += rows * row * size;
         }
-        for (; place_.instance < batch.count; ++place_.instance) {
-            if (!active[place_.instance]) continue;
-            if (wanted < before_ + size) {
-                // A multiple of a line: no line is cut, if the instance begins one.
-                place_.vertex = (wanted - before_) / line_floats * line_floats;
+        for (; place_.instance < batch.count; place_.instance += row) {
+            const std::size_t end = std::min(place_.instance + row, batch.count);
+            const std::size_t together = active.count(place_.instance, end);
+            if (wanted - before_ < together * size) {
+                // A multiple of a line: no line is cut, if the instances begin one.
+                place_.vertex = (wanted - before_) / together / line_floats * line_floats;
                 return true;
             }
-            before_ += size;
+            before_ += together * size;
         }
         return false;
     }
@@ -302,12 +313,10 @@ CrowdResult run_parallel(const CrowdJob& job) {
     for (std::size_t piece = 0; piece <= pieces; ++piece) places[piece] = cutter.begin_of(piece);
     std::atomic<std::size_t> deformed = 0, clamped = 0, at_rest = 0;
     parallel_ranges(pieces, 1, [&](std::size_t first, std::size_t last) {
-        for (; first < last; ++first) {
-            const CrowdResult part = run_between(job, places[first], places[first + 1], non_temporal);
-            deformed.fetch_add(part.deformed, std::memory_order_relaxed);
-            clamped.fetch_add(part.clamped, std::memory_order_relaxed);
-            at_rest.fetch_add(part.at_rest, std::memory_order_relaxed);
-        }
+        const CrowdResult part = run_between(job, places[first], places[last], non_temporal);
+        deformed.fetch_add(part.deformed, std::memory_order_relaxed);
+        clamped.fetch_add(part.clamped, std::memory_order_relaxed);
+        at_rest.fetch_add(part.at_rest, std::memory_order_relaxed);
     });
     return {deformed.load(), clamped.load(), at_rest.load()};
 }

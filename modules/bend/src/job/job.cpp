@@ -34,7 +34,9 @@ DeformResult run_range(const DeformJob& job, std::size_t first, std::size_t last
     assert(poses_of(job).size() == job.body->region_count());
     assert(first <= last && last <= job.body->vertex_count());
     BatchRunner runner(batch, kernels(job.isa), false);
-    runner.add_part(0, first, last);
+    runner.set_part(first, last);
+    runner.add(0);
+    runner.finish();
     const PoseState state = state_of(*job.body->data(), poses_of(job));
     return {.clamped = state.clamped, .at_rest = state.at_rest};
 }
