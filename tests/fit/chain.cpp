@@ -158,6 +158,19 @@ TEST_CASE("chains: a thin part and a thick one lie along the chain, each with it
     CHECK(center_miss(fit::bind(solid.geometry(), shaped, round).cylinder, s, {}) < 0.15);
 }
 
+TEST_CASE("chains: a body that is far from round gets arcs where a line through it fits far worse") {
+    std::mt19937 random(9);
+    for (const float lobes : {0.45f, 0.65f}) {
+        Solid solid = test::cylinder({.rows = 160, .length = length_of(s)}, random);
+        for (glm::vec3& p : solid.positions) {
+            const float thick = 1 + lobes * std::cos(3 * std::atan2(p.y, p.x));
+            p.x *= thick, p.y *= thick;
+        }
+        solid = test::warped(std::move(solid), Bender(s));
+        CHECK((chain_of(solid).arcs.size() >= 2) == (lobes < 0.5f));
+    }
+}
+
 TEST_CASE("chains: a tip that points at the body's own side ends there") {
     std::mt19937 random(7);
     const Arcs hook{{24, 0, 0}, {18, 170 * degree, 0}, {7, 0, 0}, {5, 90 * degree, 0}, {4.5, 0, 0}};

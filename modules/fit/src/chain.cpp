@@ -248,6 +248,7 @@ constexpr std::size_t samples = 4000;
 
 std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std::optional<Vector3d>& axis) {
     constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7;
+    constexpr double less_smooth = 0.25, much_better = 0.5;
     constexpr double least_aside = 1;  // radii: what bends less is a relief
     constexpr double few_times = 4;    // what a line's radius may be of the slimmest that is possible
     std::vector<std::uint32_t> triangles;
@@ -267,7 +268,9 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     if (chain.arcs().size() < 2) return std::nullopt;
     const View view = view_about(cloud, chain);
     const double now = roughness(cloud, view);
-    if (!(now < smooth * limits.radius && now < better * rough)) return std::nullopt;
+    const bool follows = now < smooth * limits.radius && now < better * rough;
+    const bool far_better = now < less_smooth * limits.radius && now < much_better * rough;
+    if (!follows && !far_better) return std::nullopt;
     const std::optional<Cylinder> base = base_about(chain, body, cloud, view);
     return base && is_bent_tube(body, *base) ? base : std::nullopt;
 }

@@ -84,10 +84,10 @@ public:
 /// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
 /// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
 /// than half a turn), and its body as many regions: if its sections lie all around the chain, and are circles
-/// about it within 0.2 of the radius and within 0.7 of what they are about the line; if the middle of the
-/// body is more than a radius from the line somewhere; if all of it lies between the chain's ends; if it
-/// is a tube that was bent along it; and if a given `axis` is within about 45 degrees of its
-/// chord, which is signed as the long axis is otherwise. A mesh without a long axis may get one, too. How
+/// about it within 0.2 of the radius and within 0.7 of what they are about the line, or within 0.25 and 0.5;
+/// if the middle of the body is more than a radius from the line somewhere; if all of it lies between the
+/// chain's ends; if it is a tube that was bent along it; and if a given `axis` is within about 45 degrees of
+/// its chord, which is signed as the long axis is otherwise. A mesh without a long axis may get one, too. How
 /// many arcs follow a body best may change with a small change of its mesh.
 ///
 /// `arcs`, 2..bend::max_regions, says how many with RestPose::chain: the result is then a chain of so many,
