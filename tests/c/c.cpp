@@ -77,7 +77,18 @@ TEST_CASE("C: a job gives the bits of C++, and so do bounds, capsules and socket
         goffer_job_run_parallel(&from);
         CHECK(same_bits(p, cp));
 
+        std::ranges::fill(cp, 0.0f);
+        goffer_bounds run_box = {};
+        from.bounds = &run_box;
+        CHECK(goffer_job_run_range(&from, count / 3, count).at_rest == 0);
+        CHECK(run_box.high[0] == 0);
+        goffer_job_run_range(&from, 0, count / 3);
+        goffer_job_run_range(&from, 0, count + 1);
+        goffer_job_run_range(&from, 2, 1);
+        CHECK(same_bits(p, cp));
+
         const goffer_bounds box = goffer_job_bounds(&from);
+        CHECK(std::memcmp(&box, &run_box, sizeof box) == 0);
         const bend::Bounds bounds = bend::bounds(job);
         CHECK(std::memcmp(&box, &bounds, sizeof box) == 0);
         std::vector<goffer_capsule> c_capsules(4 * regions);
@@ -100,6 +111,72 @@ TEST_CASE("C: a job gives the bits of C++, and so do bounds, capsules and socket
         CHECK(std::memcmp(frames, c_frames, sizeof frames) == 0);
         goffer_sockets_free(c_sockets);
     }
+}
+
+TEST_CASE("C: gaps between outputs are kept, unless they are scratch") {
+    Random random(77);
+    const Twice twice(random, 1);
+    const std::size_t count = goffer_body_vertex_count(twice.body);
+    std::vector<float> records(4 * count);
+    for (const int scratch : {0, 1}) {
+        goffer_job job = goffer_job_defaults();
+        job.body = twice.body;
+        job.poses = twice.poses.data();
+        job.pose_count = 1;
+        job.positions = stream(records, 4);
+        job.positions.component[3] = nullptr;
+        job.scratch_gaps = scratch;
+        std::ranges::fill(records, 7.0f);
+        REQUIRE(goffer_job_validate(&job, nullptr) == 1);
+        goffer_job_run(&job);
+        bool kept = true;
+        for (std::size_t i = 0; i < count; ++i) kept = kept && records[4 * i + 3] == 7;
+        CHECK((kept || scratch == 1));
+        CHECK(records[4 * count - 4] != 7);
+    }
+}
+
+TEST_CASE("C: a level is bound as from C++, and told from what is no rig") {
+    Random random(78);
+    const Twice twice(random, 2);
+    TestMesh coarse = twice.mesh;
+    coarse.triangles.resize(coarse.triangles.size() / 2);
+    const goffer_mesh mesh = mesh_of(coarse);
+    goffer_error error;
+    goffer_body* const level = goffer_body_bind_level(&mesh, twice.body, &error);
+    INFO(error.text);
+    REQUIRE(level != nullptr);
+    const fit::Binding expected = fit::bind_level(coarse.geometry(), twice.binding);
+    const std::size_t count = goffer_body_vertex_count(level);
+    REQUIRE(count == expected.body.vertex_count());
+    for (std::size_t r = 0; r < 2; ++r) {
+        CHECK(goffer_body_folds(level, r).made == expected.folds(r));
+        CHECK(goffer_body_folds(level, r).capacity == expected.folds_capacity(r));
+    }
+    const std::vector<bend::Pose> poses = twice.cpp_poses();
+    std::vector<float> p(3 * count), cp(3 * count);
+    bend::DeformJob job{.body = &expected.body, .poses = poses};
+    job.positions = interleaved<3>(p.data(), count);
+    bend::run(job);
+    goffer_job from = goffer_job_defaults();
+    from.body = level;
+    from.poses = twice.poses.data();
+    from.pose_count = 2;
+    from.positions = stream(cp, 3);
+    goffer_job_run(&from);
+    CHECK(same_bits(p, cp));
+    goffer_body_free(level);
+
+    const std::vector<std::byte> bytes = baked_bytes(twice);
+    goffer_file* const file = goffer_file_load(bytes.data(), bytes.size(), GOFFER_VERIFY_LAYOUT, 1, nullptr);
+    REQUIRE(file != nullptr);
+    for (const goffer_body* rig : {static_cast<const goffer_body*>(nullptr), goffer_file_body(file, 0)}) {
+        CHECK(goffer_body_bind_level(&mesh, rig, &error) == nullptr);
+        CHECK(error.code == GOFFER_ERROR_ARGUMENT);
+    }
+    CHECK(goffer_body_bind_level(nullptr, twice.body, &error) == nullptr);
+    CHECK(error.code == GOFFER_ERROR_ARGUMENT);
+    goffer_file_free(file);
 }
 
 TEST_CASE("C: what bind found is the base, and folds that are made, possible and suitable") {

@@ -3,7 +3,6 @@
 #include "twice.hpp"
 
 #include <goffer/bend/body_file.hpp>
-#include <goffer/fit/bake.hpp>
 
 #include <doctest/doctest.h>
 #include <goffer.h>
@@ -28,11 +27,6 @@ int code_of(const Call& call) {
     CHECK(good == (error.code == GOFFER_ERROR_NONE));
     CHECK(good == std::string(error.text).empty());
     return error.code;
-}
-
-std::vector<std::byte> baked_bytes(const Twice& twice) {
-    const fit::BakeLevel level{&twice.binding, {twice.mesh.triangles, {}, {}, {}}};
-    return fit::bake({{&level, 1}});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "support/bodies.hpp"
 
 #include <goffer/bend/pose.hpp>
+#include <goffer/fit/bake.hpp>
 #include <goffer/fit/bind.hpp>
 
 #include <doctest/doctest.h>
@@ -62,6 +63,12 @@ struct Twice {
         return result;
     }
 };
+
+/// A body file of one level.
+inline std::vector<std::byte> baked_bytes(const Twice& twice) {
+    const fit::BakeLevel level{&twice.binding, {twice.mesh.triangles, {}, {}, {}}};
+    return fit::bake({{&level, 1}});
+}
 
 inline goffer_stream stream(std::vector<float>& memory, std::size_t floats) {
     goffer_stream result = {};

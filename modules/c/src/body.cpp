@@ -135,6 +135,22 @@ goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_bind_options
     });
 }
 
+goffer_body* goffer_body_bind_level(const goffer_mesh* level, const goffer_body* rig, goffer_error* error) {
+    return guarded(error, [&]() -> goffer_body* {
+        if (level == nullptr) throw std::invalid_argument("level: null");
+        if (rig == nullptr) throw std::invalid_argument("rig: null");
+        if (!rig->binding)
+            throw std::invalid_argument("rig: a body of a file, which has its levels; bind the model's mesh");
+        auto body = std::make_unique<goffer_body>();
+        body->binding = fit::bind_level(geometry_of(*level), *rig->binding);
+        body->folds = rig->folds;
+        for (std::size_t r = 0; r < body->folds.size(); ++r)
+            body->folds[r].capacity = body->binding->folds_capacity(r);
+        body->body = &body->binding->body;
+        return body.release();
+    });
+}
+
 void goffer_body_free(goffer_body* body) {
     if (body != nullptr && body->binding) delete body;
 }

@@ -72,6 +72,8 @@ bend::DeformJob goffer::c::job_of(const goffer_job& from) noexcept {
     job.previous_positions = stream3(from.previous_positions);
     job.previous_poses = poses_of(from.previous_poses, from.pose_count);
     job.previous_transform = matrix_of(from.previous_transform);
+    job.bounds = reinterpret_cast<bend::Bounds*>(from.bounds);
+    job.scratch_gaps = from.scratch_gaps != 0;
     job.isa = isa_of(from.isa);
     return job;
 }
@@ -100,6 +102,12 @@ int goffer_job_validate(const goffer_job* job, goffer_error* error) {
 
 goffer_job_result goffer_job_run(const goffer_job* job) {
     return result_of(bend::run(job_of(*job)));
+}
+
+goffer_job_result goffer_job_run_range(const goffer_job* job, size_t first, size_t last) {
+    const bend::DeformJob made = job_of(*job);
+    if (first > last || last > made.body->vertex_count()) return {};
+    return result_of(bend::run_range(made, first, last));
 }
 
 goffer_job_result goffer_job_run_parallel(const goffer_job* job) {

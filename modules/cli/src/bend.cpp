@@ -160,8 +160,8 @@ bool warn_of_area(Report& report, double change) {
     constexpr double most = 0.01;
     if (change >= -most) return false;
     report.warn("the area changes by " + percent(change) +
-                ", which the wrinkles do not make up for; cut the body into --regions, or name its folds "
-                "with --folds");
+                ", which the wrinkles do not make up for; say how many folds there are with --folds, or "
+                "cut the body into --regions");
     return true;
 }
 
