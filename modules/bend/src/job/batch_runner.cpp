@@ -70,12 +70,6 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
                                 PosedGroup::capacity(regions_));
 }
 
-void BatchRunner::set_part(std::size_t first, std::size_t last) noexcept {
-    if (first == part_.first && last == part_.last) return;
-    finish();
-    part_ = {first, last};
-}
-
 void BatchRunner::finish() noexcept {
     if (gathered_->count != 0) next_group();
     deform_group();

@@ -33,7 +33,11 @@ public:
     }
     /// Of instances that are added from now on, only the vertices [first, last) are deformed. Those that
     /// still wait are finished before. result() counts an instance when its vertex 0 is deformed.
-    void set_part(std::size_t first, std::size_t last) noexcept;
+    void set_part(std::size_t first, std::size_t last) noexcept {
+        if (first == part_.first && last == part_.last) return;
+        finish();
+        part_ = {first, last};
+    }
     /// Deforms the instances that still wait.
     void finish() noexcept;
 
