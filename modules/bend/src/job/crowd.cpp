@@ -150,16 +150,23 @@ GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& 
     const Activity active(batch, job.frame);
     const std::size_t vertices = batch.body->vertex_count(), row = row_of(*batch.body);
     BatchRunner runner(batch, kernels(job.isa), non_temporal);
-    for (std::size_t begin = from.instance; begin < batch.count && begin <= to.instance; begin += row) {
-        const std::size_t first = begin == from.instance ? from.vertex : 0;
-        const std::size_t last = begin == to.instance ? to.vertex : vertices;
-        if (first >= last) continue;
-        runner.set_part(first, last);
-        const std::size_t end = std::min(begin + row, batch.count);
-        for (std::size_t i = begin; i < end; ++i) {
+    const auto run_instances = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
             if (active[i]) runner.add(i);
         }
+    };
+    const auto run_part_of_row = [&](std::size_t begin, std::size_t first, std::size_t last) {
+        runner.set_part(first, last);
+        run_instances(begin, std::min(begin + row, batch.count));
+    };
+    std::size_t begin = from.instance;
+    if (from.vertex != 0) {
+        run_part_of_row(begin, from.vertex, begin == to.instance ? to.vertex : vertices);
+        begin += row;
     }
+    runner.set_part(0, vertices);
+    run_instances(begin, to.instance);
+    if (to.vertex != 0 && begin <= to.instance) run_part_of_row(to.instance, 0, to.vertex);
     runner.finish();
     return runner.result();
 }
