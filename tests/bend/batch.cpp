@@ -53,7 +53,8 @@ bend::CrowdResult run_one(const bend::CrowdJob& crowd) {
 }
 
 std::vector<bend::Body> bodies_of_all_sizes(Random& random) {
-    constexpr std::size_t few[] = {37}, many[] = {3000}, chain[] = {40, 1, 0, 7, 130}, pair[] = {300, 290};
+    constexpr std::size_t few[] = {37}, many[] = {4500, 4500}, chain[] = {40, 1, 0, 7, 130},
+                          pair[] = {300, 290};
     std::vector<bend::Body> result;
     result.push_back(loose_chain(random, few));
     result.push_back(loose_chain(random, chain));
@@ -252,7 +253,7 @@ TEST_CASE("pieces share what is not skipped equally") {
 }
 
 TEST_CASE("pieces of large bodies are the same vertices of many instances") {
-    constexpr std::size_t count = 40, half = 1024, vertices = 2 * half;
+    constexpr std::size_t count = 40, half = 4096, vertices = 2 * half;
     constexpr std::size_t row = 16, pieces = 5;  // of half a row each
     Random random(105);
     const bend::Body body = loose_body(random, vertices);

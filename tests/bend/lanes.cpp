@@ -44,8 +44,8 @@ bend::Body shaped_chain(Random& random, std::span<const std::size_t> counts) {
     return loose.body(regions);
 }
 
-/// Some of its regions have no vertices, some one or two. One chain in eight is as large as such bodies may
-/// be: pieces of crowds cut it across many instances.
+/// Some of its regions have no vertices, some one or two. One chain in eight is nearly as large as such
+/// bodies may be.
 bend::Body small_chain(Random& random) {
     if (random() % 8 == 0) return loose_chain(random, std::vector<std::size_t>(20, 55));
     std::vector<std::size_t> counts(3 + random() % (random() % 4 == 0 ? 22 : 9));

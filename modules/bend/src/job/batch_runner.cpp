@@ -50,7 +50,6 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
       pads_(non_temporal && batch.scratch_gaps && batch.vertex_offsets.empty() &&
             batch.vertex_step != body_.vertex_count),
       shares_lines_(non_temporal && may_share_lines()),
-      bounded_(!batch.packed.empty() || !batch.bounds.empty()),
       part_{0, body_.vertex_count},
       posed_(body_, PosedGroup::capacity(regions_)),
       staging_(plan_) {
@@ -60,7 +59,7 @@ BatchRunner::BatchRunner(const Batch& batch, const KernelSet& kernels, bool non_
         normals_ |= pass.streams != StreamSet::positions;
         if (pass.pass == Pass::previous) set_of(Pass::previous) = set_count_++;
     }
-    posed_now_ = streams || bounded_;
+    posed_now_ = streams || !batch.packed.empty() || !batch.bounds.empty();
     if (posed_now_) set_of(Pass::current) = set_count_++;
     // If nothing else needs the current coefficients, they are quantized in place.
     set_of(Pass::packed) = !batch.packed.empty() && streams ? set_count_++ : set_of(Pass::current);
@@ -77,15 +76,15 @@ void BatchRunner::finish() noexcept {
 
 /// Deforms the group that is set up, and sets up the one that was gathered.
 void BatchRunner::next_group() noexcept {
-    take_poses(begins());
+    take_poses();
     deform_group();
-    set_up(begins());
+    set_up();
 }
 
-/// Takes the current poses of the group that was gathered. `counts`: result() counts them.
-void BatchRunner::take_poses(bool counts) noexcept {
+/// Takes the current poses of the group that was gathered.
+void BatchRunner::take_poses() noexcept {
     CrowdResult ignored;
-    posed_.add(batch_, gathered_->used(), Time::now, counts ? result_ : ignored);
+    posed_.add(batch_, gathered_->used(), Time::now, begins() ? result_ : ignored);
     if (!posed_now_) posed_.clear();
 }
 
@@ -158,7 +157,7 @@ bool BatchRunner::shares_line(std::size_t member) const noexcept {
 }
 
 /// Sets up the group that was gathered, in place of the one that was deformed.
-void BatchRunner::set_up(bool sets_bounds) noexcept {
+void BatchRunner::set_up() noexcept {
     std::swap(group_, gathered_);
     gathered_->count = 0;
     const std::size_t current = set_of(Pass::current);
@@ -169,11 +168,12 @@ void BatchRunner::set_up(bool sets_bounds) noexcept {
         posed_.add(batch_, group_->used(), Time::before, ignored);
         set_up_poses(set_of(Pass::previous), false);
     }
-    if (!bounded_) return;
+    const bool packed = !batch_.packed.empty(), sets_bounds = !batch_.bounds.empty() && begins();
+    if (!packed && !sets_bounds) return;
     for (std::size_t i = 0; i < group_->count; ++i) {
         const Bounds bounds = bounds_of(body_, coefficients(i, current), squeezes(i, current));
-        if (!batch_.bounds.empty() && sets_bounds) batch_.bounds[group_->members[i].instance] = bounds;
-        if (!batch_.packed.empty()) set_up_packed(i, bounds);
+        if (sets_bounds) batch_.bounds[group_->members[i].instance] = bounds;
+        if (packed) set_up_packed(i, bounds);
     }
 }
 

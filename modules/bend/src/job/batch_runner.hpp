@@ -92,10 +92,11 @@ private:
         gathered_->elements[gathered_->count] = element_of(batch_, instance);
         gathered_->members[gathered_->count++] = {instance, vertex, plan_.peeled(vertex)};
     }
+    /// Whether instances are counted, and their bounds set.
     [[nodiscard]] bool begins() const noexcept { return part_.first == 0 && part_.last != 0; }
     void next_group() noexcept;
-    void take_poses(bool counts) noexcept;
-    void set_up(bool sets_bounds) noexcept;
+    void take_poses() noexcept;
+    void set_up() noexcept;
     void set_up_poses(std::size_t set, bool normals) noexcept;
     void deform_group() noexcept;
     [[nodiscard]] bool may_share_lines() const noexcept;
@@ -146,7 +147,6 @@ private:
     std::size_t regions_;
     bool pads_;          // the last lines of instances may be filled up
     bool shares_lines_;  // whole instances are deformed by deform_row()
-    bool bounded_;       // bounds are wanted: by the caller, or for packed vertices
     std::size_t set_count_ = 0;
     std::size_t set_of_[pass_count] = {};
     bool posed_now_ = false;  // current poses are wanted, not only previous ones

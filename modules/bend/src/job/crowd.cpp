@@ -41,10 +41,13 @@ struct Place {
 };
 
 /// How many instances are in a row; the last one may have fewer. Those of large bodies are cut together, so
-/// that the columns of a piece serve many instances: those of the whole body may not stay in a cache.
-std::size_t row_of(const Body& body) noexcept {
-    constexpr std::size_t large = 1024;  // vertices
-    return body.vertex_count() < large ? 1 : setup_width;
+/// that the columns of a piece serve many instances: those of the whole body may not stay in a cache. A row
+/// is set up once for each piece that it is cut into, which must cost less than it saves: with many regions,
+/// or bounds of each instance for its packed vertices, it is shorter.
+std::size_t row_of(const Batch& batch) noexcept {
+    if (batch.body->vertex_count() < min_vertices) return 1;
+    const std::size_t cost = batch.body->region_count() * (batch.packed.empty() ? 1 : 4);
+    return std::clamp<std::size_t>(2 * setup_width / cost, 1, setup_width);
 }
 
 /// Tells which instances of a batch are deformed in this frame: those that are not skipped.
@@ -148,7 +151,7 @@ CrowdResult run_lanes_twice(const Batch& batch, const CrowdJob& job, std::size_t
 GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& job, Place from, Place to,
                                             bool non_temporal) noexcept {
     const Activity active(batch, job.frame);
-    const std::size_t vertices = batch.body->vertex_count(), row = row_of(*batch.body);
+    const std::size_t vertices = batch.body->vertex_count(), row = row_of(batch);
     BatchRunner runner(batch, kernels(job.isa), non_temporal);
     const auto run_instances = [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -174,7 +177,7 @@ GOFFER_OWN_FRAME CrowdResult run_one_by_one(const Batch& batch, const CrowdJob& 
 /// Deforms a batch from one of its places to another.
 CrowdResult run_batch(const Batch& batch, const CrowdJob& job, Place from, Place to,
                       bool non_temporal) noexcept {
-    const std::size_t first = from.instance + (from.vertex != 0 ? row_of(*batch.body) : 0);
+    const std::size_t first = from.instance + (from.vertex != 0 ? row_of(batch) : 0);
     const std::size_t whole = to.instance - std::min(first, to.instance);
     if (!LaneRunner::suits(batch, whole, kernels(job.isa)))
         return run_one_by_one(batch, job, from, to, non_temporal);
@@ -223,7 +226,7 @@ private:
     bool found(std::size_t wanted) noexcept {
         const Batch& batch = job_.batches[place_.batch];
         const Activity active(batch, job_.frame);
-        const std::size_t size = batch.body->vertex_count(), row = row_of(*batch.body);
+        const std::size_t size = batch.body->vertex_count(), row = row_of(batch);
         place_.vertex = 0;
         if (active.all() && size != 0) {
             const std::size_t rows = std::min((wanted - before_) / size, batch.count - place_.instance) / row;
