@@ -90,7 +90,7 @@ class Job(c.Structure):
                 ("wrinkle_weight", c.c_float), ("transform", c.c_void_p), ("positions", Stream),
                 ("normals", Stream), ("tangents", Stream), ("packed", PackedStream), ("previous_positions", Stream),
                 ("previous_poses", c.c_void_p), ("previous_transform", c.c_void_p), ("bounds", c.c_void_p),
-                ("scratch_gaps", c.c_int), ("isa", c.c_int)]
+                ("isa", c.c_int)]
 
 
 class JobResult(c.Structure):

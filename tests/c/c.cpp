@@ -82,9 +82,11 @@ TEST_CASE("C: a job gives the bits of C++, and so do bounds, capsules and socket
         from.bounds = &run_box;
         CHECK(goffer_job_run_range(&from, count / 3, count).at_rest == 0);
         CHECK(run_box.high[0] == 0);
-        goffer_job_run_range(&from, 0, count / 3);
+        const std::vector<float> third = cp;
         goffer_job_run_range(&from, 0, count + 1);
-        goffer_job_run_range(&from, 2, 1);
+        goffer_job_run_range(&from, count / 4, 1);
+        CHECK(same_bits(third, cp));
+        goffer_job_run_range(&from, 0, count / 3);
         CHECK(same_bits(p, cp));
 
         const goffer_bounds box = goffer_job_bounds(&from);
@@ -113,27 +115,21 @@ TEST_CASE("C: a job gives the bits of C++, and so do bounds, capsules and socket
     }
 }
 
-TEST_CASE("C: gaps between outputs are kept, unless they are scratch") {
+TEST_CASE("C: gaps between outputs are kept") {
     Random random(77);
     const Twice twice(random, 1);
     const std::size_t count = goffer_body_vertex_count(twice.body);
-    std::vector<float> records(4 * count);
-    for (const int scratch : {0, 1}) {
-        goffer_job job = goffer_job_defaults();
-        job.body = twice.body;
-        job.poses = twice.poses.data();
-        job.pose_count = 1;
-        job.positions = stream(records, 4);
-        job.positions.component[3] = nullptr;
-        job.scratch_gaps = scratch;
-        std::ranges::fill(records, 7.0f);
-        REQUIRE(goffer_job_validate(&job, nullptr) == 1);
-        goffer_job_run(&job);
-        bool kept = true;
-        for (std::size_t i = 0; i < count; ++i) kept = kept && records[4 * i + 3] == 7;
-        CHECK((kept || scratch == 1));
-        CHECK(records[4 * count - 4] != 7);
-    }
+    std::vector<float> records(4 * count, 7.0f);
+    goffer_job job = goffer_job_defaults();
+    job.body = twice.body;
+    job.poses = twice.poses.data();
+    job.pose_count = 1;
+    job.positions = stream(records, 4);
+    job.positions.component[3] = nullptr;
+    REQUIRE(goffer_job_validate(&job, nullptr) == 1);
+    goffer_job_run(&job);
+    for (std::size_t i = 0; i < count; ++i) REQUIRE(records[4 * i + 3] == 7);
+    CHECK(records[4 * count - 4] != 7);
 }
 
 TEST_CASE("C: a level is bound as from C++, and told from what is no rig") {

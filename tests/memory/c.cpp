@@ -92,7 +92,7 @@ TEST_CASE("C: a body file without it is not loaded, nor are its sockets") {
     goffer_file_free(file);
 }
 
-TEST_CASE("C: sockets of a bound body, and a crowd, without it are errors") {
+TEST_CASE("C: sockets and levels of a bound body, and a crowd, without it are errors") {
     const TestMesh mesh = small_mesh();
     const goffer_mesh from = mesh_of(mesh);
     goffer_body* const body = goffer_body_bind(&from, nullptr, nullptr);
@@ -100,6 +100,8 @@ TEST_CASE("C: sockets of a bound body, and a crowd, without it are errors") {
     const float points[] = {0, 0, 0, 1, 1, 1};
     starve_call([&](goffer_error* error) { return goffer_body_sockets(body, &from, points, 2, error); },
                 goffer_sockets_free);
+    starve_call([&](goffer_error* error) { return goffer_body_bind_level(&from, body, error); },
+                goffer_body_free);
     goffer_body_free(body);
     starve_call([](goffer_error* error) { return goffer_crowd_create(3, error); }, goffer_crowd_free);
 }

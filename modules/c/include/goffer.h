@@ -132,7 +132,8 @@ GOFFER_API goffer_body* goffer_body_bind(const goffer_mesh* mesh, const goffer_b
                                          goffer_error* error);
 /* Binds a coarser mesh of the same model, or a layer of clothes, to the base, regions and wrinkles of `rig`,
  * which was bound here: one array of poses serves both, and vertices at the same place at rest go to the same
- * place. `rig` is not needed afterward. [fit::bind_level] */
+ * place. Of what goffer_body_folds() tells of it, the capacity is the level's, and the rest the rig's. `rig`
+ * is not needed afterward. [fit::bind_level] */
 GOFFER_API goffer_body* goffer_body_bind_level(const goffer_mesh* level, const goffer_body* rig,
                                                goffer_error* error);
 /* Not for the bodies of a file. */
@@ -255,7 +256,6 @@ typedef struct goffer_job {
     const goffer_pose* previous_poses; /* as many as poses */
     const float* previous_transform;
     goffer_bounds* bounds; /* null, or set by a run */
-    int scratch_gaps;      /* not 0: what lies between outputs may be overwritten [bend::Batch] */
     int isa;               /* one that runs here */
 } goffer_job;
 
@@ -273,8 +273,8 @@ GOFFER_API int goffer_job_validate(const goffer_job* job, goffer_error* error);
 /* The job must validate. Allocates nothing. */
 GOFFER_API goffer_job_result goffer_job_run(const goffer_job* job);
 /* Only the vertices [first, last), for threads of the caller's: ranges that cover all vertices leave the bits
- * of goffer_job_run(), in any order, also at the same time. The one that has vertex 0 sets `bounds`. For a
- * range that is not within the body's vertices nothing is done. */
+ * of goffer_job_run(), in any order, also at the same time. The one that has vertex 0 sets `bounds`. The job
+ * must validate; for a range that is not within the body's vertices nothing is done. */
 GOFFER_API goffer_job_result goffer_job_run_range(const goffer_job* job, size_t first, size_t last);
 /* The same as goffer_job_run() on all threads, with oneTBB if the library has it: for one large body. */
 GOFFER_API goffer_job_result goffer_job_run_parallel(const goffer_job* job);

@@ -44,6 +44,9 @@ struct goffer_crowd {
 
 namespace goffer::c {
 
+// Bounds are written as C++ has them.
+static_assert(sizeof(goffer_bounds) == sizeof(bend::Bounds));
+
 inline void say(goffer_error* error, int code, const char* text) noexcept {
     if (error == nullptr) return;
     std::snprintf(error->text, sizeof error->text, "%s", text);

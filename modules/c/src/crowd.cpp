@@ -10,8 +10,6 @@
 using namespace goffer;
 using namespace goffer::c;
 
-static_assert(sizeof(goffer_bounds) == sizeof(bend::Bounds));
-
 namespace {
 
 template <class T>

@@ -73,7 +73,6 @@ bend::DeformJob goffer::c::job_of(const goffer_job& from) noexcept {
     job.previous_poses = poses_of(from.previous_poses, from.pose_count);
     job.previous_transform = matrix_of(from.previous_transform);
     job.bounds = reinterpret_cast<bend::Bounds*>(from.bounds);
-    job.scratch_gaps = from.scratch_gaps != 0;
     job.isa = isa_of(from.isa);
     return job;
 }
