@@ -99,7 +99,11 @@ TEST_CASE("bend: beyond the largest angle it is clamped, and says so") {
             CHECK(farthest(mesh::load(folder / "out.ply"), mesh::load(folder / "limit.ply")) < 2e-5);
             // As typed from a report, which may have rounded it upward.
             const double shown = all["max_angle"].get<double>() * (1 + 5e-6);
-            CHECK(report(folder, words + Words{"--angle", std::to_string(shown)})["warnings"].empty());
+            const auto warnings = [&](double size) {
+                return report(folder, words + Words{"--angle", std::to_string(sign * size)})["warnings"];
+            };
+            CHECK(warnings(shown).empty());
+            CHECK(warnings(shown * (1 + 2e-5)).size() == 1);
         }
     }
 }

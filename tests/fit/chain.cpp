@@ -160,15 +160,20 @@ TEST_CASE("chains: a thin part and a thick one lie along the chain, each with it
 
 TEST_CASE("chains: a body that is far from round gets arcs where a line through it fits far worse") {
     std::mt19937 random(9);
-    for (const float lobes : {0.45f, 0.65f}) {
-        Solid solid = test::cylinder({.rows = 160, .length = length_of(s)}, random);
+    const auto is_chain = [&](const Arcs& arcs, float lobes) {
+        Solid solid = test::cylinder({.rows = 160, .length = length_of(arcs)}, random);
         for (glm::vec3& p : solid.positions) {
             const float thick = 1 + lobes * std::cos(3 * std::atan2(p.y, p.x));
             p.x *= thick, p.y *= thick;
         }
-        solid = test::warped(std::move(solid), Bender(s));
-        CHECK((chain_of(solid).arcs.size() >= 2) == (lobes < 0.5f));
-    }
+        return chain_of(test::warped(std::move(solid), Bender(arcs))).arcs.size() >= 2;
+    };
+    const Arcs slight{{14, 80 * degree, -2}, {14, 80 * degree, -2 + std::numbers::pi}};
+    const Arcs slender{{28, 120 * degree, -2}, {28, 120 * degree, -2 + std::numbers::pi}};
+    CHECK(is_chain(s, 0.45f));        // 0.23 radii from round, and 0.41 of what it is about the line
+    CHECK(!is_chain(s, 0.65f));       // 0.27 and 0.56
+    CHECK(!is_chain(slight, 0.45f));  // 0.24 and 0.54
+    CHECK(!is_chain(slender, 0.6f));  // 0.27 and 0.47
 }
 
 TEST_CASE("chains: a tip that points at the body's own side ends there") {

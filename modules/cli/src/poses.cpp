@@ -407,7 +407,7 @@ void warn_of_stretch(Report& report, double change, const std::string& when, con
 
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then) {
-    constexpr double rounding = 1e-4;  // a limit is shown in six digits, and may be typed as shown
+    constexpr double rounding = 1e-5;  // a limit is shown in six digits, and may be typed as shown
     if (std::fabs(asked) <= limit * (1 + rounding)) return;
     report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " + number(limit) +
                 ", where the body would fold through itself; " + then);
