@@ -118,15 +118,42 @@ TEST_CASE("from rest: a body that can be bent no further says so, whatever is as
         mesh.positions, {}, [&](const glm::vec3& p) { return glm::length(p - glm::vec3(center, 0, 0)); });
     inner += 0.999f * (glm::vec3(center, 0, 0) - inner);
     mesh::save(mesh, folder / "bent.ply");
-    for (const Words& words : {Words{"--by", "20"}, {"--angle", "max"}, {"--angle", "200"}}) {
+    for (const Words& words : {Words{"--by", "20"}, {"--angle", "max"}, {"--angle", "200"}, {}}) {
         const json all = report(
             folder, Words{"bend", "bent.ply", "--axis", "x", "--refine", "off", "-o", "out.ply"} + words);
         CAPTURE(all.dump());
         const auto said = all["warnings"][0].get<std::string>();
         CHECK(said.find("the body is bent at rest by 1") != said.npos);
-        CHECK(said.starts_with("the angle of ") == (words[1] != "max"));
+        CHECK(said.starts_with("the angle of ") == (!words.empty() && words[1] != "max"));
         CHECK(all["max_angle"].get<double>() == doctest::Approx(all["fit"]["rest_angle"].get<double>()));
         CHECK(farthest(mesh, mesh::load(folder / "out.ply")) < 0.01);
+    }
+}
+
+TEST_CASE(
+    "from rest: where no word says how far, a bent body bends by 90 degrees more, or as far as it can") {
+    const Bent bent;
+    const json all = bent.bend({});
+    check_pose(all["pose"], 160, 30);
+    CHECK(all["asked_from"] == "rest");
+    CHECK(all["straightens"] == false);
+    const auto [angle, toward] = sum(70, 30, 90, 120);
+    check_pose(bent.pose({"--direction", "120"}), angle, toward);
+    const json straight = bent.bend({}, "base.ply");
+    check_pose(straight["pose"], 90, 0);
+    CHECK(straight["asked_from"] == "straight");
+
+    base(bent.folder, "thick.ply", {"--length", "5", "--radius", "1"});
+    well(bent.folder, {"bend", "thick.ply", "--angle", "70", "--amplitude", "none", "-o", "hook.ply"});
+    for (const Words& words : {Words{}, {"--regions", "0.3,0.7"}}) {
+        const json limited = bent.bend(words, "hook.ply");
+        CAPTURE(limited.dump());
+        for (std::size_t r = 0; r < limited["poses"].size(); ++r)
+            CHECK(limited["poses"][r]["angle"].get<double>() ==
+                  doctest::Approx(limited["regions"][r]["max_angle"].get<double>()).epsilon(1e-6));
+        CHECK(limited["max_angle"].get<double>() < 159);
+        CHECK(limited["clamped"] == false);
+        CHECK(limited["warnings"] == json::array());
     }
 }
 

@@ -63,6 +63,7 @@ struct Request {
           isa(parse_isa_option(options.isa)),
           threads(usable_threads(options.threads)) {
         pose.along_path = !options.path.file.empty();
+        pose.by_default = pose.by_default && !pose.along_path;
         check_wanted(options.picture, options.ghost, "--ghost");
         check_wanted(options.picture, !options.show.empty(), "--show");
         check_wanted(options.picture, options.camera.has_value(), "--camera");

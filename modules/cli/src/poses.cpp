@@ -15,6 +15,9 @@
 namespace goffer::cli {
 namespace {
 
+/// Where no word says how far.
+constexpr const char* default_angle = "90";
+
 [[noreturn]] void refuse_count(const std::string& option, std::size_t count, std::size_t regions) {
     throw UsageError(option + ": " + std::to_string(count) + " for " + counted(regions, "region") +
                      "; give one for each");
@@ -96,6 +99,13 @@ double largest(const bend::Body& body, std::size_t region) {
     return degrees(static_cast<double>(body.max_angle(region)));
 }
 
+/// How many degrees a region has left from its rest pose in `direction`; `by` < 0: the other way.
+double room_on(const bend::Body& body, std::size_t region, double by, double direction) {
+    const RestPose rest = rest_pose(body, region);
+    return room_from(curvature(rest.angle, rest.direction), curvature(std::copysign(1.0, by), direction),
+                     largest(body, region));
+}
+
 /// `toward`: which way the body is bent at rest.
 Target target_from_rest(const bend::Body& body, std::size_t region, double by,
                         const std::optional<double>& direction, double toward) {
@@ -121,10 +131,8 @@ std::vector<double> shared_from_rest(const bend::Body& body, double by,
         if (!(length > 0)) break;
         for (std::size_t i = 0; i < regions.size() && !again; ++i) {
             if (full[i]) continue;
-            const double direction = directions[directions.size() == 1 ? 0 : i].value_or(toward);
-            const RestPose rest = rest_pose(body, i);
-            const double room = room_from(curvature(rest.angle, rest.direction),
-                                          curvature(std::copysign(1.0, by), direction), largest(body, i));
+            const double room =
+                room_on(body, i, by, directions[directions.size() == 1 ? 0 : i].value_or(toward));
             shares[i] = left * regions[i].length / length;
             if (shares[i] <= room) continue;
             shares[i] = room;
@@ -159,14 +167,15 @@ bool report_rest_pose(Report& report, const PoseRequest& request, const std::vec
         straightened += straightens(rest_pose(body, i), targets[i]) ? 1 : 0;
         rest += rest_pose(body, i).angle;
     }
-    report.json["asked_from"] = request.from_rest ? "rest" : "straight";
+    const bool from_rest = counts_from_rest(request, body);
+    report.json["asked_from"] = from_rest ? "rest" : "straight";
     report.json["straightens"] = straightened > 0;
     if (rest == 0) return false;
     if (!request.along_path)
         report.line("angles",
                     "are absolute: 0 is straight, and " + rest_words(body) + " is the shape of the file");
     if (straightened == 0) return false;
-    if (request.from_rest) return true;
+    if (from_rest) return true;
     const std::string which = targets.size() == 1
                                   ? "the body"
                                   : std::to_string(straightened) + " of " + counted(targets.size(), "region");
@@ -184,7 +193,7 @@ void add_angle_words(CLI::App& command, PoseWords& words, const std::string& ang
         command.add_option("--angle", words.angle, angle + ". Several regions share it by their lengths")
             ->check(angle_word(true))
             ->type_name("FLOAT|max")
-            ->capture_default_str();
+            ->default_str(default_angle);
     command.add_option("--regions", words.regions,
                        "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3");
     command.add_option("--angles", words.angles, "Turn each region by an angle of its own, as 40,-60,20")
@@ -199,7 +208,8 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
         .add_option(
             "--by", words.by,
             "Turn the tip by this many degrees from the rest pose instead, in the plane of the rest arc "
-            "or toward --direction")
+            "or toward --direction. Without this and --angle, a body that is bent at rest is bent by 90, or "
+            "as far as it can")
         ->check(angle_word(true))
         ->type_name("FLOAT|max")
         ->excludes("--angle")
@@ -223,7 +233,8 @@ PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<f
     : regions(words.regions ? read_regions(*words.regions)
               : arcs > 0    ? equal_regions(arcs)
                             : std::move(baked)),
-      from_rest(words.by.has_value()) {
+      from_rest(words.by.has_value()),
+      by_default(!words.by && !words.angle && !words.angles) {
     if (arcs > 0 && words.regions)
         throw UsageError("--regions: those of --arcs are its arcs; leave out one of them");
     for (const auto& [said, option] : {std::pair(words.angles.has_value(), "--angles"),
@@ -232,7 +243,8 @@ PoseRequest::PoseRequest(const PoseWords& words, std::size_t arcs, std::vector<f
     }
     const std::size_t count = std::max<std::size_t>(regions.size(), 1);
     if (words.angles) angles = read_degrees("--angles", *words.angles, count);
-    const double all = read_angles(from_rest ? "--by" : "--angle", words.by.value_or(words.angle))[0];
+    const double all = read_angles(from_rest ? "--by" : "--angle",
+                                   words.by.value_or(words.angle.value_or(default_angle)))[0];
     if (!words.angles) shared = all;
     directions.assign(count, words.direction);
     if (words.directions) {
@@ -256,10 +268,9 @@ bend::Pose pose_from_rest(const bend::Body& body, std::size_t region, double by,
                           double share) {
     const RestPose rest = rest_pose(body, region);
     const Curvature from = curvature(rest.angle, rest.direction);
-    const double limit = largest(body, region);
-    const double room = room_from(from, curvature(std::copysign(1.0, by), direction), limit);
+    const double room = room_on(body, region, by, direction);
     const double reach = std::copysign(share * std::min(std::fabs(by), room), by);
-    bend::Pose pose = moved_from(from, reach, direction, limit).pose;
+    bend::Pose pose = moved_from(from, reach, direction, largest(body, region)).pose;
     pose.angle = std::min(pose.angle, body.max_angle(region));  // beyond it by rounding alone
     return pose;
 }
@@ -325,19 +336,28 @@ std::vector<Target> targets_from_straight(const PoseRequest& request) {
     return targets;
 }
 
+bool counts_from_rest(const PoseRequest& request, const bend::Body& body) {
+    return request.from_rest || (request.by_default && bent_at_rest(body));
+}
+
 std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request) {
     std::vector<Target> targets;
     const double toward = rest_direction(body);
+    const bool from_rest = counts_from_rest(request, body);
     std::vector<double> shares;
-    if (request.from_rest && request.shared && std::isfinite(*request.shared) && is_chain(body))
+    if (from_rest && request.shared && std::isfinite(*request.shared) && is_chain(body))
         shares = shared_from_rest(body, *request.shared, request.directions, toward);
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const std::optional<double>& direction = request.directions[request.directions.size() == 1 ? 0 : i];
-        const double angle = !shares.empty()  ? shares[i]
-                             : request.shared ? *request.shared * share_of(body, i)
-                                              : request.angles[i];
-        targets.push_back(request.from_rest ? target_from_rest(body, i, angle, direction, toward)
-                                            : target(angle, direction.value_or(toward)));
+        double angle = !shares.empty()  ? shares[i]
+                       : request.shared ? *request.shared * share_of(body, i)
+                                        : request.angles[i];
+        if (request.by_default && from_rest)
+            angle = std::min(angle, room_on(body, i, 1, direction.value_or(toward)));
+        targets.push_back(from_rest ? target_from_rest(body, i, angle, direction, toward)
+                                    : target(angle, direction.value_or(toward)));
+        if (request.by_default && from_rest)  // beyond it by rounding alone
+            targets.back().pose.angle = std::min(targets.back().pose.angle, body.max_angle(i));
     }
     return targets;
 }
@@ -405,10 +425,14 @@ void warn_of_stretch(Report& report, double change, const std::string& when, con
                     ": straightening stretches the inner side, which wrinkles cannot make up for" + then);
 }
 
+bool is_beyond(double asked, double limit) {
+    constexpr double rounding = 1e-5;  // a limit is shown in six digits, and may be typed as shown
+    return std::fabs(asked) > limit * (1 + rounding);
+}
+
 void warn_of_angle(Report& report, const std::string& which, double asked, double limit,
                    const std::string& then) {
-    constexpr double rounding = 1e-5;  // a limit is shown in six digits, and may be typed as shown
-    if (std::fabs(asked) <= limit * (1 + rounding)) return;
+    if (!is_beyond(asked, limit)) return;
     report.warn(which + "the angle of " + number(asked) + " degrees is beyond the largest, " + number(limit) +
                 ", where the body would fold through itself; " + then);
 }
@@ -425,6 +449,7 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
         const bool beyond = std::fabs(targets[i].pose.angle) > body.max_angle(i);
         const double used = beyond ? std::copysign(limit, asked) : asked;
         const RestPose rest = rest_pose(body, i);
+        const bool by_default = request.by_default && rest.angle > 0;
         clamped = clamped || (beyond && !all_the_way);
         poses.push_back({{"angle", used},
                          {"direction", targets[i].direction},
@@ -439,12 +464,13 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
         report.line(i == 0 ? "bend" : "", which + angle_text(used) + " degrees toward " +
                                               angle_text(targets[i].direction) + ", at most " +
                                               number(limit));
-        if (beyond && rest.angle > 0 && limit <= rest.angle * (1 + 1e-6)) {
-            report.warn(which +
-                        (all_the_way ? "" : "the angle of " + number(asked) + " degrees is clamped: ") +
-                        "the body is bent at rest by " + number(rest.angle) +
-                        " degrees, as far as it can be, and keeps that shape" +
-                        (model.baked ? "" : "; --rest straight fits it as if it were straight"));
+        if ((beyond || by_default) && rest.angle > 0 && !is_beyond(limit, rest.angle)) {
+            report.warn(
+                which +
+                (all_the_way || by_default ? "" : "the angle of " + number(asked) + " degrees is clamped: ") +
+                "the body is bent at rest by " + number(rest.angle) +
+                " degrees, as far as it can be, and keeps that shape" +
+                (model.baked ? "" : "; --rest straight fits it as if it were straight"));
         } else if (beyond && !all_the_way) {
             warn_of_angle(report, which, asked, limit, "clamped to it");
         }

@@ -21,7 +21,7 @@ struct BoundModel;
 
 /// Words on poses. Lists are numbers with commas between them, from base to tip.
 struct PoseWords {
-    std::string angle = "90";
+    std::optional<std::string> angle;
     std::optional<std::string> by;
     std::optional<double> direction;
     std::optional<std::string> regions;
@@ -42,6 +42,7 @@ void add_pose_words(CLI::App& command, PoseWords& words);
 struct PoseRequest {
     std::vector<fit::RegionOptions> regions;  ///< none: the body is one region
     bool from_rest = false;                   ///< angles count from the rest pose (--by), not from straight
+    bool by_default = false;                  ///< no word says how far
     bool along_path = false;                  ///< a path says how far regions bend, no angle
     std::vector<double> angles;               ///< degrees, one per region; an infinity: as far as it can
     std::optional<double> shared;             ///< the angle that all regions share, if it is one
@@ -98,9 +99,14 @@ struct Target {
 /// beyond that of every body. For a crowd, whose models differ.
 [[nodiscard]] std::vector<Target> targets_from_straight(const PoseRequest& request);
 
+/// Whether the angles of `request` count from the rest pose of `body`: those of a body that is bent at rest
+/// do, too, where no word says how far.
+[[nodiscard]] bool counts_from_rest(const PoseRequest& request, const bend::Body& body);
+
 /// Returns the targets of `request` for `body`, which has its regions, or shares its angle out over them by
 /// their lengths if it is for one. Without a direction, regions bend toward rest_direction(). Angles that
-/// count from the rest pose are added to it as vectors (alpha cos theta, alpha sin theta).
+/// count from the rest pose are added to it as vectors (alpha cos theta, alpha sin theta); where no word says
+/// how far, they are at most what the body can do.
 [[nodiscard]] std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request);
 
 /// The targets' poses.
@@ -134,6 +140,9 @@ inline constexpr const char* full_turn_words =
 /// stretched, and wrinkles take no area away. `when` is put behind the change; `then` ends the line.
 void warn_of_stretch(Report& report, double change, const std::string& when = {},
                      const std::string& then = {});
+
+/// Whether an angle is beyond the largest by more than how numbers are shown, both in degrees.
+[[nodiscard]] bool is_beyond(double asked, double limit);
 
 /// Warns that an angle is beyond the largest, both in degrees. `which` begins the line; `then` ends it: what
 /// is done.

@@ -114,9 +114,8 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
         const double rest = request.plan.from_rest ? rest_pose(body, r).angle : 0;
         const double limit = degrees(static_cast<double>(body.max_angle(r)));
         const double asked = std::fabs(targets[r].angle) + rest;
-        constexpr double rounding = 1 + 1e-6;
         used.push_back(radians(std::min(asked, limit)));
-        if (asked <= rounding * limit || std::isinf(asked)) continue;
+        if (!is_beyond(asked, limit) || std::isinf(asked)) continue;
         std::string line = where + region_words(r, targets.size());
         const std::string then = "it is bent so far at most";
         if (rest == 0) {

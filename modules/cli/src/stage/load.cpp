@@ -70,8 +70,7 @@ Loaded load(const Wish& wish) {
     for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
         const double asked = std::fabs(loaded.targets[r].angle),
                      limit = degrees(static_cast<double>(body.max_angle(r)));
-        // The limit itself comes back from the panel as a rounded word.
-        if (std::isfinite(asked) && asked > 1.0001 * limit) {
+        if (std::isfinite(asked) && is_beyond(asked, limit)) {
             Report report("");
             warn_of_angle(report, region_words(r, loaded.targets.size()), asked, limit, "clamped to it");
             loaded.warnings.push_back(report.warnings()[0]);

@@ -68,9 +68,10 @@ bool TextureReader::is_there(const Value& image) const {
         (void)document_->number("bufferViews", image["bufferView"]);  // that it names one
         return true;
     }
-    const std::string& uri = image["uri"].text();
+    const Value named = image["uri"];
+    const std::string& uri = named.text();
     if (is_data_uri(uri)) return true;
-    if (has_scheme(uri)) image["uri"].fail("is " + mesh::quoted(uri) + "; only paths are read");
+    if (has_scheme(uri)) named.fail("is " + mesh::quoted(uri) + "; only paths are read");
     std::error_code error;
     const std::optional<std::filesystem::path> file = file_of(*document_, uri);
     return file && std::filesystem::is_regular_file(*file, error);

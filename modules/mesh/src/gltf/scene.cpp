@@ -135,7 +135,8 @@ const SkinPlace& SceneReader::skin_of(const Value& node) {
 /// Primitives have no name in glTF. This writer, and some others, give them one as extras.
 std::string name_of(const Value& primitive, const Value& node, const Value& mesh) {
     if (primitive.has("extras")) {
-        const Json& extras = primitive["extras"].json();
+        const Value value = primitive["extras"];
+        const Json& extras = value.json();
         if (extras.is_object() && extras.contains("name") && extras["name"].is_string())
             return extras["name"];
     }
