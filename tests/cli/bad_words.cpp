@@ -57,6 +57,8 @@ TEST_CASE("bad words: numbers and names out of range") {
         place.refuse_bend({"--folds", word}, {"--folds"});
     for (const std::string word : {"-1", "1025", "x"}) place.refuse_bend({"--threads", word}, {"--threads"});
     place.refuse_bend({"--amplitude", "wavy"}, {"--amplitude", "wavy", "paper", "area", "mesh", "none"});
+    place.refuse_bend({"--amplitude", "area", "--onset", "0.1"}, {"--amplitude area", "--onset", "mesh"});
+    place.refuse_bend({"--amplitude", "area", "--wrinkle-range", "0.1,0.8"}, {"--amplitude area", "mesh"});
     place.refuse_bend({"--profile", "round"}, {"--profile", "round", "even", "damped", "smooth"});
     for (const std::string word : {"0", "-1", "nan", "11", "long", ""})
         place.refuse_bend({"--fold-length", word}, {"--fold-length", "radii", "0.05..10"});

@@ -244,6 +244,9 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
     options.folds_over_joints = words.joints == "over";
     refine = words.refine.empty() ? "on" : words.refine;
+    if (options.amplitude == paper::Amplitude::area && (words.wrinkle_range || words.onset.value_or(0) != 0))
+        throw UsageError(
+            "--amplitude area: cannot be had with --wrinkle-range or --onset; use --amplitude mesh");
     if (refine == "on" && words.folds == "0")
         throw UsageError(
             "--refine: without folds there is nothing to refine for; leave out one of --folds 0, --refine");
