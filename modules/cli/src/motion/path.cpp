@@ -6,6 +6,7 @@
 #include "report.hpp"
 
 #include <glm/geometric.hpp>
+#define GLM_ENABLE_EXPERIMENTAL  // GLM 1.0 asks for it where glm::rotation() is
 #include <glm/gtx/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 

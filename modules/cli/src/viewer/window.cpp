@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
@@ -59,11 +60,19 @@ struct Window::Data {
     /// GLFW, from its start to its end. It does not count: there may be one at a time.
     struct Library {
         Library() {
+#ifdef GLFW_PLATFORM  // from GLFW 3.4 on, which asks Wayland first: where there is none, that prints a line
+                      // of its own
+            if (std::getenv("WAYLAND_DISPLAY") == nullptr && std::getenv("XDG_RUNTIME_DIR") == nullptr &&
+                glfwPlatformSupported(GLFW_PLATFORM_X11) == GLFW_TRUE)
+                glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
             if (glfwInit() == GLFW_FALSE) refuse();
         }
         Library(const Library&) = delete;
         Library& operator=(const Library&) = delete;
-        ~Library() { glfwTerminate(); }
+        ~Library() {
+            glfwTerminate();
+        }
     };
 
     Library library;
@@ -73,7 +82,9 @@ struct Window::Data {
     std::vector<std::filesystem::path> files;
     bool happened = false;  // since the last poll
 
-    static Data& of(GLFWwindow* window) { return *static_cast<Data*>(glfwGetWindowUserPointer(window)); }
+    static Data& of(GLFWwindow* window) {
+        return *static_cast<Data*>(glfwGetWindowUserPointer(window));
+    }
 };
 
 namespace {

@@ -30,6 +30,17 @@ std::uint64_t count_materials(std::string_view library) {
     return count;
 }
 
+/// The names of a library's materials, which tinyobjloader 2.0.0-rc13 cuts at blanks: those that have one.
+std::vector<std::string_view> material_names(std::string_view library) {
+    std::vector<std::string_view> names;
+    while (!library.empty()) {
+        std::string_view line = next_line(library);
+        if (next_token(line) != "newmtl") continue;
+        if (const std::string_view name = trimmed(line); !name.empty()) names.push_back(name);
+    }
+    return names;
+}
+
 /// Replaces the backslashes that paths have on Windows.
 std::string with_slashes(std::string name) {
     std::ranges::replace(name, '\\', '/');
@@ -88,20 +99,23 @@ private:
 };
 
 MaterialReader::Materials MaterialReader::read_library(const std::filesystem::path& library) {
-    std::istringstream text;
+    std::string bytes;
     try {
-        std::string bytes = read_bytes(library, budget_);
-        budget_.take(bytes.size() + count_materials(bytes) * sizeof(tinyobj::material_t));
-        text.str(std::move(bytes));
+        bytes = read_bytes(library, budget_);
+        budget_.take(2 * bytes.size() + count_materials(bytes) * sizeof(tinyobj::material_t));
     } catch (const OverLimit&) {
         throw;
     } catch (const Error& error) {
         mesh_.warnings.push_back(std::string("materials are left out: ") + error.what());
     }
+    std::istringstream text(bytes);
     std::map<std::string, int> index;
     std::string warnings, errors;
     Materials materials;
     tinyobj::LoadMtl(&index, &materials, &text, &warnings, &errors);
+    const std::vector<std::string_view> names = material_names(bytes);
+    for (std::size_t i = 0; names.size() == materials.size() && i < names.size(); ++i)
+        materials[i].name = names[i];
     return materials;
 }
 
