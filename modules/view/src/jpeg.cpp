@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "decode.hpp"
 
-#include <jerror.h>
+// clang-format off
 #include <jpeglib.h>
+#include <jerror.h>  // its numbers are those of the version that jpeglib.h says, which differs in Ubuntu
+// clang-format on
 
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h does without, and needs it
