@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 /// What goes to which stream, names of files, and help.
 
 using namespace goffer::test;
@@ -35,7 +37,11 @@ TEST_CASE("streams: help and version") {
                                {"inspect", "-h"},
                                {"bend", "--help"},
                                {"crowd", "-h"}}) {
-        CHECK(well(folder, words).find("[OPTIONS]") != std::string::npos);
+        const std::string usage = "goffer " + (words.size() > 1 ? words[0] + " " : "") + "[OPTIONS]";
+        const std::string help = well(folder, words);
+        const std::string before = help.substr(0, std::min(help.find(usage), help.size()));
+        CHECK(before.size() < help.size());
+        CHECK((before.ends_with("\nUsage: ") || before.ends_with("\n\n")));  // the latter from CLI11 2.5 on
     }
     const std::string help = well(folder, {"bend", "--help"});
     for (const std::string option :

@@ -277,7 +277,8 @@ void add_bend(CLI::App& app, Action& action) {
         "Angles are absolute: 0 is straight, whatever shape the model has in its file. One that is\n"
         "bent there gets that shape back from the angle and direction that 'goffer inspect' reports\n"
         "(a chain of N arcs from --arcs N, and these for each), or from --by 0; --by 30 bends it by 30\n"
-        "degrees more. Angles beyond the largest are clamped.\n\n" +
+        "degrees more. Without a word on how far, it is bent by 90 degrees more, or as far as it can.\n"
+        "Angles beyond the largest are clamped.\n\n" +
         std::string(path_help));
     add_pose_words(*command, options->pose);
     add_path_words(*command, options->path);

@@ -208,8 +208,7 @@ void add_pose_words(CLI::App& command, PoseWords& words) {
         .add_option(
             "--by", words.by,
             "Turn the tip by this many degrees from the rest pose instead, in the plane of the rest arc "
-            "or toward --direction. Without this and --angle, a body that is bent at rest is bent by 90, or "
-            "as far as it can")
+            "or toward --direction")
         ->check(angle_word(true))
         ->type_name("FLOAT|max")
         ->excludes("--angle")
@@ -349,17 +348,21 @@ std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& reques
         shares = shared_from_rest(body, *request.shared, request.directions, toward);
     for (std::size_t i = 0; i < body.region_count(); ++i) {
         const std::optional<double>& direction = request.directions[request.directions.size() == 1 ? 0 : i];
-        double angle = !shares.empty()  ? shares[i]
-                       : request.shared ? *request.shared * share_of(body, i)
-                                        : request.angles[i];
-        if (request.by_default && from_rest)
-            angle = std::min(angle, room_on(body, i, 1, direction.value_or(toward)));
-        targets.push_back(from_rest ? target_from_rest(body, i, angle, direction, toward)
-                                    : target(angle, direction.value_or(toward)));
-        if (request.by_default && from_rest)  // beyond it by rounding alone
-            targets.back().pose.angle = std::min(targets.back().pose.angle, body.max_angle(i));
+        const double angle = !shares.empty()  ? shares[i]
+                             : request.shared ? *request.shared * share_of(body, i)
+                                              : request.angles[i];
+        if (request.by_default && from_rest) {
+            targets.push_back(target_of(pose_from_rest(body, i, angle, direction.value_or(toward), 1)));
+        } else {
+            targets.push_back(from_rest ? target_from_rest(body, i, angle, direction, toward)
+                                        : target(angle, direction.value_or(toward)));
+        }
     }
     return targets;
+}
+
+Target target_of(const bend::Pose& pose) {
+    return {degrees(static_cast<double>(pose.angle)), degrees(static_cast<double>(pose.direction)), pose};
 }
 
 std::vector<bend::Pose> poses_of(const std::vector<Target>& targets) {

@@ -109,6 +109,9 @@ struct Target {
 /// how far, they are at most what the body can do.
 [[nodiscard]] std::vector<Target> targets_on(const bend::Body& body, const PoseRequest& request);
 
+/// The target that a pose is.
+[[nodiscard]] Target target_of(const bend::Pose& pose);
+
 /// The targets' poses.
 [[nodiscard]] std::vector<bend::Pose> poses_of(const std::vector<Target>& targets);
 

@@ -66,9 +66,7 @@ Laid lay(const bend::Body& body, const PathOptions& words) {
     std::vector<bend::Pose> poses(body.region_count());
     laid.fit = path.lay(body, words.start, poses);
     if (!path.closed()) laid.beyond = std::max(words.start + body.length() - path.length(), 0.0);
-    for (const bend::Pose& pose : poses)
-        laid.targets.push_back(
-            {degrees(static_cast<double>(pose.angle)), degrees(static_cast<double>(pose.direction)), pose});
+    for (const bend::Pose& pose : poses) laid.targets.push_back(target_of(pose));
     return laid;
 }
 

@@ -25,9 +25,7 @@ BoundModel base_model() {
 
 std::vector<Target> rest_targets(const bend::Body& body) {
     std::vector<Target> targets;
-    for (const bend::Pose& rest : body.rest_poses())
-        targets.push_back(
-            {degrees(static_cast<double>(rest.angle)), degrees(static_cast<double>(rest.direction)), rest});
+    for (const bend::Pose& rest : body.rest_poses()) targets.push_back(target_of(rest));
     return targets;
 }
 
@@ -70,11 +68,10 @@ Loaded load(const Wish& wish) {
     for (std::size_t r = 0; r < loaded.targets.size(); ++r) {
         const double asked = std::fabs(loaded.targets[r].angle),
                      limit = degrees(static_cast<double>(body.max_angle(r)));
-        if (std::isfinite(asked) && is_beyond(asked, limit)) {
-            Report report("");
+        Report report("");
+        if (std::isfinite(asked))
             warn_of_angle(report, region_words(r, loaded.targets.size()), asked, limit, "clamped to it");
-            loaded.warnings.push_back(report.warnings()[0]);
-        }
+        loaded.warnings.insert(loaded.warnings.end(), report.warnings().begin(), report.warnings().end());
     }
     for (const BoundModel& model : loaded.models) {
         const Textures& textures =

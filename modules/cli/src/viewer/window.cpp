@@ -36,6 +36,15 @@ constexpr float text_size = 15;
                      "; 'goffer bend' and 'goffer crowd' write pictures without a display, by --png FILE");
 }
 
+/// GLFW 3.4 and newer ask Wayland first. Where there is none, its library prints a line of its own.
+void leave_out_wayland() {
+#ifdef GLFW_PLATFORM
+    if (std::getenv("WAYLAND_DISPLAY") == nullptr && std::getenv("XDG_RUNTIME_DIR") == nullptr &&
+        glfwPlatformSupported(GLFW_PLATFORM_X11) == GLFW_TRUE)
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 /// Loads a font that reads well, where one is in the usual places; else Dear ImGui's own.
 void load_font(float scale) {
     constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -60,19 +69,12 @@ struct Window::Data {
     /// GLFW, from its start to its end. It does not count: there may be one at a time.
     struct Library {
         Library() {
-#ifdef GLFW_PLATFORM  // from GLFW 3.4 on, which asks Wayland first: where there is none, that prints a line
-                      // of its own
-            if (std::getenv("WAYLAND_DISPLAY") == nullptr && std::getenv("XDG_RUNTIME_DIR") == nullptr &&
-                glfwPlatformSupported(GLFW_PLATFORM_X11) == GLFW_TRUE)
-                glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
-#endif
+            leave_out_wayland();
             if (glfwInit() == GLFW_FALSE) refuse();
         }
         Library(const Library&) = delete;
         Library& operator=(const Library&) = delete;
-        ~Library() {
-            glfwTerminate();
-        }
+        ~Library() { glfwTerminate(); }
     };
 
     Library library;
@@ -82,9 +84,7 @@ struct Window::Data {
     std::vector<std::filesystem::path> files;
     bool happened = false;  // since the last poll
 
-    static Data& of(GLFWwindow* window) {
-        return *static_cast<Data*>(glfwGetWindowUserPointer(window));
-    }
+    static Data& of(GLFWwindow* window) { return *static_cast<Data*>(glfwGetWindowUserPointer(window)); }
 };
 
 namespace {

@@ -114,8 +114,8 @@ MaterialReader::Materials MaterialReader::read_library(const std::filesystem::pa
     Materials materials;
     tinyobj::LoadMtl(&index, &materials, &text, &warnings, &errors);
     const std::vector<std::string_view> names = material_names(bytes);
-    for (std::size_t i = 0; names.size() == materials.size() && i < names.size(); ++i)
-        materials[i].name = names[i];
+    if (names.size() != materials.size()) return materials;
+    for (std::size_t i = 0; i < names.size(); ++i) materials[i].name = names[i];
     return materials;
 }
 
