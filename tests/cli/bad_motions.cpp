@@ -96,6 +96,7 @@ TEST_CASE("animate: what is refused, in one line, and nothing written") {
         refused(folder, 2, to + Words{"--swing", "9", "--fps", fps}, {"--fps"});
     refused(folder, 2, to + Words{"--swing", "9", "--keys", "keys.json"}, {"--keys", "--swing"});
     refused(folder, 2, to + Words{"--keys", "keys.json", "--lag", "1"}, {"--lag", "--swing"});
+    refused(folder, 2, to + Words{"--swing", "9", "--lag", "1"}, {"--lag", "one region", "--regions"});
     refused(folder, 2, to + Words{"--swing", "9", "--size", "9x9"}, {"--size", "%04d.png"});
     refused(folder, 2, to + Words{"--swing", "9", "--path-scale", "2"}, {"--path-scale", "--path FILE"});
     refused(folder, 2, to + Words{"--path", "path.txt", "--path-scale", "fit"}, {"--path-scale"});

@@ -64,6 +64,9 @@ TEST_CASE("bad words: numbers and names out of range") {
         place.refuse_bend({"--fold-length", word}, {"--fold-length", "radii", "0.05..10"});
     for (const std::string word : {"0.6", "-0.1", "nan", "round", ""})
         place.refuse_bend({"--roundness", word}, {"--roundness", "0..0.5"});
+    for (const std::string profile : {"damped", "smooth"})
+        place.refuse_bend({"--profile", profile, "--roundness", "0.25"}, {"--roundness", profile});
+    place.refuse_bend({"--paper", "--roundness", "0.1"}, {"--paper", "--roundness"});
     for (const std::string word :
          {"0.8,0.1", "0.5", "0,0.5,1", "-0.1,1", "0,1.1", "0.5,0.5", "nan,1", "", "a,b"})
         place.refuse_bend({"--wrinkle-range", word}, {"--wrinkle-range"});

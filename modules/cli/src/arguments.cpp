@@ -6,6 +6,7 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/ending.hpp>
 #include <goffer/io/error.hpp>
+#include <goffer/io/text.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <CLI/CLI.hpp>
@@ -47,14 +48,6 @@ std::optional<glm::dvec3> three_numbers(const std::string& text) {
     return at == end ? std::optional(axis) : std::nullopt;
 }
 
-std::optional<double> one_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || next != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 glm::dvec3 vector_field(const nlohmann::json& fit, const char* name) {
     const nlohmann::json& value = fit.at(name);
     return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
@@ -84,7 +77,7 @@ std::optional<double> one_angle(const std::string& text) {
     constexpr double largest = std::numeric_limits<double>::infinity();
     if (text == "max") return largest;
     if (text == "-max") return -largest;
-    const std::optional<double> value = one_number(text);
+    const std::optional<double> value = io::to_double(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
@@ -135,7 +128,7 @@ CLI::Validator number_within(double low, double high, const std::string& what) {
     std::ostringstream range;
     range << " is not " << what << " within " << low << ".." << high;
     const auto check = [low, high, complaint = range.str()](std::string& text) {
-        const std::optional<double> value = one_number(text);
+        const std::optional<double> value = io::to_double(text);
         return value && low <= *value && *value <= high ? std::string() : "'" + text + "'" + complaint;
     };
     return {check, ""};
@@ -143,7 +136,7 @@ CLI::Validator number_within(double low, double high, const std::string& what) {
 
 std::vector<double> read_numbers(const std::string& option, const std::string& text) {
     const auto finite = [](const std::string& part) {
-        const std::optional<double> value = one_number(part);
+        const std::optional<double> value = io::to_double(part);
         return value && std::isfinite(*value) ? value : std::nullopt;
     };
     return read_list(option, text, "", finite);

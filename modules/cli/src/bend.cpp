@@ -153,7 +153,7 @@ bool keeps_area(const Request& request, const BoundModel& model) {
 bool keeps_area_everywhere(const Request& request, const BoundModel& model) {
     const BindWords& words = request.bind.words;
     return keeps_area(request, model) && words.profile == "even" && !words.fold_length && !words.onset &&
-           words.shape == "auto" && words.roundness == BindWords{}.roundness;
+           words.shape == "auto" && !words.roundness;
 }
 
 /// Returns whether the area is not kept, and says so.

@@ -139,9 +139,9 @@ void add_fold_words(CLI::App& command, BindWords& words) {
         ->capture_default_str();
     command
         .add_option("--roundness", words.roundness,
-                    "Round the crests of --profile even, 0 to 0.5; 0 is a plain cosine")
-        ->check(number_within(0, 0.5, "a roundness"))
-        ->capture_default_str();
+                    "Round the crests of --profile even, 0 to 0.5; 0 is a plain cosine [" +
+                        number(fit::BindOptions{}.profile.roundness) + "]")
+        ->check(number_within(0, 0.5, "a roundness"));
 }
 
 }  // namespace
@@ -193,6 +193,7 @@ void add_bind_words(CLI::App& command, BindWords& words) {
         .add_flag("--paper", words.paper,
                   "Bend as the paper has it: --profile damped --shape cylinder --amplitude paper --onset 0")
         ->excludes(command.get_option("--profile"))
+        ->excludes(command.get_option("--roundness"))
         ->excludes(command.get_option("--shape"))
         ->excludes(command.get_option("--amplitude"));
     command.add_option(
@@ -237,13 +238,15 @@ BindRequest::BindRequest(const BindWords& said, std::vector<fit::RegionOptions> 
     options.onset = words.onset;
     options.amplitude = parse_amplitude(words.amplitude);
     options.profile = parse_profile(words.profile);
-    options.profile.roundness = words.roundness;
+    if (words.roundness) options.profile.roundness = *words.roundness;
     options.fold_length = words.fold_length;
     if (words.wrinkle_range) options.wrinkle_range = parse_wrinkle_range(*words.wrinkle_range);
     if (words.wrinkle_mask) mask_channel = parse_wrinkle_mask(*words.wrinkle_mask);
     if (words.shape == "cylinder") options.shape = fit::ShapeMode::cylinder;
     options.folds_over_joints = words.joints == "over";
     refine = words.refine.empty() ? "on" : words.refine;
+    if (words.roundness && words.profile != "even")
+        throw UsageError("--roundness: --profile " + words.profile + " has no crests to round; leave it out");
     if (options.amplitude == paper::Amplitude::area && (words.wrinkle_range || words.onset.value_or(0) != 0))
         throw UsageError(
             "--amplitude area: cannot be had with --wrinkle-range or --onset; use --amplitude mesh");

@@ -36,7 +36,7 @@ struct BindWords {
     std::optional<double> fold_length = {};
     std::string amplitude = "mesh";
     std::string profile = "even";
-    double roundness = 0.25;
+    std::optional<double> roundness = {};  ///< of the crests of the profile `even` alone
     std::string shape = "auto";
     std::string joints = "over";
     bool paper = false;  ///< as the paper has it

@@ -6,6 +6,7 @@
 #include <goffer/io/atomic_file.hpp>
 #include <goffer/io/ending.hpp>
 #include <goffer/io/read_file.hpp>
+#include <goffer/io/text.hpp>
 #include <goffer/mesh/mesh.hpp>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ bool is_obj(std::string_view bytes) {
 
 Format format_of_content(std::string_view bytes) {
     if (bytes.starts_with("glTF")) return Format::glb;
-    std::string_view text = without_bom(bytes);
+    std::string_view text = io::without_bom(bytes);
     if (text.starts_with("ply\n") || text.starts_with("ply\r")) return Format::ply;
     if (is_stl(bytes)) return Format::stl;
     if (is_obj(text)) return Format::obj;

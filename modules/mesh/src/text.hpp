@@ -34,20 +34,8 @@ std::string_view next_token(std::string_view& rest);
 /// Takes the next line off the front of `rest`, without its end (LF, CRLF, or CR as on old Macs).
 std::string_view next_line(std::string_view& rest);
 
-/// `text` without the byte order mark that some editors put in front of UTF-8.
-[[nodiscard]] std::string_view without_bom(std::string_view text);
-
-/// `text` without blanks at either end.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
 /// `text` in lower case (ASCII).
 [[nodiscard]] std::string lower(std::string_view text);
-
-/// Convert a whole token to a number, correctly rounded; null if it is none. What is beyond the type's range
-/// becomes an infinity or 0. nan and inf are read too.
-[[nodiscard]] std::optional<float> to_float(std::string_view token);
-[[nodiscard]] std::optional<double> to_double(std::string_view token);
-[[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view token);
 
 /// Appends the shortest text that reads back as exactly this value.
 void append(std::string& out, float value);

@@ -90,6 +90,8 @@ void run_animate(const AnimateOptions& options) {
     const Isa isa = parse_isa_option(options.isa);
     Report report(options.json);
     const BoundModel model = bind_model(std::move(file), bind);
+    if (options.lag != 0 && model.binding.body.region_count() == 1)
+        throw UsageError("--lag: the body has one region, which follows none; give --regions too");
     MovingModel frames(model, *request.motion, request.frames, options.fps, isa);
     if (request.pattern) request.pattern->check_places(request.frames);
     const Survey seen = survey(frames, request.pictures ? &*request.pictures : nullptr);

@@ -6,11 +6,11 @@
 #include <goffer/io/ending.hpp>
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
+#include <goffer/io/text.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,23 +22,19 @@ constexpr std::string_view between = ", ;\t\r\n";
 std::vector<float> numbers_in(const std::filesystem::path& file) {
     const std::string bytes = io::read_file(file);
     std::vector<float> numbers;
-    std::string_view text = bytes;
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::string_view text = io::without_bom(bytes);
     while (true) {
         text.remove_prefix(std::min(text.find_first_not_of(between), text.size()));
         if (text.empty()) return numbers;
         const std::string_view word = text.substr(0, text.find_first_of(between));
-        double number = 0;  // as a float, what rounds to 0 would be out of range
-        const bool plus = word.starts_with('+') && !word.starts_with("+-");
-        const auto [end, error] =
-            std::from_chars(word.data() + (plus ? 1 : 0), word.data() + word.size(), number);
-        const bool too_large = std::fabs(number) > double{std::numeric_limits<float>::max()};
-        if (error != std::errc() || end != word.data() + word.size() || too_large)
+        const std::optional<float> number = io::to_float(word);
+        const bool too_large = number && std::isinf(*number);
+        if (!number || !std::isfinite(*number))
             throw InputError(io::about(
                 file, "'" + io::escaped(word.substr(0, 40)) + "', after " + std::to_string(numbers.size()) +
                           " numbers, is " + (too_large ? "more than a 32-bit float holds" : "not a number") +
                           "; correct it"));
-        numbers.push_back(static_cast<float>(number));
+        numbers.push_back(*number);
         text.remove_prefix(word.size());
     }
 }

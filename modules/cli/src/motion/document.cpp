@@ -6,12 +6,14 @@
 
 #include <goffer/io/error.hpp>
 #include <goffer/io/read_file.hpp>
+#include <goffer/io/text.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -31,9 +33,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{8} << 20;  // read, they have
 std::string read_text(const std::filesystem::path& file) {
     if (io::size_of_file(file) > most_bytes)
         refuse(file, "has more than " + io::size_text(most_bytes) + "; give fewer keys or points");
-    std::string text = io::read_file(file);
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    return text;
+    return std::string(io::without_bom(io::read_file(file)));
 }
 
 bool is_json(std::string_view text) {
@@ -41,15 +41,10 @@ bool is_json(std::string_view text) {
     return first != text.npos && (text[first] == '{' || text[first] == '[');
 }
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-    return first == text.npos ? "" : text.substr(first, last - first + 1);
-}
-
 /// As spreadsheets write cells.
 std::string_view unquoted(std::string_view cell) {
     const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-    return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+    return quoted ? io::trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
 /// A line of a table, as its cells.
@@ -70,14 +65,14 @@ std::vector<Row> rows_of(const std::string& text, bool spaces) {
             std::ranges::replace_if(
                 line, [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
         if (!spaces) std::ranges::replace(line, ';', ',');
-        const std::string_view content = trimmed(line);
+        const std::string_view content = io::trimmed(line);
         if (content.empty() || content.front() == '#') continue;
         Row& row = rows.emplace_back();
         row.line = count;
         std::istringstream cells(std::string(content) + (spaces ? "" : ","));
         for (std::string cell;
              spaces ? static_cast<bool>(cells >> cell) : static_cast<bool>(std::getline(cells, cell, ','));)
-            row.cells.emplace_back(unquoted(trimmed(cell)));
+            row.cells.emplace_back(unquoted(io::trimmed(cell)));
     }
     return rows;
 }
@@ -85,14 +80,11 @@ std::vector<Row> rows_of(const std::string& text, bool spaces) {
 /// A number or, where `or_max`, the words max and -max.
 json read_cell(const std::filesystem::path& file, const Row& row, const std::string& cell, bool or_max) {
     if (or_max && (cell == "max" || cell == "-max")) return cell;
-    double value = 0;
-    const char* const end = cell.data() + cell.size();
-    const bool plus = cell.starts_with('+');
-    const auto [next, error] = std::from_chars(cell.data() + (plus ? 1 : 0), end, value);
-    if ((plus && cell.starts_with("+-")) || error != std::errc() || next != end || !std::isfinite(value))
+    const std::optional<double> value = io::to_double(cell);
+    if (!value || !std::isfinite(*value))
         refuse(file, "line " + std::to_string(row.line) + ": '" + io::escaped(cell.substr(0, 40)) +
                          "' is not a number");
-    return value;
+    return *value;
 }
 
 /// What a column of keys holds.

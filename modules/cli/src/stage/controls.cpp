@@ -3,6 +3,8 @@
 
 #include "deformed.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,7 +22,7 @@ std::string equal_shares(int regions) {
     double left = 1;
     for (int r = 1; r < regions; ++r) {
         const std::string share = number(1.0 / regions);
-        left -= std::stod(share);
+        left -= io::to_double(share).value();
         text += share + ",";
     }
     return regions > 1 ? text + number(left) : text;
@@ -76,8 +78,8 @@ void Controls::set_words(const BindWords& words) {
     amplitude = words.amplitude;
     shape = words.shape;
     refine = words.refine.empty() ? "on" : words.refine;
-    roundness = static_cast<float>(words.roundness);
     const Controls usual;
+    roundness = words.roundness ? static_cast<float>(*words.roundness) : usual.roundness;
     fold_length = words.fold_length ? static_cast<float>(*words.fold_length) : usual.fold_length;
     onset = words.onset ? static_cast<float>(*words.onset) : usual.onset;
     folds = usual.folds;
@@ -123,7 +125,7 @@ Wish wish_of(const Controls& controls, Wish wish) {
     words.amplitude = controls.amplitude;
     words.shape = controls.shape;
     words.refine = controls.refine;
-    words.roundness = static_cast<double>(controls.roundness);
+    words.roundness.reset();
     words.folds.reset();
     words.fold_length.reset();
     words.onset.reset();
@@ -134,6 +136,8 @@ Wish wish_of(const Controls& controls, Wish wish) {
     }
     if (controls.fold_length > 0 && !words.folds)
         words.fold_length = static_cast<double>(controls.fold_length);
+    if (controls.roundness != Controls().roundness && words.profile == "even")
+        words.roundness = static_cast<double>(controls.roundness);
     if (controls.onset >= 0) words.onset = static_cast<double>(controls.onset);
     const bool same = controls.region_count == static_cast<int>(controls.regions.size());
     const std::vector<Bend> regions =
@@ -231,7 +235,7 @@ std::string command_of(const Controls& controls, const Wish& wish, const BoundMo
         add_unless("amplitude", words.amplitude, usual.amplitude);
         add_unless("shape", words.shape, usual.shape);
         add_unless("joints", words.joints, usual.joints);
-        add_unless("roundness", number(words.roundness), number(usual.roundness));
+        if (words.roundness) add("roundness", number(*words.roundness));
         if (words.onset) add("onset", number(*words.onset));
         if (words.wrinkle_range) add("wrinkle-range", *words.wrinkle_range);
         if (words.wrinkle_mask) add("wrinkle-mask", *words.wrinkle_mask);

@@ -6,6 +6,7 @@
 
 #include <goffer/io/error.hpp>
 #include <goffer/io/named_files.hpp>
+#include <goffer/io/text.hpp>
 
 #include <tiny_obj_loader.h>
 
@@ -36,7 +37,7 @@ std::vector<std::string_view> material_names(std::string_view library) {
     while (!library.empty()) {
         std::string_view line = next_line(library);
         if (next_token(line) != "newmtl") continue;
-        if (const std::string_view name = trimmed(line); !name.empty()) names.push_back(name);
+        if (const std::string_view name = io::trimmed(line); !name.empty()) names.push_back(name);
     }
     return names;
 }
@@ -198,7 +199,7 @@ void MaterialReader::read() {
     std::vector<bool> colored(mesh_.materials.size(), false);  // the first entry of a name counts
     for (std::size_t i = 0; i < found.size(); ++i) {
         const tinyobj::material_t& entry = found[i];
-        const auto used = lines_.used.find(trimmed(entry.name));
+        const auto used = lines_.used.find(io::trimmed(entry.name));
         if (used == lines_.used.end()) continue;
         const auto number = static_cast<std::size_t>(used->second);
         if (colored[number]) continue;

@@ -4,6 +4,8 @@
 #include "materials.hpp"
 #include "obj.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,7 +62,7 @@ private:
 template <class Take>
 void ObjReader::each_statement(Share share, Take take) const {
     Statement statement;
-    for (std::string_view rest = without_bom(text_); next_statement(rest, statement);) {
+    for (std::string_view rest = io::without_bom(text_); next_statement(rest, statement);) {
         take(statement);
         share.at(text_.size() - rest.size());
     }
@@ -93,9 +95,9 @@ void ObjReader::take(const Statement& statement) {
     if (keyword == "vn") take_normal(statement);
     if (keyword == "vt") take_uv(statement);
     if (keyword == "f") take_face(statement);
-    if (keyword == "o" || keyword == "g") part_.name = trimmed(statement.arguments);
-    if (keyword == "usemtl") take_material(trimmed(statement.arguments));
-    if (keyword == "mtllib") materials_.libraries.push_back(trimmed(statement.arguments));
+    if (keyword == "o" || keyword == "g") part_.name = io::trimmed(statement.arguments);
+    if (keyword == "usemtl") take_material(io::trimmed(statement.arguments));
+    if (keyword == "mtllib") materials_.libraries.push_back(io::trimmed(statement.arguments));
     seen_.add(statement);
 }
 
@@ -182,7 +184,7 @@ void ObjReader::take_material(std::string_view name) {
 std::string_view without_stray_exponent(std::string_view token) {
     for (const std::string_view sign : {"+e", "-e", "+E", "-E"}) {
         const std::size_t at = token.find(sign);
-        if (at != token.npos && at > 0 && to_integer(token.substr(at + 2))) return token.substr(0, at);
+        if (at != token.npos && at > 0 && io::to_integer(token.substr(at + 2))) return token.substr(0, at);
     }
     return {};
 }
@@ -195,8 +197,8 @@ std::size_t ObjReader::numbers(const Statement& statement, std::size_t needed) {
     for (; count < numbers_.size(); ++count) {
         const std::string_view token = next_argument(rest);
         if (token.empty()) break;
-        std::optional<float> number = to_float(token);
-        if (!number && (number = to_float(without_stray_exponent(token)))) ++stray_exponents_;
+        std::optional<float> number = io::to_float(token);
+        if (!number && (number = io::to_float(without_stray_exponent(token)))) ++stray_exponents_;
         if (!number) fail_at(token, quoted(token) + " is not a number; write one like -0.25 or 1e-3");
         numbers_[count] = *number;
     }
@@ -216,7 +218,7 @@ float ObjReader::finite_or_zero(float value) {
 std::uint32_t ObjReader::index(std::string_view token, std::size_t seen, std::size_t total,
                                const char* what) const {
     if (token.empty()) return none;
-    const std::optional<std::int64_t> number = to_integer(token);
+    const std::optional<std::int64_t> number = io::to_integer(token);
     const std::string name = std::string(what) + " index " + quoted(token);
     if (!number) fail_at(token, name + " is not a whole number; export the mesh again");
     if (*number == 0) fail_at(token, name + " is out of range: OBJ counts from 1; export the mesh again");
@@ -259,8 +261,8 @@ std::vector<std::filesystem::path> obj_files(const std::filesystem::path& file, 
                                              const LoadOptions& options, Budget& budget) {
     MaterialLines lines;
     Statement statement;
-    for (std::string_view rest = without_bom(bytes); next_statement(rest, statement);)
-        if (statement.keyword == "mtllib") lines.libraries.push_back(trimmed(statement.arguments));
+    for (std::string_view rest = io::without_bom(bytes); next_statement(rest, statement);)
+        if (statement.keyword == "mtllib") lines.libraries.push_back(io::trimmed(statement.arguments));
     return material_files(file, bytes, lines, options, budget);
 }
 

@@ -5,6 +5,8 @@
 #include "format.hpp"
 #include "obj.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -32,9 +34,9 @@ public:
           faces_(cut),
           out_(text) {
         Statement statement;
-        for (std::string_view rest = without_bom(text); next_statement(rest, statement);)
+        for (std::string_view rest = io::without_bom(text); next_statement(rest, statement);)
             total_.add(statement);
-        for (std::string_view rest = without_bom(text); next_statement(rest, statement);) take(statement);
+        for (std::string_view rest = io::without_bom(text); next_statement(rest, statement);) take(statement);
     }
     std::string finish() { return out_.finish(); }
 
@@ -115,7 +117,7 @@ private:
                 {{seen_.v, total_.v}, {seen_.vt, total_.vt}, {seen_.vn, total_.vn}}};
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [seen, total] = counts[k];
-                const std::optional<std::int64_t> index = to_integer(parts[k]);
+                const std::optional<std::int64_t> index = io::to_integer(parts[k]);
                 if (index && *index < 0 && seen == total)
                     out_.replace(parts[k], std::to_string(from_zero(*index, seen) + 1));
             }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "obj.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <algorithm>
 
 namespace goffer::mesh {
@@ -9,7 +11,7 @@ bool next_statement(std::string_view& rest, Statement& out) {
     if (rest.empty()) return false;
     const char* const begin = rest.data();
     std::string_view line = next_line(rest);
-    const bool comment = trimmed(line).starts_with('#');
+    const bool comment = io::trimmed(line).starts_with('#');
     while (!comment && line.ends_with('\\') && !rest.empty()) {
         const std::string_view more = next_line(rest);
         line = {begin, static_cast<std::size_t>(more.data() + more.size() - begin)};
@@ -35,7 +37,7 @@ void Counts::add(const Statement& statement) {
 }
 
 std::vector<std::string_view> library_names(const std::filesystem::path& obj, std::string_view arguments) {
-    arguments = trimmed(arguments);
+    arguments = io::trimmed(arguments);
     std::error_code error;
     if (std::filesystem::is_regular_file(obj.parent_path() / arguments, error)) return {arguments};
     std::vector<std::string_view> names;

@@ -4,6 +4,7 @@
 #include "obj.hpp"
 
 #include <goffer/io/error.hpp>
+#include <goffer/io/text.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -26,7 +27,7 @@ public:
     ObjEditor(const ObjSource& source, const Mesh& mesh, const std::filesystem::path& file)
         : from_(source.file), to_(file), mesh_(mesh), was_(source.read), out_(source.text) {
         Statement statement;
-        for (std::string_view rest = without_bom(source.text); next_statement(rest, statement);)
+        for (std::string_view rest = io::without_bom(source.text); next_statement(rest, statement);)
             take(statement);
     }
     std::string finish() { return out_.finish(); }
@@ -69,7 +70,7 @@ private:
             const std::size_t corner = corner_++;
             if (normal.empty() || mesh_.normals.empty()) continue;
             const std::uint32_t wanted = mesh_.normals.corners[corner];
-            if (from_zero(*to_integer(normal), seen_.vn) != wanted)
+            if (from_zero(*io::to_integer(normal), seen_.vn) != wanted)
                 out_.replace(normal, std::to_string(wanted + 1ull));
         }
     }
@@ -104,7 +105,7 @@ std::vector<std::string> material_names(const Mesh& mesh) {
     std::unordered_set<std::string> taken;
     std::unordered_map<std::string, int> next;  // number to try for a name that is taken
     for (const Material& material : mesh.materials) {
-        const std::string_view said = trimmed(material.name);
+        const std::string_view said = io::trimmed(material.name);
         const std::string name = said.empty() ? "material" : io::one_line(said);
         std::string unique = name;
         for (int& i = next.try_emplace(name, 2).first->second; !taken.insert(unique).second; ++i)

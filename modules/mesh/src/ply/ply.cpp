@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ply.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +68,7 @@ Role role_of(const Element& element, const Property& property) {
 /// Takes the header line by line.
 class HeaderReader {
 public:
-    HeaderReader(const std::filesystem::path& file, std::string_view bytes) : rest_(without_bom(bytes)) {
+    HeaderReader(const std::filesystem::path& file, std::string_view bytes) : rest_(io::without_bom(bytes)) {
         header_.file = file;
         header_.bytes = bytes;
     }
@@ -131,7 +133,7 @@ void HeaderReader::take_element(std::string_view arguments) {
     Element element;
     element.name = next_token(arguments);
     const std::string_view word = next_token(arguments);
-    const std::optional<std::int64_t> count = to_integer(word);
+    const std::optional<std::int64_t> count = io::to_integer(word);
     if (!count || *count < 0)
         fail_here("element count " + quoted(word) +
                   " is not a whole number of 0 or more; export the mesh again");
@@ -191,7 +193,7 @@ void Cursor::begin_row(const Element& element, std::uint64_t row) {
     do {
         if (rest_.empty()) fail_here("the file ends before this row; is it cut off?");
         line_ = next_line(rest_);
-    } while (trimmed(line_).empty());
+    } while (io::trimmed(line_).empty());
 }
 
 std::uint64_t Cursor::count(const Property& property) {
@@ -216,7 +218,7 @@ Value Cursor::next_text(Type type) {
     if (token.empty()) fail_here("the line has too few numbers; is the file cut off?");
     // A float is read as a float: read as a double it might be rounded twice.
     const std::optional<double> number =
-        type == Type::f32 ? std::optional<double>(to_float(token)) : to_double(token);
+        type == Type::f32 ? std::optional<double>(io::to_float(token)) : io::to_double(token);
     if (!number) fail_here(quoted(token) + " is not a number; write one like -0.25 or 1e-3");
     const bool in_range = !is_integer(type) || with_type(type, [&]<class T>(T) {
         return *number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&

@@ -3,6 +3,8 @@
 #include "format.hpp"
 #include "ply.hpp"
 
+#include <goffer/io/text.hpp>
+
 #include <array>
 #include <cmath>
 
@@ -97,7 +99,7 @@ void PlyReader::end_row(const Cursor& cursor, const Element& element) {
 }
 
 void PlyReader::end(const Cursor& cursor) {
-    if (const std::string_view rest = trimmed(cursor.rest()); !rest.empty())
+    if (const std::string_view rest = io::trimmed(cursor.rest()); !rest.empty())
         mesh_.warnings.push_back(number_of(rest.size(), "byte", "bytes") +
                                  " behind the last element: not read");
 }

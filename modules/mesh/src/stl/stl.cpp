@@ -6,6 +6,7 @@
 #include "text.hpp"
 
 #include <goffer/io/bytes.hpp>
+#include <goffer/io/text.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -40,7 +41,7 @@ bool is_binary(std::string_view bytes) {
 }
 
 bool says_solid(std::string_view bytes) {
-    bytes = without_bom(bytes);
+    bytes = io::without_bom(bytes);
     return lower(next_token(bytes)) == "solid";
 }
 
@@ -52,7 +53,7 @@ bool is_text(std::string_view bytes) {
 class TextFacets {
 public:
     TextFacets(const std::filesystem::path& file, std::string_view text)
-        : file_(file), text_(text), rest_(without_bom(text)) {}
+        : file_(file), text_(text), rest_(io::without_bom(text)) {}
 
     /// Finds the next facet; false at the end.
     bool next();
@@ -90,7 +91,7 @@ bool TextFacets::next() {
             fail_at(token, (word.empty() ? "the file ends" : quoted(token) + " stands") +
                                std::string(inside_ ? " where facet or endsolid" : " where solid") +
                                " should be; is the file cut off?");
-        const std::string_view name = trimmed(next_line(rest_));
+        const std::string_view name = io::trimmed(next_line(rest_));
         inside_ = !inside_;
         if (!inside_) continue;
         solid_ = name;
@@ -131,7 +132,7 @@ void add_vertex(Mesh& mesh, const glm::vec3& position) {
 }
 
 float coordinate(const TextFacets& facets, std::string_view token) {
-    const std::optional<float> number = to_float(token);
+    const std::optional<float> number = io::to_float(token);
     if (!number) facets.fail_at(token, quoted(token) + " is not a number; write one like -0.25 or 1e-3");
     if (!std::isfinite(*number))
         facets.fail_at(token, "vertex coordinate " + quoted(token) + " is not finite; remove the facet");
@@ -319,7 +320,7 @@ std::string write_anew(const Mesh& mesh) {
 bool is_stl(std::string_view bytes) {
     if (is_binary(bytes)) return true;
     if (!is_text(bytes)) return false;
-    bytes = without_bom(bytes);
+    bytes = io::without_bom(bytes);
     next_token(bytes);
     next_line(bytes);
     const std::string word = lower(next_token(bytes));
