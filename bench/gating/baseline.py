@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import pathlib
 
+from . import cases
 from .outcome import Part, Row, Unmeasured, Verdict
 
 TOLERANCE = 0.02
@@ -26,12 +27,14 @@ def write(path: pathlib.Path, compiler: str, counts: dict[str, float]) -> None:
     path.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
 
 
-def compare(name: str, was: float | None, now: float | None) -> Row:
-    """One count. More is worse."""
+def compare(name: str, was: float | None, now: float | None, isas: set[str]) -> Row:
+    """One count. More is worse. `isas`: those that are counted here."""
     if was is None:
         return Row(name, Verdict.NOTE, None, now, "not in the baseline: `bench/gate --update` adds it")
     if now is None:
-        return Row(name, Verdict.NOTE, was, None, "in the baseline, and not counted here")
+        if not cases.isas_of([name]) <= isas:
+            return Row(name, Verdict.NOTE, was, None, "of an instruction set that is not counted here")
+        return Row(name, Verdict.REGRESSION, was, None, "no longer counted; `bench/gate --update` drops it")
     row = Row(name, Verdict.PASS, was, now)
     if now - was > TOLERANCE * was:
         row.verdict = Verdict.REGRESSION
@@ -50,5 +53,6 @@ def judge(baseline: dict, compiler: str, counts: dict[str, float]) -> Part:
                             "reported, not compared.")
         part.rows = [Row(name, Verdict.NOTE, expected.get(name), value) for name, value in counts.items()]
         return part
-    part.rows = [compare(name, expected.get(name), counts.get(name)) for name in sorted({*expected, *counts})]
+    isas = cases.isas_of(counts)
+    part.rows = [compare(name, expected.get(name), counts.get(name), isas) for name in sorted({*expected, *counts})]
     return part

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 # Widest first. `{widest}` stands for the first of these that the program has cases for.
 ISAS = ("avx512", "avx2", "neon", "sse4.2", "scalar")
@@ -28,9 +29,14 @@ PAIRED = (
 )
 
 
-def widest(names: list[str]) -> str:
+def isas_of(names: Iterable[str]) -> set[str]:
+    """The instruction sets of cases."""
+    return {isa for name in names for isa in ISAS if isa in name.split("/")}
+
+
+def widest(names: Iterable[str]) -> str:
     """The widest instruction set among the cases that a program has."""
-    found = {isa for name in names for isa in ISAS if f"/{isa}/" in name}
+    found = isas_of(names)
     return next((isa for isa in ISAS if isa in found), "scalar")
 
 

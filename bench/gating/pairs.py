@@ -123,6 +123,8 @@ def compare(programs: tuple[str, str], wanted: list[str], count: int, threshold:
     """The part of the report."""
     part = Part("pairs")
     try:
+        if not wanted:
+            raise Unmeasured("--cases fits the name of no pair")
         cases, part.remarks = common_cases(programs, wanted)
         if not cases:
             raise Unmeasured("base and head have no case in common")

@@ -72,10 +72,12 @@ def two_programs(program: str, case: str) -> float:
 class Bound:
     """One ratio, and what was seen of it."""
 
-    def __init__(self, kind: str, case: str, at_least: float):
+    def __init__(self, kind: str, case: str, at_least: float, impossible: bool):
+        """`impossible`: the machine lacks the instruction set, or a second processor."""
         self.name = f"{kind} {case}"
         self.at_least = at_least
         self.threads = kind == "two_threads"
+        self.impossible = impossible
         self.best: float | None = None
         self.busy = 0.0  # processors that others kept busy in the quietest try
         self.reached = 0.0  # the most that two programs did
@@ -99,8 +101,10 @@ class Bound:
     def row(self) -> Row:
         """Returns its row of the report."""
         row = Row(self.name, Verdict.PASS, self.at_least, self.best)
-        if self.best is None:
-            row.verdict, row.remark = Verdict.NOTE, "the program has no such case here"
+        if self.best is None and self.impossible:
+            row.verdict, row.remark = Verdict.NOTE, "not on this machine"
+        elif self.best is None:
+            row.verdict, row.remark = Verdict.REGRESSION, "the program has no such case"
         elif not self.is_met() and self.threads and self.busy >= BUSY:
             row.verdict, row.remark = Verdict.NOTE, f"the machine is busy: others kept {self.busy:.1f} processors"
         elif not self.is_met() and self.threads and self.best >= OF_TWO_PROGRAMS * self.reached:
@@ -112,10 +116,16 @@ class Bound:
 
 def bounds_of(baseline: dict, names: list[str]) -> list[Bound]:
     """The bounds in a baseline, given the cases that the program has."""
-    isa = cases.widest(names)
-    return [Bound(kind, cases.resolve(case, isa), at_least)
-            for kind, of_kind in baseline.get("ratios", {}).items() if kind in KINDS
-            for case, at_least in of_kind.items()]
+    found, isa, one = cases.isas_of(names), cases.widest(names), (os.cpu_count() or 1) < 2
+    bounds = []
+    for kind, of_kind in baseline.get("ratios", {}).items():
+        if kind not in KINDS:
+            raise Unmeasured(f"the baseline has bounds of the kind '{kind}'; there are {', '.join(KINDS)}")
+        for pattern, at_least in of_kind.items():
+            case = cases.resolve(pattern, isa)
+            impossible = not cases.isas_of([case]) <= found or (one and kind == "two_threads")
+            bounds.append(Bound(kind, case, at_least, impossible))
+    return bounds
 
 
 def judge(baseline: dict, program: str, progress: Callable[[str], None]) -> Part:

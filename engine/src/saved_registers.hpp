@@ -22,11 +22,12 @@ constexpr std::uint64_t saves_512_bits = 0xe6;
 [[nodiscard]] inline std::uint64_t saved_registers() noexcept {
     constexpr std::uint32_t answers = 1u << 27;  // OSXSAVE in ecx of leaf 1: without it, xgetbv faults
 #if defined(__GNUC__) || defined(__clang__)
+    // volatile: an instruction that may fault does not move above the test for it.
     std::uint32_t a = 1, b = 0, c = 0, d = 0;
-    __asm__("cpuid" : "+a"(a), "=b"(b), "+c"(c), "=d"(d));
+    __asm__ volatile("cpuid" : "+a"(a), "=b"(b), "+c"(c), "=d"(d));
     if ((c & answers) == 0) return 0;
     std::uint32_t low = 0, high = 0;
-    __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
     return std::uint64_t{high} << 32 | low;
 #else
     int words[4];

@@ -465,7 +465,7 @@ def describe(obj, body, poses):
             warnings.append(f"Region {r + 1}: {text}" if len(body.regions) > 1 else text)
         mended = mended or by_rows
     if base.residual > 0.6:
-        warnings.append("The body is no cylinder and may look odd when bent: try another axis")
+        warnings.append("The body is not a cylinder, and may look odd when bent: try another axis")
     if (scale_of(obj) != 1).any():
         warnings.append("The object's scale is uneven: it is bent as it looks. Apply the scale to be rid of this")
     settings.facts, settings.warnings, settings.needs_rows = "\n".join(facts), "\n".join(warnings), mended

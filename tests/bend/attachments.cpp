@@ -160,6 +160,24 @@ TEST_CASE("capsules hold every vertex, and more of them fit closer") {
     CHECK(before[2] <= before[1]);
 }
 
+TEST_CASE("capsules hold what wrinkles move through the axis, where no crest is near") {
+    Random random(59);
+    LooseVertices loose(random, 200, 0.1);
+    for (bend::RestVertex& v : loose.vertices) v.wrinkle = -std::fabs(v.wrinkle);
+    bend::RegionInput region = loose_region(loose.vertices.size());
+    region.table =
+        fit::make_wrinkle_table(paper::Profile::damped, paper::Amplitude::paper, 1, 1, 0.1, 4.9, 32);
+    const bend::Body body = loose.body({&region, 1});
+    Output out(body.vertex_count());
+    const bend::DeformJob job = make_job(body, {body.max_angle(), 1}, Isa::automatic, out);
+    bend::run(job);
+    for (const std::size_t pieces : {1u, 4u, 40u}) {
+        std::vector<bend::Capsule> chain(pieces);
+        bend::capsules(job, pieces, chain);
+        for (std::size_t v = 0; v < body.vertex_count(); ++v) REQUIRE(hold(chain, out.position(v)));
+    }
+}
+
 TEST_CASE("capsules are no thicker than the body and the bulge of its arc") {
     Random random(58);
     std::vector<bend::RestVertex> vertices(200);

@@ -237,15 +237,23 @@ TEST_CASE("body file: what cannot be read as a file is said to be") {
     CHECK(refused(GOFFER_SOURCE_DIR "/README.md") == "body file: not a body file; goffer bake makes one");
     Random random(58);
     const std::vector<std::byte> bytes = saved(random_body(random));
-    for (const std::size_t size : {8u, 40u, 63u, 64u, 100u}) {  // the same whether from a file or from memory
-        const std::string name = "short_" + std::to_string(size) + ".goffer";
+    // The same whether from a file or from memory.
+    const auto refused_alike = [&](std::span<const std::byte> wrong) {
+        const std::string name = "wrong_" + std::to_string(wrong.size()) + ".goffer";
         std::ofstream(name, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(size));
+            .write(reinterpret_cast<const char*>(wrong.data()), static_cast<std::streamsize>(wrong.size()));
         BodyFileFault fault;
-        CHECK(!bend::load_copy(std::span(bytes).first(size), &fault));
-        CHECK(refused(name.c_str()) == std::string(bend::describe(fault).c_str()));
+        CHECK(!bend::load_copy(wrong, &fault));
+        const std::string said(bend::describe(fault).c_str());
+        CHECK(refused(name.c_str()) == said);
         std::remove(name.c_str());
-    }
+        return said;
+    };
+    for (const std::size_t size : {8u, 40u, 63u, 64u, 100u})
+        (void)refused_alike(std::span(bytes).first(size));
+    AlignedBytes newer(bytes);
+    put(newer.bytes(), 12, 9u);
+    CHECK(refused_alike(newer.bytes()).find("of version 9,") != std::string::npos);
 }
 
 }  // namespace goffer::test

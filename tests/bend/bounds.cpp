@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "capsules.hpp"
 #include "support/arena.hpp"
 #include "support/bodies.hpp"
 #include "support/rounds.hpp"
@@ -73,6 +74,8 @@ void check_held(Random& random, const bend::Body& body, int poses) {
         job.tangents = {};
         if (k % 4 != 0) job.transform = random_transform(random, k % 4 == 1 ? 0 : 30 * body.length());
         const bend::Bounds box = bend::bounds(job);
+        std::vector<bend::Capsule> chain(1 + random() % 20);
+        bend::capsules(job, chain.size(), chain);
         INFO("angle ", pose.angle, " of ", body.max_angle(), " direction ", pose.direction, " L/r ",
              body.length() / body.radius());
         for (const Isa isa : isas_here()) {
@@ -80,6 +83,7 @@ void check_held(Random& random, const bend::Body& body, int poses) {
             job.isa = isa;
             bend::run(job);
             REQUIRE(holds(box, tight(out)));
+            for (std::size_t v = 0; v < body.vertex_count(); ++v) REQUIRE(hold(chain, out.position(v)));
         }
     }
 }
@@ -133,7 +137,7 @@ TestMesh round_mesh(const Round& round, double slenderness, const glm::dmat3& ax
 
 }  // namespace
 
-TEST_CASE("P10: bounds hold every vertex") {
+TEST_CASE("P10: bounds and capsules hold every vertex") {
     Random random(81);
     for (int trial = 0; trial < rounds(40, 10); ++trial) {
         const double slenderness =
@@ -148,7 +152,9 @@ TEST_CASE("P10: bounds hold every vertex") {
     }
 }
 
-TEST_CASE("P10: bounds hold the vertices of any body, however far from its axis and deep its wrinkles") {
+TEST_CASE(
+    "P10: bounds and capsules hold the vertices of any body, however far from its axis and deep its "
+    "wrinkles") {
     Random random(82);
     for (int trial = 0; trial < rounds(150, 30); ++trial) {
         const std::size_t count = trial % 5 == 0 ? 1 + random() % 4 : 300;

@@ -392,11 +392,11 @@ TEST_CASE("C: what is wrong is said, and null does no harm") {
     CHECK(!text_of_bind(&mesh, &options).empty());
 
     goffer_job job = {};
+    CHECK(error_of_job(job).starts_with("body: not given"));
+    job.body = twice.body;
     CHECK(error_of_job(job).starts_with("poses: none"));
     job.poses = twice.poses.data();
     job.pose_count = 1;
-    CHECK(error_of_job(job).starts_with("body: "));
-    job.body = twice.body;
     CHECK(error_of_job(job).starts_with("outputs: "));
     float number = 0;
     for (float*& component : job.previous_positions.component) component = &number;

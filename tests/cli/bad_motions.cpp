@@ -34,11 +34,11 @@ void check_refused(const json& document, const std::string& piece, std::size_t r
 
 TEST_CASE("motion: documents that are refused, in one line that says where") {
     const auto keys = [](const json& second) { return json{{"keys", {key(0, 0), second}}}; };
-    check_refused(json::array(), "is no JSON object");
+    check_refused(json::array(), "is not a JSON object");
     check_refused(json::object(), "says no motion");
     check_refused({{"keys", 3}}, "two keys or more");
     check_refused({{"keys", {key(0, 0)}}}, "two keys or more");
-    check_refused({{"keys", {key(0, 0), 5}}}, "keys[1]: is no JSON object");
+    check_refused({{"keys", {key(0, 0), 5}}}, "keys[1]: is not a JSON object");
     check_refused(keys({{"angle", 5}}), "keys[1]: has no \"time\"");
     check_refused(keys({{"time", 1}}), "keys[1]: has no \"angle\"");
     check_refused(keys(key(0, 5)), "keys[1]: time: is not after the key before it");
@@ -52,20 +52,20 @@ TEST_CASE("motion: documents that are refused, in one line that says where") {
     check_refused(keys({{"time", 1}, {"angles", {1, 2, 3}}}), "angles: 3 for 2 regions");
     check_refused(keys({{"time", 1}, {"angles", {1, 2}}, {"directions", {1}}}),
                   "directions: 1 for 2 regions");
-    check_refused(keys({{"time", 1}, {"angles", 5}}), "angles: is no array");
+    check_refused(keys({{"time", 1}, {"angles", 5}}), "angles: is not an array");
     check_refused(keys({{"time", 1}, {"angle", 5}, {"angles", {5, 5}}}), "give one of them");
-    check_refused(keys({{"time", 1}, {"angle", 5}, {"angel", 6}}), "\"angel\" is no field here");
+    check_refused(keys({{"time", 1}, {"angle", 5}, {"angel", 6}}), "\"angel\" is not a field here");
     check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"interpolation", "bouncy"}},
                   "give one of smooth, linear");
     check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"repeat", true}}, "is not as the first");
-    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"seconds", 3}}, "\"seconds\" is no field here");
+    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"seconds", 3}}, "\"seconds\" is not a field here");
     check_refused({{"keys", {key(0, 0), key(1e-5, 5)}}}, "end within");
     check_refused({{"swing", 30}}, "has no \"seconds\"");
     check_refused({{"swing", 30}, {"seconds", 0}}, "seconds: ");
     check_refused({{"swing", {{"too", 5}}}, {"seconds", 1}}, "swing: has no \"to\"");
     check_refused({{"path", {{0, 0, 0}}}, {"seconds", 1}}, "fewer than two points");
     check_refused({{"path", {{0, 0, 0}, {0, 0, 0}}}, {"seconds", 1}}, "all points are the same");
-    check_refused({{"path", {{0, 0, 0}, {0, 1}}}, {"seconds", 1}}, "path[1]: is no point");
+    check_refused({{"path", {{0, 0, 0}, {0, 1}}}, {"seconds", 1}}, "path[1]: is not a point");
     check_refused({{"path", {{0, 0, 0}, {0, 1, 1e300}}}, {"seconds", 1}}, "path[1]: is not a number");
     check_refused({{"path", {{"bezier", {{{0, 0, 0}, {1, 1, 1}}}}}}, {"seconds", 1}}, "four control points");
     check_refused({{"path", {{"points", {{0, 0, 0}, {1, 1, 1}}}, {"curve", "wavy"}}}, {"seconds", 1}},
@@ -86,7 +86,7 @@ TEST_CASE("animate: what is refused, in one line, and nothing written") {
     refused(folder, 2, model + Words{"f%d.mdd", "--swing", "9"}, {"all frames in one file"});
     refused(folder, 2, model + Words{"f%d.fbx", "--swing", "9"}, {"no known ending", "%04d.obj"});
     for (const std::string name : {"f%x.ply", "f%4d.ply", "f%d%d.ply", "f%00d.ply", "f%.ply"})
-        refused(folder, 2, model + Words{name, "--swing", "9"}, {"is no pattern"});
+        refused(folder, 2, model + Words{name, "--swing", "9"}, {"is not a pattern"});
     const Words to = model + Words{"f%d.ply"};
     for (const std::string angle : {"nan", "1,2,3", "far", ""})
         refused(folder, 2, to + Words{"--swing", angle}, {"--swing"});

@@ -88,7 +88,7 @@ TEST_CASE("bad words: what does not go together") {
     for (const char* const size :
          {"100", "x", "100x", "x100", "0x100", "100x16385", "1e2x100", "100x100x3", "-1x5"})
         place.refuse_bend({"--png", "out.png", "--size", size},
-                          {"--size: '" + std::string(size) + "' is no size", "WIDTHxHEIGHT"});
+                          {"--size: '" + std::string(size) + "' is not a size", "WIDTHxHEIGHT"});
     for (const char* const camera : {"above", "10", "0,91", "0,-90.5", "1,2,3", "a,b", "0,nan"})
         place.refuse_bend({"--png", "out.png", "--camera", camera}, {"--camera: '"});
     place.refuse_bend({"--axis", "z", "--fit", "fit.json"}, {"--axis", "--fit"});
@@ -145,7 +145,7 @@ TEST_CASE("bad words: no or another command, unknown options, too many words") {
 #ifdef GOFFER_HAS_VIEWER
 TEST_CASE("bad words: of a viewer, before it looks for a display") {
     const KeptOutputs place;
-    refused(place.folder, 2, {"view", "--size", "10"}, {"--size: '10' is no size; give WIDTHxHEIGHT"});
+    refused(place.folder, 2, {"view", "--size", "10"}, {"--size: '10' is not a size; give WIDTHxHEIGHT"});
     refused(place.folder, 2, {"view", "--json", "out.json"}, {"--json: ", "add --frames N"});
     refused(place.folder, 2, {"view", "--crowd", "-3"}, {"--crowd"});
     refused(place.folder, 2, {"view", "--frames", "0"}, {"--frames"});

@@ -184,7 +184,7 @@ TEST_CASE("bake: what is asked for wrongly") {
     refused(folder, 2, {"bake", "base.ply", "-o", "a.goffer", "--socket", "a=0,0,0", "--socket", "a=0,0,1"},
             {"--socket", "two named 'a'"});
     refused(folder, 1, {"bake", "base.ply", "--lod", "long.ply", "-o", "a.goffer"},
-            {"long.ply", "no level of detail"});
+            {"long.ply", "not a level of detail"});
     refused(folder, 1, {"bake", "base.ply", "--lod", "nothing.ply", "-o", "a.goffer"}, {"nothing.ply"});
 }
 

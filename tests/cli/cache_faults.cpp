@@ -42,7 +42,7 @@ TEST_CASE("cache: scenes that are none") {
     refuse("/bodies/worm/file", "none.ply", {"none.ply"});
     refuse("/bodies/worm/file", "../worm.ply", {"bodies.worm.file", "--allow-outside"});
     refuse("/bodies/worm/folds", "many", {"bodies.worm", "--folds", "many"});
-    refuse("/bodies/worm/foldz", 3, {"bodies.worm.foldz", "no option"});
+    refuse("/bodies/worm/foldz", 3, {"bodies.worm.foldz", "not an option"});
     refuse("/bodies/worm/max_memory", "9G", {"bodies.worm.max_memory"});
     refuse("/bodies/worm/allow_outside", true, {"bodies.worm.allow_outside"});
     refuse("/bodies/worm/level", 1, {"bodies.worm.level", "model"});
@@ -122,11 +122,11 @@ TEST_CASE("cache: folders and words that are none") {
     folder.write("file", "kept");
     std::filesystem::create_directory(folder / "other");
     folder.write("other/letter.txt", "kept");
-    refused(folder, 1, cache_words("file"), {"file", "no folder"});
+    refused(folder, 1, cache_words("file"), {"file", "not a folder"});
     refused(folder, 1, cache_words("other"), {"other", "letter.txt"});
     std::filesystem::create_directories(folder / "linked/bodies");
     std::filesystem::create_symlink(folder / "file", folder / "linked/bodies/worm.goffer");
-    refused(folder, 1, cache_words("linked"), {"linked/bodies/worm.goffer", "no file of a cache"});
+    refused(folder, 1, cache_words("linked"), {"linked/bodies/worm.goffer", "not a file of a cache"});
     refused(folder, 2, {"cache", "scene.json"}, {"-o"});
     for (const std::string share : {"0/3", "4/3", "3", "1/0", "a/b", "-1/3", "1/3x", ""})
         refused(folder, 2, cache_words("cache", {"--shard", share}), {"--shard"});
@@ -142,7 +142,7 @@ TEST_CASE("cache: folders and words that are none") {
     refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "x"}, {"x: there is no such folder"});
     std::filesystem::create_directory(folder / "empty");
     refused(folder, 1, {"cache", "--extract", "1,1", "-o", "a.ply", "empty"}, {"plan.json"});
-    refused(folder, 1, {"cache", "--verify", "scene.json"}, {"scene.json: is no folder"});
+    refused(folder, 1, {"cache", "--verify", "scene.json"}, {"scene.json: is not a folder"});
     refused(folder, 2, cache_words("scene.json"), {"scene.json"});
 }
 

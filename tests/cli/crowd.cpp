@@ -311,7 +311,7 @@ TEST_CASE("crowd: from rest, instances are at the rest pose and as far from it a
     }
 }
 
-TEST_CASE("crowd: says which model is no cylinder") {
+TEST_CASE("crowd: says which model is not a cylinder") {
     const Folder folder;
     small_base(folder);
     mesh::Mesh flat = mesh::load(folder / "base.ply");
@@ -320,7 +320,7 @@ TEST_CASE("crowd: says which model is no cylinder") {
     mesh::save(flat, folder / "flat.ply");
     const json all = report(folder, {"crowd", "base.ply", "flat.ply", "--instances", "2", "--frames", "1"});
     CHECK(std::ranges::count_if(all["warnings"], [](const json& warning) {
-              return warning.get<std::string>().starts_with("flat.ply: the body is no cylinder");
+              return warning.get<std::string>().starts_with("flat.ply: the body is not a cylinder");
           }) == 1);
     CHECK(all["models"][1]["suitability"]["flatness"].get<double>() > 3);
 }

@@ -380,13 +380,13 @@ TEST_CASE("figures: what is refused, with nothing written") {
     refused(folder, 2, {"figures", "-o", "page"}, {"model"});
     refused(folder, 2, {"figures", "base.ply"}, {"--output is required"});
     refused(folder, 2, Words{"figures"} + Words(9, "base.ply") + page, {"figures"});
-    refused(folder, 2, Words{"figures", "base.ply", "--size", "10"} + page, {"--size: '10' is no size"});
+    refused(folder, 2, Words{"figures", "base.ply", "--size", "10"} + page, {"--size: '10' is not a size"});
     refused(folder, 2, Words{"figures", "base.ply", "--json", "base.ply"} + page,
             {"--json", "base.ply", "MODEL"});
     refused(folder, 2, Words{"figures", "base.ply", "--json", "page/index.html"} + page, {"--json", "-o"});
     refused(folder, 1, Words{"figures", "none.ply"} + page, {"none.ply"});
     refused(folder, 1, {"figures", "base.ply", "-o", "base.ply", "--no-charts"},
-            {"base.ply", "is no folder"});
+            {"base.ply", "is not a folder"});
     refused(folder, 1, {"figures", "base.ply", "-o", ".", "--no-charts"},
             {"has files", "a new folder to -o"});
     refused(folder, 1, {"figures", "base.ply", "-o", "base.ply/x", "--no-charts"}, {"base.ply/x"});

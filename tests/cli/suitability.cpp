@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* begin = "the body is no cylinder and may look odd when bent: ";
+constexpr const char* begin = "the body is not a cylinder, and may look odd when bent: ";
 
 /// Base cylinders of radius 1 and length 10, at these places.
 mesh::Mesh rods(const Folder& folder, const std::vector<glm::vec3>& places) {

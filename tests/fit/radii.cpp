@@ -203,6 +203,8 @@ TEST_CASE("folds: a mesh carries as many as its rows allow, and none where they 
     CHECK(folds(64).folds() == 8);    // of eight rows
     CHECK(deepest(folds(64)) < 0.35);
     CHECK(folds(24).folds() == 0);  // eight rows are 3.3 radii
+    CHECK(folds(33).folds() == 0);  // of which nobody would see a hundredth of their depth
+    CHECK(folds(37).folds() == 5);
     // Fine up to the middle, coarse from there on.
     Solid both = test::cylinder({.rows = 160}, random);
     for (glm::vec3& p : both.positions) {

@@ -69,7 +69,7 @@ class Memory(support.Case):
 
 class Baseline(support.Case):
     def verdict(self, was, now):
-        return baseline.compare("x", was, now).verdict
+        return baseline.compare("x", was, now, set()).verdict
 
     def test_tolerance(self):
         self.assertIs(self.verdict(100, 102), Verdict.PASS)
@@ -79,7 +79,11 @@ class Baseline(support.Case):
         self.assertIs(self.verdict(0, 0), Verdict.PASS)
         self.assertIs(self.verdict(0, 0.01), Verdict.REGRESSION)  # no allocation stays none
         self.assertIs(self.verdict(None, 1), Verdict.NOTE)
-        self.assertIs(self.verdict(1, None), Verdict.NOTE)
+
+    def test_what_is_no_longer_counted(self):
+        self.assertIs(self.verdict(1, None), Verdict.REGRESSION)
+        self.assertIs(baseline.compare("instructions/avx2/x", 1, None, {"scalar"}).verdict, Verdict.NOTE)
+        self.assertIs(baseline.compare("instructions/avx2/x", 1, None, {"avx2"}).verdict, Verdict.REGRESSION)
 
     def test_judgment(self):
         document = {"compiler": "GNU 12.2.0", "counts": {"a": 100, "b": 10}}

@@ -72,8 +72,13 @@ class Ratios(support.Case):
 
     def test_cases_that_are_not_there(self):
         part, verdicts = self.judge({"of_floor": {"deform/positions/cache/avx512/1": 0.1}}, self.fake("head"))
-        self.assertEqual(verdicts, [Verdict.NOTE])
+        self.assertEqual(verdicts, [Verdict.NOTE])  # this machine lacks the instruction set
         self.assertEqual(part.exit_code, 0)
+        part, verdicts = self.judge({"of_floor": {"deform/renamed/cache/avx2/1": 0.1}}, self.fake("head"))
+        self.assertEqual(verdicts, [Verdict.REGRESSION])
+        self.assertIn("no such case", part.rows[0].remark)
+        part, _ = self.judge({"of_flor": {CASE: 0.1}}, self.fake("head"))
+        self.assertIn("of_flor", part.unmeasured)
 
     def test_failing(self):
         part, _ = self.judge({"of_floor": {CASE: 0.1}}, self.fake("head", fault="exit"))

@@ -102,7 +102,7 @@ BoundModel bind_next(const std::filesystem::path& file, const BindRequest& reque
         model.binding = fit::bind_level(geometry_of(model), rig);
     } catch (const fit::Error& error) {
         throw InputError(file.string() +
-                         ": is no level of detail of MODEL, but another body: " + error.what());
+                         ": is not a level of detail of MODEL but another body: " + error.what());
     }
     model.cylinder = rig.cylinder;
     return model;

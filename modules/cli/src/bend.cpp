@@ -156,13 +156,16 @@ bool keeps_area_everywhere(const Request& request, const BoundModel& model) {
            words.shape == "auto" && !words.roundness;
 }
 
-/// Returns whether the area is not kept, and says so.
-bool warn_of_area(Report& report, double change) {
+/// Returns whether the area is not kept, and says so. `few_folds`: a warning says so of the folds, and how to
+/// mend that.
+bool warn_of_area(Report& report, double change, bool few_folds, bool one_region) {
     constexpr double most = 0.01;
     if (change >= -most) return false;
-    report.warn("the area changes by " + percent(change) +
-                ", which the wrinkles do not make up for; say how many folds there are with --folds, or "
-                "cut the body into --regions");
+    std::string line = "the area changes by " + percent(change) + ", which ";
+    line += few_folds ? "so few folds do not make up for"
+                      : "the wrinkles do not make up for; say how many folds there are with --folds";
+    if (!few_folds && one_region) line += ", or cut the body into --regions";
+    report.warn(line);
     return true;
 }
 
@@ -212,8 +215,8 @@ bool report_bend(Report& report, const Request& request, const BoundModel& model
     const bool few_folds = !model.baked && warn_of_folds(report, request.bind, model, used);
     const double change = area_after / area_before - 1;
     if (straightened) warn_of_stretch(report, change);
-    if (straightened || few_folds || !keeps_area(request, model)) return true;
-    return warn_of_area(report, change);
+    if (straightened || !keeps_area(request, model)) return true;
+    return warn_of_area(report, change, few_folds, targets.size() == 1) || few_folds;
 }
 
 void run_bend(const BendOptions& options) {

@@ -25,11 +25,29 @@ std::optional<std::uint64_t> machine() {
     return std::nullopt;
 }
 
-/// A container's limit; "max", no number, where there is none.
-std::optional<std::uint64_t> container() {
-    std::ifstream file("/sys/fs/cgroup/memory.max");
+std::optional<std::uint64_t> number_in(const char* name) {
+    std::ifstream file(name);
     std::uint64_t bytes = 0;
     return file >> bytes ? std::optional(bytes) : std::nullopt;
+}
+
+/// What a container takes of its memory for copies of files, which it gives back.
+std::uint64_t files_of_container() {
+    std::ifstream file("/sys/fs/cgroup/memory.stat");
+    std::string name;
+    for (std::uint64_t bytes = 0; file >> name >> bytes;) {
+        if (name == "inactive_file") return bytes;
+    }
+    return 0;
+}
+
+/// What a container's limit leaves. The limit is "max", no number, where there is none.
+std::optional<std::uint64_t> container() {
+    const std::optional<std::uint64_t> limit = number_in("/sys/fs/cgroup/memory.max");
+    if (!limit) return std::nullopt;
+    const std::uint64_t taken = number_in("/sys/fs/cgroup/memory.current").value_or(0);
+    const std::uint64_t in_use = taken - std::min(taken, files_of_container());
+    return *limit - std::min(*limit, in_use);
 }
 
 // For a bare cylinder of 1 million vertices and 2 million triangles, `goffer bend` takes 0.61 GB as PLY and

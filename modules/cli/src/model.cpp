@@ -30,7 +30,7 @@ BindWords spelled_out(BindWords words) {
 
 fit::RestPose rest_pose_of(const FitWords& words, bool regions) {
     if (words.arcs > 0 && words.rest != "auto")
-        throw UsageError("--arcs: --rest " + words.rest + " is no chain of arcs; leave out one of them");
+        throw UsageError("--arcs: --rest " + words.rest + " is not a chain of arcs; leave out one of them");
     if (words.rest == "straight") return fit::RestPose::straight;
     const bool chain = words.rest == "auto" && (words.arcs > 0 || !regions);
     return chain ? fit::RestPose::chain : fit::RestPose::automatic;
@@ -51,7 +51,7 @@ int parse_wrinkle_mask(const std::string& text) {
     const std::size_t channel = named ? channels.find(text.back()) : channels.npos;
     if (channel == channels.npos)
         throw UsageError("--wrinkle-mask: '" + text +
-                         "' is no channel of vertex colors; give COLOR_0.r, .g, .b or .a");
+                         "' is not a channel of vertex colors; give COLOR_0.r, .g, .b or .a");
     return static_cast<int>(channel);
 }
 

@@ -20,7 +20,7 @@ namespace goffer::cli {
 namespace {
 
 [[noreturn]] void refuse_size(const std::string& text) {
-    throw UsageError("--size: '" + text + "' is no size; give WIDTHxHEIGHT, each 1 to " +
+    throw UsageError("--size: '" + text + "' is not a size; give WIDTHxHEIGHT, each 1 to " +
                      std::to_string(view::largest_side));
 }
 
@@ -64,7 +64,7 @@ Viewpoint parse_camera(const std::string& text) {
     if (text == "front") return {90, 0};
     if (text.find(',') == std::string::npos)
         throw UsageError("--camera: '" + text +
-                         "' is no place for a camera; give side, inner, front or AZIMUTH,ELEVATION");
+                         "' is not a place for a camera; give side, inner, front or AZIMUTH,ELEVATION");
     const std::vector<double> angles = read_numbers("--camera", text);
     if (angles.size() != 2 || std::abs(angles[1]) > 90)
         throw UsageError("--camera: '" + text +

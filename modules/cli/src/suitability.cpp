@@ -87,7 +87,7 @@ bool report_suitability(Report& report, const BoundModel& model, nlohmann::order
                     std::string(" beyond the ends of the body, and the output has ") +
                     (stray == 1 ? "it" : "them") +
                     " at its ends; take out loose points and lines, or give them faces");
-    if (!why.empty()) report.warn(where + "the body is no cylinder and may look odd when bent: " + why);
+    if (!why.empty()) report.warn(where + "the body is not a cylinder, and may look odd when bent: " + why);
     return !why.empty();
 }
 

@@ -122,7 +122,7 @@ Line settle(const Body& body, const Line& start, int steps) {
         const Matrix3d change = line.frame.leftCols<2>() * by.reshaped(2, 3);
         line = line_through(line.point + change.col(0), (line.axis() + change.col(1)).normalized(),
                             line.bow + 2 * change.col(2));
-        if (by.norm() < settled) break;
+        if (!(by.norm() >= settled)) break;  // for NaN, too
     }
     return line;
 }

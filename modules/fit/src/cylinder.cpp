@@ -194,7 +194,7 @@ void check_arcs(const Cylinder& cylinder) {
         constexpr double least = 1e-5;  // of the body
         if (!(arc.length >= least * cylinder.length))
             throw Error("cylinder: one of the arcs is " + text(arc.length) +
-                        " long, too short for a region of a " + "body of " + text(cylinder.length) +
+                        " long, too short for a region of a body of " + text(cylinder.length) +
                         "; leave it out");
         sum += arc.length;
     }
@@ -244,8 +244,8 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     check_count(arcs, rest);
     const Body body = body_of(geometry);
     const std::optional<Vector3d> given = axis ? std::optional(given_axis(*axis)) : std::nullopt;
+    const Principal principal = principal_axis(body);  // refuses a body without area
     if (arcs > 0) return chain_of(body, arcs, given);
-    const Principal principal = principal_axis(body);
     const auto chain_instead = [&](const Line& line) -> std::optional<Cylinder> {
         if (rest != RestPose::chain) return std::nullopt;
         return fit_chain(body, line, given);

@@ -87,8 +87,10 @@ bool alike(const paper::Shape::Knots& shape) {
            std::ranges::count(shape.weight, shape.weight[0]) == std::ssize(shape.weight);
 }
 
+/// Whether what is left of wrinkles is less than one would see.
 bool nothing_left(const paper::Shape::Knots& shape) {
-    return std::ranges::all_of(shape.weight, [](double weight) { return weight == 0; });
+    constexpr double unseen = 0.1;
+    return std::ranges::all_of(shape.weight, [](double weight) { return weight < unseen; });
 }
 
 /// Returns how many folds of such lengths fit, at most max_folds(); 0 where all have faded. Where more would

@@ -126,7 +126,8 @@ public:
         const auto last = static_cast<double>(count_) - 1;
         const double scale = static_cast<double>(count_) / (extent_.second - extent_.first);
         each_sample(body_, view_, [&](const Sample& s) {
-            const double slice = std::clamp((s.place.z() - extent_.first) * scale, 0.0, last);  // 0 for NaN
+            const double at = (s.place.z() - extent_.first) * scale;
+            const double slice = at > 0 ? std::min(at, last) : 0;  // for NaN, too
             visit(s, static_cast<std::size_t>(slice), s.unrolled * s.upright);
         });
     }

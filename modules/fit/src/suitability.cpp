@@ -103,7 +103,8 @@ double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straig
     for (std::size_t i = 0; i < body.points.size(); i += 3) {
         const paper::Cylindrical at =
             straightening.vertex(from_eigen(body.middle + body.size * body.points[i]));
-        const double slice = std::clamp(at.z / cylinder.length * slices, 0.0, slices - 1.0);
+        const double share = at.z / cylinder.length;
+        const double slice = share > 0 ? std::min(share * slices, slices - 1.0) : 0;  // for NaN, too
         Section& section = sections[static_cast<std::size_t>(slice)];
         const glm::dvec2 p = across(at) / cylinder.radius;
         section.count += 1;

@@ -35,7 +35,7 @@ std::string read_file(const fs::path& file, const std::function<void(double)>& p
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t size = std::min(piece, bytes.size() - done);
         if (!in.read(bytes.data() + done, static_cast<std::streamsize>(size)))
-            throw Error(about(file, unreadable));
+            throw Error(about(file, in.eof() ? "became shorter while it was read; try again" : unreadable));
         done += size;
         if (progress) progress(static_cast<double>(done) / static_cast<double>(bytes.size()));
     }

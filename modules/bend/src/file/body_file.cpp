@@ -55,24 +55,24 @@ std::optional<BodyFile> load_copy(std::span<const std::byte> bytes, BodyFileFaul
 
 std::optional<BodyFile> load_file(const char* name, BodyFileFault* fault, Verify verify) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name, "rb"), std::fclose);
-    const auto refused = [&](FileReason reason) {
-        if (fault != nullptr) *fault = {reason};
+    const auto refused = [&](const BodyFileFault& found) {
+        if (fault != nullptr) *fault = found;
         return std::nullopt;
     };
-    if (!file) return refused(errno == ENOENT ? FileReason::missing : FileReason::unreadable);
+    if (!file) return refused({errno == ENOENT ? FileReason::missing : FileReason::unreadable});
     // A folder opens and has a size, but cannot be read: reading comes first.
     FileHeader header = {};
     const bool whole = std::fread(&header, sizeof header, 1, file.get()) == 1;
     if (!whole) header = {};
-    if (std::ferror(file.get()) != 0) return refused(FileReason::unreadable);
+    if (std::ferror(file.get()) != 0) return refused({FileReason::unreadable});
     const std::int64_t size = whole ? size_of(file.get()) : 0;
-    if (size < 0) return refused(FileReason::unreadable);
+    if (size < 0) return refused({FileReason::unreadable});
     if (const BodyFileFault found = check_start(header, static_cast<std::uint64_t>(size)); !found.none())
-        return refused(found.reason);
+        return refused(found);
     auto holdings = FileMemory(new FileHoldings);
     const std::span<std::byte> copy = copy_of_size(holdings, static_cast<std::size_t>(size));
     if (std::fread(copy.data(), 1, copy.size(), file.get()) != copy.size())
-        return refused(FileReason::unreadable);
+        return refused({FileReason::unreadable});
     return load_held(copy, fault, verify, std::move(holdings));
 }
 

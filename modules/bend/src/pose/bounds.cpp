@@ -46,6 +46,8 @@ struct Sections {
     Float4 through[sectors];  // the deepest wrinkle inward
     Mask4 none;               // there is no vertex
     bool deep;                // some wrinkle is deeper than the radius
+
+    [[nodiscard]] Float4 reach() const noexcept { return max(radius[sectors - 1], through[sectors - 1]); }
 };
 
 Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
@@ -196,9 +198,11 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Float4 amplitude) no
     constexpr float least_turn = 1e-6f;  // below it a band's sagitta is lost in the margin
     const float radius = length / std::max(turn, least_turn);
     AxisExtent extents[3] = {AxisExtent(k, 0), AxisExtent(k, 1), AxisExtent(k, 2)};
+    Float4 reaches = splat(0);  // of vertices, from the center line
     for (std::size_t j = 0; j < edges; j += 4) {
         if (turn > 3) {  // nearly half a turn: all of the circle
             const Sections sections = sections_of(of_bands(bands, j), amplitude);
+            reaches = max(reaches, sections.reach());
             for (AxisExtent& extent : extents) extent.take_circles(sections, radius);
             continue;
         }
@@ -207,14 +211,18 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Float4 amplitude) no
         if (bands.shaped) at = at - splat(k.curvature) * load4(&bands.drift[j]);
         const CenterLine line = center_line(k, at);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
+        reaches = max(reaches, sections.reach());
         for (AxisExtent& extent : extents) extent.take_edges(line, j, sections);
     }
     const float shift = shift_of(bands, k, amplitude[sectors - 1]);
+    // Angles are rounded to steps of 6e-8 of themselves, by which what is far from the center line moves.
+    const float reach = std::max({reaches[0], reaches[1], reaches[2], reaches[3]});
+    const float rounding = 1e-5f * k.arc_z[0] + reach * (1e-6f + 2e-7f * k.curvature * k.arc_z[0]);
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {
         AxisExtent& extent = extents[row];
         if (!(turn > 3)) extent.take_bands(bands, amplitude, radius, length * turn / 8);
-        const float margin = (1e-5f * k.arc_z[0] + shift) * extent.whole() + 1e-6f * std::fabs(k.offset[row]);
+        const float margin = (rounding + shift) * extent.whole() + 1e-6f * std::fabs(k.offset[row]);
         bounds.low[row] = k.offset[row] + extent.low() - margin;
         bounds.high[row] = k.offset[row] + extent.high() + margin;
     }

@@ -24,8 +24,9 @@ float widest(const Bands& bands, float amplitude, float from, float to) noexcept
         const float low = bands.lowest + (static_cast<float>(j) - 1) * height;
         const bool apart = low > to || low + 3 * height < from;
         if (apart || bands.rho[j + 1] < 0) continue;
-        radius = std::max({radius, bands.rho[j + 1] + amplitude * bands.outward[j + 1],
-                           amplitude * bands.inward[j + 1] - bands.rho[j + 1]});
+        // A wrinkle may move a vertex of any rho, also of 0, through the axis.
+        radius = std::max(
+            {radius, bands.rho[j + 1] + amplitude * bands.outward[j + 1], amplitude * bands.inward[j + 1]});
     }
     return radius;
 }
@@ -65,7 +66,8 @@ void region_capsules(const Region& region, const Bands& bands, const Coefficient
     const float step = (bands.highest - bands.lowest) / count;
     const float slack = k.curvature * bands.drift_error;
     // Coordinates are rounded to steps of 6e-8 of themselves.
-    const float rounding = 1e-6f * (std::fabs(k.offset[0]) + std::fabs(k.offset[1]) + std::fabs(k.offset[2]));
+    const float rounding = 1e-6f * (scale * region.length + std::fabs(k.offset[0]) + std::fabs(k.offset[1]) +
+                                    std::fabs(k.offset[2]));
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float from = bands.lowest + step * static_cast<float>(i);
         const float begin = shifted(bands, k, from), end = shifted(bands, k, from + step);

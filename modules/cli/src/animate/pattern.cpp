@@ -21,7 +21,7 @@ std::optional<Pattern> Pattern::read(const std::filesystem::path& file) {
     const bool plain = digits.empty(),
                padded = digits.size() == 2 && digits[0] == '0' && digits[1] >= '1' && digits[1] <= '9';
     if (end == name.size() || !(plain || padded) || name.find('%', end) != name.npos)
-        throw UsageError("-o: '" + name + "' is no pattern; give it one %d, or %04d for four digits");
+        throw UsageError("-o: '" + name + "' is not a pattern; give it one %d, or %04d for four digits");
     Pattern pattern;
     pattern.folder_ = file.parent_path();
     pattern.before_ = name.substr(0, sign);

@@ -216,7 +216,13 @@ void AnimateRequest::read_motion_of(const AnimateOptions& options) {
         constexpr std::size_t frames_of_swing = 48, frames_of_walk = 96;
         frames = options.frames.value_or(options.swing ? frames_of_swing : frames_of_walk);
         const std::size_t steps = motion->repeats() ? frames : std::max<std::size_t>(frames, 2) - 1;
-        document["seconds"] = static_cast<double>(steps) / options.fps;
+        const double seconds = static_cast<double>(steps) / options.fps;
+        if (seconds < least_seconds || seconds > most_seconds)
+            throw UsageError("--frames: " + std::to_string(frames) + " at " + number(options.fps) +
+                             " a second last " + number(seconds) + " s, which is outside " +
+                             number(least_seconds) + ".." + number(most_seconds) +
+                             "; change --frames or --fps");
+        document["seconds"] = seconds;
         motion = read_motion(document, count, where_of(options));
         frames += closing_frame();
         return;

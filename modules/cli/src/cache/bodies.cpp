@@ -49,7 +49,8 @@ private:
         std::ranges::replace(word, '_', '-');
         const bool known = parser_.get_option_no_throw(word) != nullptr;
         if (!known || word == "--allow-outside" || word == "--max-memory" || word == "--help")
-            fields.refuse(io::escaped(name), "is no option of how a model is bound; see goffer bake --help");
+            fields.refuse(io::escaped(name),
+                          "is not an option of how a model is bound; see goffer bake --help");
         return word;
     }
 

@@ -34,13 +34,14 @@ void check_folder(const fs::path& folder) {
     const fs::file_status status = fs::status(folder, error);
     if (!fs::exists(status)) return;
     if (!fs::is_directory(status))
-        throw InputError(io::about(folder, "is no folder; give another name to -o"));
+        throw InputError(io::about(folder, "is not a folder; give another name to -o"));
     for (const fs::path& place : {folder, folder / "bodies"}) {
         if (!fs::exists(place, error)) continue;
-        for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
-            if (!ours(entry))
+        for (fs::directory_iterator entry(place, error), end; !error && entry != end;
+             entry.increment(error)) {
+            if (!ours(*entry))
                 throw InputError(io::about(
-                    entry.path(), "is no file of a cache; give a new folder to -o, or take it away"));
+                    entry->path(), "is not a file of a cache; give a new folder to -o, or move it away"));
         }
         if (error) throw InputError(io::about(place, "cannot be read: " + error.message()));
     }
@@ -73,10 +74,12 @@ std::string text_of(std::uint64_t number) {
 /// Refuses to guess what shards were to be like.
 void refuse_planless(const fs::path& folder) {
     std::error_code error;
-    if (fs::exists(folder / shard_name(0), error))
-        throw InputError(io::about(folder,
-                                   "has shards, and neither a plan nor a manifest; say --format, or "
-                                   "give a new folder to -o"));
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        if (shard_number(entry->path().filename().string()))
+            throw InputError(io::about(folder,
+                                       "has shards, and neither a plan nor a manifest; say --format, or "
+                                       "give a new folder to -o"));
+    }
 }
 
 /// Refuses a cache in whose folder lies what it is made from.

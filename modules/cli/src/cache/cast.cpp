@@ -118,11 +118,9 @@ const NumberFile* Cast::file_of(const std::filesystem::path& path, std::uint64_t
 }
 
 const Motion* Cast::motion_for(const SceneMotion& motion, std::size_t regions) {
-    for (const Made& made : motions_) {
-        if (made.of == &motion && made.regions == regions) return made.motion.get();
-    }
-    motions_.push_back({&motion, regions, read_motion(motion.document, regions, motion.where)});
-    return motions_.back().motion.get();
+    std::unique_ptr<const Motion>& made = motions_[{&motion, regions}];
+    if (!made) made = read_motion(motion.document, regions, motion.where);
+    return made.get();
 }
 
 std::size_t Cast::body_of(std::uint64_t instance) const {

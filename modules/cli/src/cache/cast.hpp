@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace goffer::cli {
@@ -69,12 +70,8 @@ private:
     std::span<const bend::Body> bodies_;
     std::size_t stride_ = 1;
     std::vector<std::vector<bend::Pose>> rest_;  // of each body
-    struct Made {
-        const SceneMotion* of;
-        std::size_t regions;
-        std::unique_ptr<const Motion> motion;
-    };
-    std::vector<Made> motions_;
+    /// By what it is made of: a motion of the scene, and how many regions a body has.
+    std::map<std::pair<const SceneMotion*, std::size_t>, std::unique_ptr<const Motion>> motions_;
     std::map<std::filesystem::path, std::unique_ptr<NumberFile>> files_;
     std::vector<Member> members_;  // of each group
 };

@@ -53,9 +53,10 @@ NumberFile::NumberFile(const std::filesystem::path& file, std::uint64_t most) : 
         return;
     }
     if (size % sizeof(float) != 0)
-        throw InputError(io::about(file, "has " + std::to_string(size) +
-                                             " bytes, which is no whole number of 32-bit floats; a text of "
-                                             "numbers ends in .csv"));
+        throw InputError(
+            io::about(file, "has " + std::to_string(size) +
+                                " bytes, which is not a whole number of 32-bit floats; a text of "
+                                "numbers ends in .csv"));
     binary_ = std::make_unique<InputFile>(file);
     count_ = size / sizeof(float);
 }

@@ -78,7 +78,8 @@ void run_make(const CacheOptions& options) {
     if (options.shard) {
         const auto share = two_numbers(*options.shard, '/');
         if (!share || share->first < 1 || share->first > share->second || share->second > most_shards)
-            throw UsageError("--shard: '" + *options.shard + "' is no share of the shards, as in 1/8 to 8/8");
+            throw UsageError("--shard: '" + *options.shard +
+                             "' is not a share of the shards, as in 1/8 to 8/8");
         request.share = share->first;
         request.shares = share->second;
         request.whole = false;

@@ -39,7 +39,7 @@ glm::dmat3 rotation_of(const Members& fields) {
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     constexpr double tolerance = 1e-3;
     if (!(std::fabs(length - 1) < tolerance))
-        fields.refuse("rotation", "is no quaternion x, y, z, w of unit length");
+        fields.refuse("rotation", "is not a quaternion x, y, z, w of unit length");
     return glm::mat3_cast(glm::dquat(q[3] / length, q[0] / length, q[1] / length, q[2] / length));
 }
 

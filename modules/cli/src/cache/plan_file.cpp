@@ -21,7 +21,8 @@ PlanBody read_plan_body(const Members& fields) {
     PlanBody body;
     body.name = fields.text("name");
     // It becomes the name of a file.
-    if (body.name.find_first_of("/\\.") != std::string::npos) fields.refuse("name", "is no name of a body");
+    if (body.name.find_first_of("/\\.") != std::string::npos)
+        fields.refuse("name", "is not a name of a body");
     body.level = fields.whole("level", 0, any);
     body.vertices = fields.whole("vertices", 1, std::numeric_limits<std::uint32_t>::max());
     body.regions = fields.whole("regions", 1, bend::max_regions);
@@ -105,7 +106,7 @@ Plan plan_of(const Members& fields) {
     if (!format) fields.refuse("format", "is none of positions, packed, poses");
     plan.format = *format;
     const auto isa = parse_isa(fields.text("isa"));
-    if (!isa || *isa == Isa::automatic) fields.refuse("isa", "is no instruction set");
+    if (!isa || *isa == Isa::automatic) fields.refuse("isa", "is not an instruction set");
     plan.isa = *isa;
     plan.fps = fields.number("fps", 0, std::numeric_limits<double>::max());
     plan.frames = fields.whole("frames", 1, most_frames);
@@ -127,7 +128,7 @@ void check_cache(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(status))
         throw InputError(io::about(folder, "there is no such folder; check the name"));
     if (!std::filesystem::is_directory(status))
-        throw InputError(io::about(folder, "is no folder; give the folder of a cache"));
+        throw InputError(io::about(folder, "is not a folder; give the folder of a cache"));
 }
 
 Plan read_plan(const std::filesystem::path& file) {

@@ -25,7 +25,7 @@ std::string_view view_of(std::span<const std::byte> bytes) {
 
 /// How the two differ, but for their checksums; empty where they do not.
 std::string difference(const ShardHeader& has, const ShardHeader& wanted) {
-    if (has.magic != wanted.magic) return "is no shard of goffer cache";
+    if (has.magic != wanted.magic) return "is not a shard of goffer cache";
     if (has.byte_order != wanted.byte_order) return "is of another byte order";
     if (has.version != wanted.version)
         return "is of version " + std::to_string(has.version) + " of the format, not " +
@@ -96,7 +96,7 @@ std::optional<std::string> fault_in_shard(const std::filesystem::path& file, con
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::symlink_status(file, error);
     if (!std::filesystem::exists(status)) return "is missing";
-    if (!std::filesystem::is_regular_file(status)) return "is no regular file";
+    if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
     try {
         const InputFile shard(file);
         ShardHeader header;

@@ -63,7 +63,7 @@ private:
 };
 
 struct Output {
-    bool good = false;
+    bool good = false, in_time = true;
     std::string out, err;
 };
 
@@ -92,17 +92,24 @@ Output run_gnuplot(const std::string& input) {
     int status = 0;
     using namespace std::chrono_literals;
     const auto end = std::chrono::steady_clock::now() + longest_chart;
-    while (waitpid(process, &status, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > end) (void)kill(process, SIGKILL);
+    bool in_time = true;
+    pid_t ended = 0;
+    while ((ended = waitpid(process, &status, WNOHANG)) == 0) {
+        in_time = in_time && std::chrono::steady_clock::now() <= end;
+        if (!in_time) (void)kill(process, SIGKILL);
         std::this_thread::sleep_for(5ms);
     }
-    return {WIFEXITED(status) && WEXITSTATUS(status) == 0, contents(out.get()), contents(err.get())};
+    // Whoever started this program may have had it told of no child's end: then its output says how it went.
+    const bool good = ended < 0 ? contents(err.get()).empty() : WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return {good && in_time, in_time, contents(out.get()), contents(err.get())};
 }
 
 [[noreturn]] void refuse(const std::string& what, const Output& output) {
     const std::string words = io::one_line(output.err.substr(0, 300));
     throw InputError("gnuplot does not draw " + what + ": " +
-                     (words.empty() ? "it does not say why" : words) +
+                     (!output.in_time ? "it took more than " + std::to_string(longest_chart.count()) + " s"
+                      : words.empty() ? "it does not say why"
+                                      : words) +
                      "; version 5.4 or newer is needed, or go without charts by --no-charts");
 }
 

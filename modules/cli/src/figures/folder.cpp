@@ -67,7 +67,7 @@ PageFolder::PageFolder(fs::path folder) : path_(std::move(folder)) {
     try {
         if (!path_.has_filename()) path_ = path_.parent_path();  // "figures/"
         if (fs::exists(path_) && !fs::is_directory(path_))
-            throw InputError(io::about(path_, "is no folder; give another name to -o"));
+            throw InputError(io::about(path_, "is not a folder; give another name to -o"));
         made_ = missing_folders(path_);
         fs::create_directories(path_);
         const std::string page = page_in(path_ / "index.html");

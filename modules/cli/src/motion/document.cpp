@@ -107,7 +107,7 @@ Column read_column(const std::filesystem::path& file, std::string name) {
     const bool known =
         column.field == "time" ? !numbered : column.field == "angle" || column.field == "direction";
     if (!known || (numbered && (error != std::errc() || next != end || column.region == 0)))
-        refuse(file, "is no table of keys: its first line has a column '" + io::escaped(written) +
+        refuse(file, "is not a table of keys: its first line has a column '" + io::escaped(written) +
                          "'; there are time, angle, direction, and angle1, direction1, angle2, ..");
     return column;
 }
@@ -173,8 +173,8 @@ json read_path_file(const std::filesystem::path& file) {
         json point = json::array();
         for (const std::string& cell : row.cells) point.push_back(read_cell(file, row, cell, false));
         if (point.size() != 3)
-            refuse(file,
-                   "line " + std::to_string(row.line) + ": is no point; give three numbers a line, or JSON");
+            refuse(file, "line " + std::to_string(row.line) +
+                             ": is not a point; give three numbers a line, or JSON");
         points.push_back(std::move(point));
     }
     return points;

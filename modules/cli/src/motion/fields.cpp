@@ -23,7 +23,7 @@ std::string listed(const std::vector<std::string>& words) {
 }  // namespace
 
 Fields::Fields(const json& object, std::string where) : object_(object), where_(std::move(where)) {
-    if (!object.is_object()) throw InputError(where_ + ": is no JSON object; give one in braces");
+    if (!object.is_object()) throw InputError(where_ + ": is not a JSON object; give one in braces");
 }
 
 const json* Fields::find(std::string_view name) {
@@ -60,7 +60,7 @@ std::string Fields::word(std::string_view name, const std::vector<std::string>& 
 void Fields::finish() const {
     for (const auto& [name, value] : object_.items()) {
         if (std::ranges::count(asked_, name) == 0)
-            throw InputError(where_ + ": \"" + name + "\" is no field here; there are " + listed(asked_));
+            throw InputError(where_ + ": \"" + name + "\" is not a field here; there are " + listed(asked_));
     }
 }
 

@@ -28,7 +28,7 @@ bool read_from_rest(Fields& fields) {
 /// The elements of an array of `count` values, as `read` makes them.
 template <class Value, class Read>
 std::vector<Value> read_array(const json& array, std::size_t count, const std::string& place, Read read) {
-    if (!array.is_array()) throw InputError(place + ": is no array");
+    if (!array.is_array()) throw InputError(place + ": is not an array");
     if (array.size() != count)
         throw InputError(place + ": " + std::to_string(array.size()) + " for " + counted(count, "region") +
                          "; give one for each");
@@ -62,8 +62,9 @@ RegionAngles read_key_angles(Fields& key, std::size_t regions) {
     const json* const each = key.find("angles");
     const json& angles = each ? *each : key.get("angle");
     if (each && key.find("angle")) throw InputError(key.place("angle") + " and angles: give one of them");
-    if (each && !each->is_array()) throw InputError(key.place("angles") + ": is no array");
-    if (!each && angles.is_array()) throw InputError(key.place("angle") + ": is no number; say \"angles\"");
+    if (each && !each->is_array()) throw InputError(key.place("angles") + ": is not an array");
+    if (!each && angles.is_array())
+        throw InputError(key.place("angle") + ": is not a number; say \"angles\"");
     RegionAngles said;
     said.angles = read_angles(angles, regions, key.place(each ? "angles" : "angle"));
     said.directions = read_directions(key, regions);

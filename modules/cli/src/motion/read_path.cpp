@@ -13,7 +13,7 @@ constexpr std::size_t most_points = 100'000;  // of a path: they take a kilobyte
 
 glm::dvec3 read_point(const json& value, double scale, const std::string& place) {
     if (!value.is_array() || value.size() != 3)
-        throw InputError(place + ": is no point; give an array of three numbers");
+        throw InputError(place + ": is not a point; give an array of three numbers");
     glm::dvec3 point(0);
     for (std::size_t i = 0; i < 3; ++i)
         point[static_cast<int>(i)] = scale * read_number(value[i], -farthest, farthest, place);
@@ -21,7 +21,7 @@ glm::dvec3 read_point(const json& value, double scale, const std::string& place)
 }
 
 void add_points(std::vector<glm::dvec3>& points, const json& array, double scale, const std::string& place) {
-    if (!array.is_array()) throw InputError(place + ": is no array of points");
+    if (!array.is_array()) throw InputError(place + ": is not an array of points");
     points.reserve(points.size() + array.size());
     for (std::size_t i = 0; i < array.size(); ++i)
         points.push_back(read_point(array[i], scale, place + "[" + std::to_string(i) + "]"));
@@ -39,12 +39,12 @@ PathWords read_path(const json& document, double scale, const std::string& where
         if (const json* const curves = fields.find("bezier")) {
             path.bezier = true;
             const std::string place = fields.place("bezier");
-            if (!curves->is_array()) throw InputError(place + ": is no array of curves");
+            if (!curves->is_array()) throw InputError(place + ": is not an array of curves");
             for (std::size_t i = 0; i < curves->size(); ++i) {
                 const std::string curve = place + "[" + std::to_string(i) + "]";
                 add_points(path.points, (*curves)[i], scale, curve);
                 if (path.points.size() != 4 * (i + 1))
-                    throw InputError(curve + ": is no curve; give it four control points");
+                    throw InputError(curve + ": is not a curve; give it four control points");
             }
         } else {
             path.smooth = fields.word("curve", {"smooth", "straight"}) == "smooth";

@@ -19,7 +19,7 @@ namespace {
 
 void check(const GltfOptions& options, const Frames& frames, const Rest& rest) {
     if (!(options.max_error >= 0.0 && std::isfinite(options.max_error)))
-        throw mesh::Error("max_error is no share of a size; give a number of 0 or more");
+        throw mesh::Error("max_error is not a share of a size; give a number of 0 or more");
     if (options.targets && *options.targets == 0)
         throw mesh::Error("without targets nothing moves; allow 1 or more");
     if (rest.entries() == 0) throw mesh::Error("the mesh has no vertices; give it 1 or more");

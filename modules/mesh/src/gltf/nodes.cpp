@@ -70,21 +70,24 @@ std::vector<std::size_t> roots(const Document& document) {
 
 std::vector<PlacedNode> nodes_of_scene(const Document& document) {
     std::vector<PlacedNode> order, open;
-    for (const std::size_t node : roots(document)) open.push_back({node, glm::dmat4(1.0)});
-    std::reverse(open.begin(), open.end());
     std::vector<bool> seen(document.count("nodes"), false);
+    const auto reach = [&](std::size_t node, const glm::dmat4& parent) {
+        if (seen[node])  // before it takes memory once more
+            document.root()["nodes"][node].fail(
+                "is reached twice: a cycle, or a node with two parents; export the file again");
+        seen[node] = true;
+        open.push_back({node, parent});
+    };
+    for (const std::size_t node : roots(document)) reach(node, glm::dmat4(1.0));
+    std::reverse(open.begin(), open.end());
     while (!open.empty()) {
         PlacedNode next = open.back();
         open.pop_back();
         const Value node = document.root()["nodes"][next.node];
-        if (seen[next.node])
-            node.fail("is reached twice: a cycle, or a node with two parents; export the file again");
-        seen[next.node] = true;
         next.world = next.world * local_matrix(node);
         order.push_back(next);
-        for (std::size_t i = node.has("children") ? node["children"].size() : 0; i-- > 0;) {
-            open.push_back({document.number("nodes", node["children"][i]), next.world});
-        }
+        for (std::size_t i = node.has("children") ? node["children"].size() : 0; i-- > 0;)
+            reach(document.number("nodes", node["children"][i]), next.world);
     }
     return order;
 }

@@ -160,17 +160,18 @@ void MaterialReader::warn_of_textures(const std::filesystem::path& library, cons
                                  ", which is not there; put it beside the material file");
 }
 
-/// Reads the material files, each once, and calls visit(file, materials). The file's name is looked up for
-/// each, which takes far longer than to read the line that names it: hence the limit.
+/// Reads the material files, each once, and calls visit(file, materials). To look a name up takes far longer
+/// than to read it: hence the limit on names, whether they name the same file or none.
 template <class Visit>
 void MaterialReader::each_library(const Visit& visit) {
     constexpr std::size_t most = 1000;
+    std::size_t names = 0;
     std::set<std::string_view> lines;
     std::set<std::filesystem::path> read;
     for (const std::string_view line : lines_.libraries) {
         if (!lines.insert(line).second) continue;
         for (const std::string_view name : library_names(file_, line)) {
-            if (read.size() >= most || lines.size() > most) {
+            if (++names > most) {
                 mesh_.warnings.push_back("materials are left out: there are more than " +
                                          std::to_string(most) + " material files; merge them");
                 return;

@@ -82,7 +82,10 @@ void PlyReader::value(const Cursor& cursor, const Property& property, const Valu
     if (role < Role::other) row_[static_cast<std::size_t>(role)] = value.number;
     if (role == Role::texcoord) texcoords_.push_back(finite_or_zero(value.number));
     if (role != Role::indices) return;
-    const bool in_range = value.number >= 0 && value.number < static_cast<double>(vertex_->count);
+    // More vertices than 32 bits number are refused where they are read, which may be after the faces.
+    constexpr double most = std::numeric_limits<std::uint32_t>::max();
+    const bool in_range =
+        value.number >= 0 && value.number < std::min(static_cast<double>(vertex_->count), most);
     if (!in_range || value.number != std::floor(value.number)) {
         std::string index;
         append(index, value.number);

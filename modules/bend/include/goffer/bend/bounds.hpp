@@ -26,8 +26,9 @@ struct Batch;
 /// The box is conservative: for round bodies at most 1.3 times as long as the tight box on each axis, 1.7
 /// times where folds are deeper than the radius, before the margin. It is that of eleven bands of each
 /// region, each of which sweeps its widest cross-section along its piece of the arc, plus a margin for
-/// rounding: 1e-5 of a region's length, under the transform, and 1e-6 of how far the region's middle is from
-/// the origin along the axis; for bodies with a shape also the error of the stored drift.
+/// rounding: 1e-5 of a region's length and, of the farthest that vertices reach from the center line, 1e-6
+/// and 2e-7 for each radian that it bends, both under the transform, and 1e-6 of how far the region's middle
+/// is from the origin along the axis; for bodies with a shape also the error of the stored drift.
 ///
 /// The depth of wrinkles is looked up at some columns, and taken to grow between them toward the inner line,
 /// as it does in all tables that fit makes. With a table of the caller's own in which it rises and falls

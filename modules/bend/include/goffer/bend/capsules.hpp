@@ -34,11 +34,11 @@ struct Capsule {
 /// A capsule's segment is the chord of its piece of the center line. Its radius is the sum of three lengths,
 /// times an upper bound of the transform's largest scale, which is exact for rotations and uniform scales:
 /// the largest distance of a vertex from the axis there, the deepest wrinkle there, and the chord's distance
-/// from the arc (the sagitta); and a margin for rounding: 1e-5 of these, 1e-6 of the coordinates of the
-/// region's middle and, for bodies with a shape, the error of the stored drift. "There" are the elevenths of
-/// the region, from its lowest vertex to its highest one, that the piece lies in, and the next ones: more
-/// pieces than eleven shrink the sagitta alone, which falls with their square. A region without vertices has
-/// capsules of radius 0. Does not allocate. Thread-safe.
+/// from the arc (the sagitta); and a margin for rounding: 1e-5 of these, 1e-6 of the region's length and of
+/// the coordinates of its middle and, for bodies with a shape, the error of the stored drift. "There" are the
+/// elevenths of the region, from its lowest vertex to its highest one, that the piece lies in, and the next
+/// ones: more pieces than eleven shrink the sagitta alone, which falls with their square. A region without
+/// vertices has capsules of radius 0. Does not allocate. Thread-safe.
 void capsules(const DeformJob& job, std::size_t pieces, std::span<Capsule> result) noexcept;
 
 }  // namespace goffer::bend

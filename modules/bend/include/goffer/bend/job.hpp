@@ -79,8 +79,9 @@ struct DeformJob {
 };
 
 /// Finds the first fault of `job`. A job without fault makes run() neither read nor write out of bounds, if
-/// streams hold as many vertices as they say. Where two streams differ in stride, an overlap of their ranges
-/// is a fault even if no byte is shared; so is one of `bounds` with a stream. Inputs that share bytes with
+/// streams hold as many vertices as they say. A stream takes the bytes of all the vertices that it holds,
+/// written or not. Where two streams differ in stride, an overlap of their ranges is a fault even if no byte
+/// is shared; so is one of `bounds` with a stream. Inputs that share bytes with
 /// outputs are not found. Does not allocate. Thread-safe.
 [[nodiscard]] Fault validate(const DeformJob& job) noexcept;
 

@@ -27,8 +27,8 @@
 ///
 /// Only the places of its two ends decide where an edge is cut, so that both triangles at it agree, even
 /// where vertices are duplicated along a seam: what was closed stays closed, and the surface at rest stays as
-/// it was: sides are not rounded. No edge is flipped, and a mesh that has its rows and columns comes back as
-/// it is.
+/// it was: sides are not rounded. New vertices are floats, whose steps show on a mesh far from the origin. No
+/// edge is flipped, and a mesh that has its rows and columns comes back as it is.
 ///
 /// This is not left to a library because meshes here may be soups, have seams and have edges with three
 /// triangles: CGAL and OpenMesh take manifolds, and meshoptimizer only simplifies.
