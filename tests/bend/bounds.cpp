@@ -152,9 +152,7 @@ TEST_CASE("P10: bounds and capsules hold every vertex") {
     }
 }
 
-TEST_CASE(
-    "P10: bounds and capsules hold the vertices of any body, however far from its axis and deep its "
-    "wrinkles") {
+TEST_CASE("P10: bounds and capsules hold any body, however far out its vertices and deep its wrinkles") {
     Random random(82);
     for (int trial = 0; trial < rounds(150, 30); ++trial) {
         const std::size_t count = trial % 5 == 0 ? 1 + random() % 4 : 300;
