@@ -236,6 +236,23 @@ TEST_CASE("arcs: a horn's center line is found, though it tapers") {
     CHECK(std::abs(fitted.length - fitted.rest_angle * fitted.radius - (14 - 1.2)) < 5e-4);
 }
 
+TEST_CASE("arcs: a banana's center line is found, though its ends are thin") {
+    std::mt19937 random(65);
+    const Recipe recipe{.columns = 20, .rows = 80, .length = 10};
+    const auto thickness = [](double z) {
+        const double u = z / 10;
+        return std::min({1.0, 0.2 + 3 * std::max(u - 0.05, 0.0), 0.15 + 4 * (1 - u)});
+    };
+    for (const double angle : {40.0, 70.0}) {
+        CAPTURE(angle);
+        const paper::ClosedForm map({.length = 10, .radius = 1}, {angle * degree, 0.7});
+        const Solid banana = warped(test::cylinder(recipe, random), [&](glm::dvec3 p) {
+            return map.position(paper::to_cylindrical({thickness(p.z) * glm::dvec2(p), p.z}));
+        });
+        CHECK(std::abs(fit_to(banana).rest_angle / degree - angle) < 2);
+    }
+}
+
 TEST_CASE("arcs: a tube of few rows is bent as well") {
     std::mt19937 random(67);
     const auto check = [&](double angle, int rows) {

@@ -218,6 +218,19 @@ TEST_CASE("parts: hairs in number do not make the body between them smooth") {
     for (double beta = 0; beta < 1.5; beta += 0.05) CHECK(parts.at({beta, 5, 1}).value > 0.8);
 }
 
+TEST_CASE("parts: a fin stands almost still, and the body that it stands on wrinkles") {
+    for (const double thickness : {0.002, 0.02}) {
+        CAPTURE(thickness);
+        const test::Solid solid =
+            tube_and_rods({.radius = 0.55, .distance = 1.6, .flatness = thickness / 0.55});
+        fit::Parts parts(solid.geometry(), base_of_tube());
+        const auto deep = [](double) { return 0.2; };
+        parts.weigh(deep, deep);
+        CHECK(parts.at({0, 5, 2.1}).value < 0.3);
+        for (double beta = 0.5; beta < 3; beta += 0.1) CHECK(parts.at({beta, 5, 1}).value > 0.7);
+    }
+}
+
 TEST_CASE("parts: what is turned about the axis has the same weights, turned") {
     const test::Solid solid = tube_and_rod(0.15, 2.5);
     const auto deep = [](double) { return 0.2; };

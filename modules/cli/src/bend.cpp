@@ -249,8 +249,8 @@ void run_bend(const BendOptions& options) {
         PictureStyle style = request.style;
         style.settings.progress = progress.listener();
         const bool show = !options.show.empty();
-        const std::vector<glm::vec4> colors =
-            show ? area_colors(model, bent.records.positions) : vertex_colors(model.mesh, model.rest);
+        const std::vector<glm::vec4> colors = show ? area_colors(model, bent.records.positions)
+                                                   : vertex_colors(model.mesh, model.rest, plain_color(0));
         const Textures textures = show ? Textures{} : textures_of(model.mesh, options.bind.load.limits);
         for (const std::string& warning : textures.warnings) report.warn(warning);
         write_picture({body, model.mesh, model.rest, bent.records.positions, bent.records.normals, colors,

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace goffer::cli {
 namespace {
@@ -29,6 +30,29 @@ glm::vec4 dimmed(const glm::vec4& color) {
 glm::vec4 readable(const glm::vec4& color, const glm::vec4& plain) {
     const auto [low, high] = std::minmax({color.r, color.g, color.b});
     return high > 0.5f && high - low < 0.02f ? plain : dimmed(color);
+}
+
+const mesh::Material* material_of(const mesh::Mesh& mesh, const mesh::Part& part) {
+    return part.material < 0 ? nullptr : &mesh.materials[static_cast<std::size_t>(part.material)];
+}
+
+bool is_white(const glm::vec4& color) {
+    return color == glm::vec4(1, 1, 1, color.a);
+}
+
+/// The colors of a part's vertices, of which `own` are in the file: its material's where they have none,
+/// which is white, and both multiplied where the format says so. A texture is multiplied by them later.
+void paint(std::span<const glm::vec4> own, std::span<const std::uint32_t> vertices,
+           const mesh::Material* material, bool multiplied, const glm::vec4& plain,
+           std::vector<glm::vec4>& colors) {
+    if (material != nullptr && material->texture) return;
+    const auto white = [&](std::uint32_t v) { return is_white(own[v]); };
+    if (std::ranges::all_of(vertices, white)) {
+        const glm::vec4 color = material == nullptr ? plain : readable(material->base_color, plain);
+        for (const std::uint32_t v : vertices) colors[v] = color;
+    } else if (multiplied && material != nullptr) {
+        for (const std::uint32_t v : vertices) colors[v] = own[v] * material->base_color;
+    }
 }
 
 /// Which way a pose bends, radians: a negative angle, the other way.
@@ -77,17 +101,24 @@ glm::vec4 plain_color(std::size_t model) {
     return {colors[model % colors.size()], 1};
 }
 
-std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexArrays& rest) {
-    const auto white = [](const glm::vec4& color) { return color == glm::vec4(1, 1, 1, color.a); };
-    std::vector<glm::vec4> colors;
-    if (std::ranges::all_of(mesh.colors, white)) return colors;
-    colors.reserve(rest.vertex.size());
+std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexArrays& rest,
+                                     const glm::vec4& plain) {
+    std::vector<glm::vec4> own;
+    if (std::ranges::all_of(mesh.colors, is_white)) return own;
+    own.reserve(rest.vertex.size());
     for (const std::uint32_t vertex : rest.vertex) {
         glm::vec4 color = mesh.colors[vertex];
         for (int c = 0; !mesh.linear_colors && c < 3; ++c)
             color[c] = view::linear_of(std::clamp(color[c], 0.0f, 1.0f));
-        colors.push_back(dimmed(color));
+        own.push_back(color);
     }
+    std::vector<glm::vec4> colors = own;
+    const std::vector<mesh::TriangleRange> ranges = mesh::triangles_of_parts(mesh);
+    for (std::size_t p = 0; p < ranges.size(); ++p) {
+        const auto of_part = std::span(rest.triangles).subspan(3 * ranges[p].first, 3 * ranges[p].count);
+        paint(own, of_part, material_of(mesh, mesh.parts[p]), mesh.linear_colors, plain, colors);
+    }
+    std::ranges::transform(colors, colors.begin(), dimmed);
     return colors;
 }
 

@@ -40,8 +40,10 @@ struct Sight {
 [[nodiscard]] glm::vec4 plain_color(std::size_t model);
 
 /// The colors of vertices as pictures show them, linear RGBA, in place of materials' (a texture is multiplied
-/// by them) and in the order of `rest`, the arrays of `mesh`. Empty where there are none, or all are white.
-[[nodiscard]] std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexArrays& rest);
+/// by them) and in the order of `rest`, the arrays of `mesh`. Parts without, whose vertices are white, have
+/// their materials' color, or `plain`. Empty where the whole mesh is without.
+[[nodiscard]] std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexArrays& rest,
+                                                   const glm::vec4& plain);
 
 /// A part of a mesh, and how it looks.
 struct PartLook {

@@ -89,6 +89,15 @@ std::optional<Fitted> arc_instead(const Body& body, const Principal& principal, 
     return std::abs(chord.dot(given_axis(*axis))) < within ? std::nullopt : arc;
 }
 
+/// Whether the arc explains the mesh better than the straight line: one radius does, or sections do by far,
+/// as those of a banana, whose ends are thin.
+bool explains(const Body& body, const Fitted& arc, const Fitted& straight) {
+    constexpr double by_far = 0.5;
+    const auto residual = [](const Fitted& fit) { return fit.section.residual * fit.section.radius; };
+    const auto rough = [&](const Fitted& fit) { return roughness(body, View(body, fit.line)); };
+    return residual(arc) < residual(straight) || rough(arc) < by_far * rough(straight);
+}
+
 /// The fit as a cylinder in model space.
 Cylinder cylinder_of(const Body& body, const Fitted& fitted) {
     const Line base = moved_along(fitted.line, fitted.low);
@@ -263,11 +272,8 @@ Cylinder fit_cylinder(const Geometry& geometry, std::optional<glm::dvec3> axis, 
     std::optional<Fitted> found;
     if (rest != RestPose::straight) found = arc_instead(body, principal, best, axis);
     const Fitted straight = measured(body, axis ? line : best);
-    if (found) {
-        const auto residual = [](const Fitted& fit) { return fit.section.residual * fit.section.radius; };
-        const bool better = residual(*found) < residual(straight);
-        if (!better || !is_bent_tube(body, cylinder_of(body, *found))) found.reset();
-    }
+    if (found && !(explains(body, *found, straight) && is_bent_tube(body, cylinder_of(body, *found))))
+        found.reset();
     if (!found) found = straight;
     const std::optional<Cylinder> chain = chain_instead(found->line);
     Cylinder cylinder = chain ? *chain : cylinder_of(body, toward(axis, *found));

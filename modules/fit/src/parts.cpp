@@ -179,9 +179,10 @@ double share_of(double radius) {
 }
 
 /// How much more the weight of a part counts than that of one that bears all of its wrinkle, so that where
-/// thin parts grow out of a thick one, weights blend in the thick one. The thinner a part is, the less, for
-/// the sake of hairs. What lies on a thick part, such as a grip, goes with it: `distance` is how far away
-/// that is on average, in the length that weights blend over.
+/// thin parts grow out of a thick one, weights blend in the thick one. The thinner a part is, the less: hairs
+/// and fins are all edge, and leave the body that they stand on its wrinkles. What lies on a thick part, such
+/// as a grip, goes with it: `distance` is how far away that is on average, in the length that weights blend
+/// over.
 double priority_of(double weight, double share, double distance) {
     constexpr double least = 0.1, power = 2.5, least_apart = 0.25, apart = 0.75;
     return std::pow(least + weight,
@@ -299,7 +300,7 @@ void Parts::weigh(const Depth& depth, const Depth& deepest, double ease) {
             const double bearable =
                 ease * std::min(most_wobble / part.moved, most_depth / part.disc.beside) * part.disc.size;
             part.weight = deep > 0 ? std::min(bearable / deep, 1.0) : 1;
-            part.priority = priority_of(part.weight, part.share, part.distance / slice.blend);
+            part.priority = priority_of(part.weight, share_of(part.disc.size), part.distance / slice.blend);
             slice.sound = slice.sound && part.weight == 1 && part.disc.beside == 0;
         }
         sound_ = sound_ && slice.sound;

@@ -46,7 +46,7 @@ void write_models(Animation& animation) {
 void write_pictures(Animation& animation) {
     const MovingModel& frames = animation.frames;
     const BoundModel& model = frames.model();
-    const std::vector<glm::vec4> colors = vertex_colors(model.mesh, model.rest);
+    const std::vector<glm::vec4> colors = vertex_colors(model.mesh, model.rest, plain_color(0));
     const Textures textures = textures_of(model.mesh, animation.limits);
     for (const std::string& warning : textures.warnings) animation.report.warn(warning);
     const PictureTextures pictured(textures);

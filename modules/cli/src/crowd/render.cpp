@@ -95,7 +95,8 @@ std::size_t write_crowd_picture(const Crowd& crowd, std::span<const BoundModel> 
     const std::vector<std::size_t> chosen = choose(crowd, models);
     const std::vector<PictureTextures> pictured(textures.begin(), textures.end());
     std::vector<std::vector<glm::vec4>> colors;
-    for (const BoundModel& model : models) colors.push_back(vertex_colors(model.mesh, model.rest));
+    for (std::size_t i = 0; i < models.size(); ++i)
+        colors.push_back(vertex_colors(models[i].mesh, models[i].rest, plain_color(i)));
     std::vector<Vertices> vertices;
     std::vector<view::Model> parts;
     vertices.reserve(chosen.size());

@@ -81,7 +81,7 @@ Figure model_figure(Workshop& workshop, const BoundModel& by_paper, const BoundM
             const std::string method = model == &by_paper ? "paper" : "goffer";
             const BentState state = bent_state(*model, pose_by(model->binding.body, angle));
             const std::string picture = picture_name(figure.name + "_" + method, angle);
-            draw_state(workshop, *model, state, vertex_colors(model->mesh, model->rest),
+            draw_state(workshop, *model, state, vertex_colors(model->mesh, model->rest, plain_color(0)),
                        textures[model == &by_paper ? 0 : 1], picture);
             add_row(figure.table, *model, method, angle, state, picture);
             const std::size_t row = figure.table.rows() - 1;

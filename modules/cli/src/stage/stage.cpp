@@ -67,14 +67,14 @@ std::vector<glm::vec3> in_body_order(const std::vector<glm::vec4>& colors, const
 }
 
 std::vector<glm::vec3> own_colors(const BoundModel& model) {
-    return in_body_order(vertex_colors(model.mesh, model.rest), model.binding);
+    return in_body_order(vertex_colors(model.mesh, model.rest, plain_color(0)), model.binding);
 }
 
 draw::Mesh drawn_mesh(const BoundModel& model, const Textures& textures, std::size_t index) {
     const std::vector<std::uint32_t> places = model.binding.vertices_in_body();
     std::vector<std::uint32_t> triangles = model.rest.triangles;
     for (std::uint32_t& vertex : triangles) vertex = places[vertex];
-    const std::vector<glm::vec4> colors = vertex_colors(model.mesh, model.rest);
+    const std::vector<glm::vec4> colors = vertex_colors(model.mesh, model.rest, plain_color(index));
     const Parts parts = parts_of(model, textures, !colors.empty(), index);
     const draw::Skin skin{parts.textures,
                           parts.textures.empty() ? std::span<const glm::vec2>() : textures.uvs};

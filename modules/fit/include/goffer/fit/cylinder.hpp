@@ -75,11 +75,11 @@ public:
 /// The direction from base to tip is that of the arc's chord, which is found; an `axis` that is given decides
 /// which end is the base. An arc is taken if its sections are circles about it within 0.3 of the radius, or
 /// 0.2 beyond a half turn, and within 0.8 of what they are about the best straight line (rms of rho within
-/// slices, so that a taper does not count); if its sagitta is more than 0.05 of the radius; if the body is a
-/// tube that was bent along it (as much surface on the inner side as on the outer one, within 3.5 and 7 % of
-/// the area, and no more than a thousandth of it across the gap between the ends); and if a given `axis` is
-/// within about 45 degrees of its chord. Otherwise the result is that of RestPose::straight, and rest_angle
-/// is exactly 0.
+/// slices, so that a taper does not count); if its residual times its radius is smaller too, or the former
+/// are within 0.5; if its sagitta is more than 0.05 of the radius; if the body is a tube that was bent along
+/// it (as much surface on the inner side as on the outer one, within 3.5 and 7 % of the area, and no more
+/// than a thousandth of it across the gap between the ends); and if a given `axis` is within about 45 degrees
+/// of its chord. Otherwise the result is that of RestPose::straight, and rest_angle is exactly 0.
 ///
 /// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
 /// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
