@@ -57,7 +57,7 @@ TEST_CASE("motion: documents that are refused, in one line that says where") {
     check_refused(keys({{"time", 1}, {"angle", 5}, {"angel", 6}}), "\"angel\" is not a field here");
     check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"interpolation", "bouncy"}},
                   "give one of smooth, linear");
-    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"repeat", true}}, "is not as the first");
+    check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"repeat", true}}, "differs from the first");
     check_refused({{"keys", {key(0, 0), key(1, 5)}}, {"seconds", 3}}, "\"seconds\" is not a field here");
     check_refused({{"keys", {key(0, 0), key(1e-5, 5)}}}, "end within");
     check_refused({{"swing", 30}}, "has no \"seconds\"");
@@ -72,7 +72,7 @@ TEST_CASE("motion: documents that are refused, in one line that says where") {
                   "curve");
     const json path{{0, 0, 0}, {0, 0, 9}}, longer{{0, 0, 0}, {0, 0, 9}, {0, 0, 10}};
     check_refused({{"keys", {{{"time", 0}, {"path", path}}, {{"time", 1}, {"path", longer}}}}},
-                  "is not of as many points");
+                  "differs in kind or in its number of points");
 }
 
 TEST_CASE("animate: what is refused, in one line, and nothing written") {

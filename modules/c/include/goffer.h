@@ -11,7 +11,7 @@
  * caller's memory, a crowd many, from the caller's columns. What C++ headers say of the same things holds
  * here; they are named in brackets.
  *
- * A function that can fail returns null or 0, and says why in *error, unless that is null. No exception
+ * A function that can fail returns null or 0, and says why in *error, unless `error` is null. No exception
  * leaves the library, nothing is printed, and nothing is global. Functions that take a pointer to const may
  * be called from several threads at the same time, if they write to different memory. Objects that
  * goffer_.._free takes belong to the caller; null may be freed. A handle that is null, and an index of what

@@ -22,7 +22,8 @@ fit::Profile profile_of(const goffer_bind_options& options) {
                                               paper::Profile::Kind::smooth};
     if (options.profile < GOFFER_PROFILE_EVEN || options.profile > GOFFER_PROFILE_SMOOTH)
         throw std::invalid_argument(
-            "profile: no such one; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or GOFFER_PROFILE_SMOOTH");
+            "profile: there is no such profile; use GOFFER_PROFILE_EVEN, GOFFER_PROFILE_DAMPED or "
+            "GOFFER_PROFILE_SMOOTH");
     return {kinds[options.profile], options.roundness};
 }
 
@@ -30,7 +31,7 @@ fit::Amplitude amplitude_of(const goffer_bind_options& options) {
     constexpr fit::Amplitude amplitudes[] = {fit::Amplitude::none, fit::Amplitude::paper,
                                              fit::Amplitude::area, fit::Amplitude::mesh};
     if (options.amplitude < GOFFER_AMPLITUDE_NONE || options.amplitude > GOFFER_AMPLITUDE_MESH)
-        throw std::invalid_argument("amplitude: no such one; use one of GOFFER_AMPLITUDE_..");
+        throw std::invalid_argument("amplitude: there is no such amplitude; use one of GOFFER_AMPLITUDE_..");
     return amplitudes[options.amplitude];
 }
 
@@ -50,8 +51,7 @@ fit::BindOptions options_of(const goffer_bind_options& given) {
     if (!(given.onset < 0)) options.onset = given.onset;
     options.wrinkle_range = {given.wrinkle_first, given.wrinkle_last};
     if (may_be_chain(given) && (given.straight != 0 || given.region_count > 0))
-        throw std::invalid_argument(
-            "arcs: are regions that are bent at rest; give no shares, and not straight");
+        throw std::invalid_argument("arcs: each arc is a region of its own; leave out shares and straight");
     if (given.region_count > 0 && given.shares == nullptr)
         throw std::invalid_argument("shares: null; give one for each region");
     if (given.region_count > bend::max_regions)  // before any is read
@@ -92,7 +92,8 @@ std::vector<goffer_folds> folds_of(const fit::Binding& binding, const fit::BindO
 fit::Geometry goffer::c::geometry_of(const goffer_mesh& mesh) {
     if (mesh.positions == nullptr)
         throw std::invalid_argument("positions: null; give 3 floats for each vertex");
-    if (mesh.triangles == nullptr) throw std::invalid_argument("triangles: null; give 3 indices for each");
+    if (mesh.triangles == nullptr)
+        throw std::invalid_argument("triangles: null; give 3 indices for each triangle");
     const auto vectors = [&](const float* first) {
         return std::span(reinterpret_cast<const glm::vec3*>(first), first != nullptr ? mesh.vertex_count : 0);
     };

@@ -31,7 +31,8 @@ bend::TransformColumn transforms_of(const goffer_column& column, int layout) {
     constexpr Layout layouts[] = {Layout::columns3, Layout::columns4, Layout::rows4};
     if (layout < GOFFER_COLUMNS3 || layout > GOFFER_ROWS4)
         throw std::invalid_argument(
-            "transform_layout: no such one; use GOFFER_COLUMNS3, GOFFER_COLUMNS4 or GOFFER_ROWS4");
+            "transform_layout: there is no such layout; use GOFFER_COLUMNS3, GOFFER_COLUMNS4 or "
+            "GOFFER_ROWS4");
     return column.data == nullptr ? bend::TransformColumn()
                                   : bend::TransformColumn(view_of<float>(column), layouts[layout]);
 }

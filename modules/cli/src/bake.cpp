@@ -54,7 +54,7 @@ SocketWords parse_socket(const std::string& text) {
     constexpr double far = 1e30;
     if (std::ranges::any_of(point, [](double x) { return std::fabs(x) > far; }))
         throw UsageError("--socket: '" + text + "' is beyond all floats" + mend);
-    if (point.size() != 3) throw UsageError("--socket: '" + text + "' has not three numbers" + mend);
+    if (point.size() != 3) throw UsageError("--socket: '" + text + "' does not have three numbers" + mend);
     return {text.substr(0, sign), {point[0], point[1], point[2]}};
 }
 

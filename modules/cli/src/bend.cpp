@@ -170,14 +170,15 @@ bool warn_of_area(Report& report, double change, bool few_folds, bool one_region
 }
 
 /// The area may be kept in all, and change here and there. Where the body is bent at rest, that may be why.
-void warn_of_patches(Report& report, const BoundModel& model, const fit::PatchChange& change) {
+void warn_of_patches(Report& report, const BoundModel& model, const fit::PatchChange& change, bool shown) {
     constexpr double most = 0.12;  // what looked odd among some sixty models changed by more
     const bool straight = model.cylinder.rest_angle == 0 && model.cylinder.arcs.empty();
     if (straight && change.rms > most)
         report.warn(
             "the area is kept in all, but changes by " + number(std::round(100 * change.rms)) +
             " % from place to place (rms), as where legs, fins or leaves are bent with what they grow "
-            "from; --png with --show area colors where");
+            "from" +
+            (shown ? "" : "; --png with --show area colors where"));
 }
 
 /// Returns whether it is known why the area may change: it was chosen to, or a warning says so.
@@ -241,7 +242,8 @@ void run_bend(const BendOptions& options) {
     if (along_path) report_path(report, laid, options.path);
     const fit::PatchChange change = in_file(
         options.model, [&] { return report_local_area(report, model, poses, bent.records.positions); });
-    if (!explained && keeps_area_everywhere(request, model)) warn_of_patches(report, model, change);
+    if (!explained && keeps_area_everywhere(request, model))
+        warn_of_patches(report, model, change, !options.show.empty());
     if (!options.fit.empty()) warn_of_foreign_fit(report, model);
     io::AtomicFiles outputs;
     if (const std::filesystem::path& png = options.picture.file; !png.empty()) {

@@ -57,10 +57,10 @@ int parse_wrinkle_mask(const std::string& text) {
 
 /// What to say of a region that has fewer folds than were `asked` for, or than suit it. Empty: nothing.
 std::string words_of(fit::FoldShortage shortage, const fit::Binding& binding, std::size_t region, bool asked,
-                     int suitable) {
+                     int suitable, bool refined) {
     const auto folds_of = [](int folds) { return counted(static_cast<std::size_t>(folds), "fold"); };
     const std::string bare = "bent without wrinkles: ",
-                      finer = "; use a finer mesh, which --refine or goffer refine makes",
+                      finer = refined ? "" : "; use a finer mesh, which --refine or goffer refine makes",
                       would_suit = " and " + std::to_string(suitable) + " would suit its length";
     const bool even = binding.profile.kind == fit::Profile::Kind::even;
     const int folds = binding.folds(region), capacity = binding.folds_capacity(region);
@@ -75,8 +75,8 @@ std::string words_of(fit::FoldShortage shortage, const fit::Binding& binding, st
             if (asked) {
                 const bool kept = binding.amplitude == fit::Amplitude::mesh;
                 return "the mesh has vertices for " + folds_of(capacity) + ", not " + std::to_string(folds) +
-                       ": wrinkles are coarse, and the area " + (kept ? "may not be" : "is not") +
-                       " kept; goffer refine adds vertices";
+                       ": wrinkles are coarse, and the area " + (kept ? "may not be" : "is not") + " kept" +
+                       (refined ? "" : "; goffer refine adds vertices");
             }
             if (folds > 0)
                 return "only " + folds_of(folds) + "," + would_suit +
@@ -120,7 +120,7 @@ void add_fold_words(CLI::App& command, BindWords& words) {
                        "each (default: what suits the body and its mesh)");
     command
         .add_option("--fold-length", words.fold_length,
-                    "Make folds so many radii long: the shorter, the shallower (default: " +
+                    "Make folds this many radii long: the shorter, the shallower (default: " +
                         number(fit::default_fold_length(fit::Profile::even)) +
                         ", and no more than a twelfth of the body; with --profile damped or smooth " +
                         number(fit::default_fold_length(fit::Profile::damped)) + ")")
@@ -128,13 +128,14 @@ void add_fold_words(CLI::App& command, BindWords& words) {
         ->excludes(command.get_option("--folds"));
     command
         .add_option("--amplitude", words.amplitude,
-                    "Choose wrinkles' depth: paper (keeps lengths), area (keeps the base's area), mesh "
+                    "Choose the depth of wrinkles: paper (keeps lengths), area (keeps the base's area), mesh "
                     "(keeps the mesh's own area), none")
         ->check(CLI::IsMember({"paper", "area", "mesh", "none"}))
         ->capture_default_str();
     command
-        .add_option("--profile", words.profile,
-                    "Choose wrinkles' shape: even (of one depth), damped (the paper's, with creases), smooth")
+        .add_option(
+            "--profile", words.profile,
+            "Choose the shape of wrinkles: even (of one depth), damped (the paper's, with creases), smooth")
         ->check(CLI::IsMember({"even", "damped", "smooth"}))
         ->capture_default_str();
     command
@@ -181,12 +182,12 @@ void add_bind_words(CLI::App& command, BindWords& words) {
     add_fold_words(command, words);
     command
         .add_option("--shape", words.shape,
-                    "Take the body for: auto (as thick as it is, here and there), cylinder (of one radius)")
+                    "Treat the body as: auto (thick and thin where it is), cylinder (of one radius)")
         ->check(CLI::IsMember({"auto", "cylinder"}))
         ->capture_default_str();
     command
         .add_option("--joints", words.joints,
-                    "Where regions meet, let folds of --profile even run on: over; or end: apart")
+                    "Where regions meet: over (folds of --profile even run on), apart (they end there)")
         ->check(CLI::IsMember({"over", "apart"}))
         ->capture_default_str();
     command
@@ -221,7 +222,8 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
     command
         .add_option("--refine", words.refine,
                     "Add vertices along the body until its mesh carries the folds, and about it where it has "
-                    "few sides: off, on (also without a word), auto (where that takes no more than a million "
+                    "few sides: off, on (also where --refine stands alone), auto (where that takes no more "
+                    "than a million "
                     "triangles) (default: " +
                         usual + ")")
         ->expected(0, 1)
@@ -355,11 +357,12 @@ bool warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
     const bool asked = request.words.folds.has_value();
     const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
     const std::vector<fit::FoldShortage> shortages = fit::fold_shortages(binding, request.options);
+    const bool refined = model.growth && model.growth->triangles_after != model.growth->triangles_before;
     bool few = false;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());
         few = few || shortages[r] != fit::FoldShortage::none;
-        const std::string said = words_of(shortages[r], binding, r, asked, suitable[r]);
+        const std::string said = words_of(shortages[r], binding, r, asked, suitable[r], refined);
         if (!said.empty()) report.warn(which + said);
         if (fit::wrinkle_depth(binding, r, angles[r]) > model.cylinder.radius) {
             report.warn(which +

@@ -24,7 +24,7 @@ Buffer buffer_of(GLenum target, std::span<const std::byte> bytes) {
     return buffer;
 }
 
-/// Gives a buffer that is bound new contents, without waiting for who still reads the old ones. If they are
+/// Gives a buffer that is bound new contents, without waiting for what still reads the old ones. If they are
 /// large, OpenGL is asked whether they got there, which waits for the device: browsers refuse them by errors
 /// that say nothing.
 void replace(GLenum target, std::span<const std::byte> bytes) {

@@ -64,7 +64,7 @@ std::string OffscreenContext::Current::make(Api api) {
     if (candidates.empty()) return "EGL has neither Mesa's display without a surface nor one of a device";
     for (const EGLDisplay candidate : candidates)
         if (make_on(candidate, api)) return {};
-    return "EGL makes no such context";
+    return "EGL cannot make such a context";
 }
 
 bool OffscreenContext::Current::make_on(EGLDisplay candidate, Api api) {

@@ -177,7 +177,8 @@ void weigh(Parts& parts, const Cylinder& cylinder, std::span<const RestRegion> r
     parts.weigh(of(depths), of(deepest), ease);
 }
 
-/// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it. None: 1.
+/// Lets factors on both sides of a joint be the same, so that a wrinkle of one depth runs over it. No list
+/// counts as 1.
 void meet(std::vector<double>& factors, std::vector<double>& next) {
     constexpr double least = 0.1;  // so that neither side's wrinkle is lost in the other's
     double* const sides[] = {factors.empty() ? nullptr : &factors.back(),

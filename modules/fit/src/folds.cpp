@@ -78,7 +78,11 @@ Rows::Rows(const Geometry& geometry, const Cylinder& cylinder)
         const std::size_t first = slice(extent.low), last = slice(extent.low + extent.height);
         for (std::size_t i = first; i <= last; ++i) by_slice[i].push_back(extent);
     }
-    for (std::size_t i = 0; i < slices; ++i) slices_[i] = extent_beyond(std::move(by_slice[i]), 0.05);
+    for (std::size_t i = 0; i < slices; ++i) {
+        // Between separate parts there is nothing to look at: as below it.
+        const bool gap = by_slice[i].empty() && i > 0;
+        slices_[i] = gap ? slices_[i - 1] : extent_beyond(std::move(by_slice[i]), 0.05);
+    }
     reach_ = extent_beyond(all, 0.02);
 }
 

@@ -73,7 +73,8 @@ std::vector<double> checked_range(std::vector<double> values, double low, double
     for (const double value : values) {
         if (!(value >= low && value <= high)) {
             throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                        " somewhere: it is out of its range");
+                                        " somewhere; give values within " + std::to_string(low) + ".." +
+                                        std::to_string(high));
         }
     }
     return values;

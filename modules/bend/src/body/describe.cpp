@@ -42,10 +42,10 @@ Words words_of(BodyField field) noexcept {
             return {"regions", ".max_scale", "1 to 1000"};
         case BodyField::max_angle:
             return {"regions", ".max_angle",
-                    "from 1e-12 to 1000 radians and to length / (2 radius max_scale)"};
+                    "from 1e-12 to the smaller of 1000 radians and length / (2 radius max_scale)"};
         case BodyField::rest_angle:
             return {"regions", ".rest_angle",
-                    "0 to max_angle, and below length / (2 radius max_scale) by 1e-5 of it"};
+                    "0 to max_angle, and at most (1 - 1e-5) length / (2 radius max_scale)"};
         case BodyField::rest_direction:
             return {"regions", ".rest_direction", "within 1000 radians"};
         case BodyField::onset:
@@ -58,10 +58,9 @@ Words words_of(BodyField field) noexcept {
             return {"regions", ".factors",
                     "no rows, or at least two of finite numbers, with a max_angle of at least 1e-12"};
         case BodyField::blend:
-            return {
-                "regions", ".blend",
-                "0, or from 1e-5 of both lengths to the room in both, which wrinkle; rest arcs that leave "
-                "2 % of inner lines, or onsets, in both or neither"};
+            return {"regions", ".blend",
+                    "0, or from 1e-5 of the longer region to the room that both have; both wrinkle, both or "
+                    "neither have a rest arc or an onset, and rest arcs leave 2 % of inner lines"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};

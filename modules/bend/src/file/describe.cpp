@@ -35,11 +35,11 @@ const char* words_of(FileReason reason) noexcept {
         case FileReason::rig:
             return "does not have the regions, tables and frame of the first level; bind it with bind_level";
         case FileReason::empty:
-            return "has no body";
+            return "has no body; give one that is not empty";
         case FileReason::missing:
             return "there is no such file; check its name, and the working folder";
         case FileReason::unreadable:
-            return "cannot be opened or read";
+            return "cannot be opened or read; check its permissions";
     }
     return "unknown";
 }

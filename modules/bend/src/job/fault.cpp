@@ -122,11 +122,11 @@ std::string_view words(Field field, Reason reason, bool of_batch) noexcept {
         case Reason::too_large:
             return "a number in it is beyond 1e18";
         case Reason::out_of_range:
-            return field == Field::vertex_offsets   ? "the instance would end behind the end of a stream"
+            return field == Field::vertex_offsets   ? "the instance would end beyond the end of a stream"
                    : field == Field::wrinkle_weight ? "not in 0..1"
                    : field == Field::indices        ? "beyond the end of poses"
                    : is_stream(field)               ? "its count times its stride ends beyond all addresses"
-                                                    : "a layout or a page_shift that there is not";
+                                                    : "no such layout or page_shift";
         case Reason::count:
             return reason_of_count(field, of_batch);
         case Reason::too_short:

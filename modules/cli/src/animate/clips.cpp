@@ -69,7 +69,7 @@ const char* way_to_less(clip::GltfLimit limit) {
         case clip::GltfLimit::none:
             break;
     }
-    return "what is left is the rounding of floats; give a larger one";
+    return "the rest is the rounding of floats; give a larger one";
 }
 
 }  // namespace
@@ -87,9 +87,9 @@ void write_gltf(Animation& animation) {
                                      {"max_normal_error", degrees(done.max_angle)},
                                      {"within", done.within()}};
     animation.report.line("targets", counted(done.targets, "shape") +
-                                         " of which frames are blended, within " + number(done.max_error) +
-                                         " of them, " + number(100 * done.max_error / done.size) +
-                                         " % of the size");
+                                         " that frames are blended of; off by at most " +
+                                         number(done.max_error) + ", " +
+                                         number(100 * done.max_error / done.size) + " % of the size");
     if (!done.within() && animation.max_error_asked)
         animation.report.warn("frames are off by up to " + number(100 * done.max_error / done.size) +
                               " % of the size, more than --max-error " + number(100 * options.max_error) +

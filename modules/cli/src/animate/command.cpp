@@ -165,9 +165,10 @@ void add_animate(CLI::App& app, Action& action) {
                          " shapes can]")
         ->check(number_within(0, 100, "a share in per cent"));
     command
-        ->add_option("--targets", options->targets,
-                     "Blend at most so many shapes in animated glTF; the report says how far off that is [" +
-                         std::to_string(usual_targets) + ", or with --max-error any number]")
+        ->add_option(
+            "--targets", options->targets,
+            "Blend at most this many shapes in animated glTF; the report says how far off that is [" +
+                std::to_string(usual_targets) + ", or with --max-error any number]")
         ->check(CLI::Range(std::size_t{1}, std::size_t{65535}));
     add_isa_word(*command, options->isa);
     add_threads_word(*command, options->threads);

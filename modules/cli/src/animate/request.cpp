@@ -115,8 +115,8 @@ void add_motion_words(CLI::App& command, AnimateOptions& options) {
     command
         .add_option(
             "--lag", options.lag,
-            "Let each region follow those below it: one that begins at mid-length by half of this share "
-            "of a swing")
+            "Let each region lag behind those below it: one that begins at mid-length by half of this many "
+            "swings")
         ->check(number_within(-100, 100, "a number of swings"))
         ->needs(swing);
     command.add_flag("--from-rest", options.from_rest, "Swing from the rest pose instead of from straight")
@@ -124,10 +124,10 @@ void add_motion_words(CLI::App& command, AnimateOptions& options) {
     command
         .add_option(
             "--frames", options.frames,
-            "Make this many frames, of animated glTF that ends as it begins one more (default: as many "
-            "as the keys last; 48 of a swing, 96 of a walk, which last as long as their frames)")
+            "Make this many frames; animated glTF that ends as it begins has one more (default: as many "
+            "as the keys last; 48 for a swing and 96 for a walk, which last as long as their frames)")
         ->check(CLI::Range(std::uint64_t{1}, most_frames));
-    command.add_option("--fps", options.fps, "Play so many frames a second [24]")
+    command.add_option("--fps", options.fps, "Play this many frames a second [24]")
         ->check(number_within(0.01, 1000, "a number"));
     command.add_option("--regions", options.pose.regions,
                        "Bend regions on their own: their shares of the length, as 0.3,0.4,0.3 (default: "

@@ -86,7 +86,7 @@ void Cast::add(const SceneGroup& group, std::uint64_t& memory) {
         for (const std::size_t body : group.bodies) {
             if (bodies_[body].region_count() != member.regions)
                 throw InputError(group.where +
-                                 ".poses: its bodies have not as many regions each; give each "
+                                 ".poses: its bodies do not all have the same number of regions; give each "
                                  "an entry of its own");
         }
         member.poses = file_of(group.poses, memory);

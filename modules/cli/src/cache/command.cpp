@@ -79,7 +79,7 @@ void run_make(const CacheOptions& options) {
         const auto share = two_numbers(*options.shard, '/');
         if (!share || share->first < 1 || share->first > share->second || share->second > most_shards)
             throw UsageError("--shard: '" + *options.shard +
-                             "' is not a share of the shards, as in 1/8 to 8/8");
+                             "' is not a share of the shards; give I/N, as in 1/8");
         request.share = share->first;
         request.shares = share->second;
         request.whole = false;
@@ -111,22 +111,22 @@ void add_shape_words(CLI::App& command, CacheOptions& options) {
     command
         .add_option("--format", options.format,
                     "Keep positions (3 floats a vertex), packed (position and normal in 12 bytes), or poses, "
-                    "which are deformed when they are read (default: positions)")
+                    "from which a reader deforms the bodies (default: positions)")
         ->check(CLI::IsMember({"positions", "packed", "poses"}));
     command.add_option("--isa", options.isa,
                        "Use these kernels: auto, scalar, sse4.2, avx2, avx512, neon (default: auto)");
     command
         .add_option("--shard-size", options.shard_size,
-                    "Make shards of at most this size, as 64M or 1G, but of one instance in one frame at "
-                    "least (default: 256 MiB)")
+                    "Make shards no larger than this, as 64M or 1G; a shard has at least one instance in "
+                    "one frame (default: 256 MiB)")
         ->transform(size_word())
         ->check(CLI::Range(least, most_shard_bytes))
         ->type_name("SIZE");
-    command.add_option("--shard-frames", options.shard_frames, "Put so many frames into a shard")
+    command.add_option("--shard-frames", options.shard_frames, "Put this many frames into a shard")
         ->check(CLI::Range(least, most_frames));
     command
         .add_option("--shard-instances", options.shard_instances,
-                    "Put at most so many instances into a shard")
+                    "Put at most this many instances into a shard")
         ->check(CLI::Range(least, most_instances));
 }
 

@@ -156,7 +156,7 @@ void extract(const ExtractRequest& request) {
     const BoundModel model = read_body(request, body);
     if (model.rest.positions.size() != body.vertices)
         throw InputError(io::about(request.folder / body.file(),
-                                   "has not the vertices that the plan says; bake the cache again"));
+                                   "does not have the vertices that the plan says; bake the cache again"));
     io::AtomicFiles outputs;
     mesh::save(mesh_of_block(block, model, plan), request.output, outputs);
     report.json["body"] = body.name;

@@ -99,7 +99,7 @@ void read_places(const Members& fields, const io::NamedFiles& files, SceneGroup&
     if (fields.has("count")) group.count = fields.whole("count", 1, most_instances);
     if (fields.has("transforms")) group.transforms = named_file(fields, "transforms", files);
     if (group.count > 1 && group.transforms.empty())
-        fields.refuse("count", "is of no use without 'transforms': all would stand in one place");
+        fields.refuse("count", "needs 'transforms': without them all would stand in one place");
 }
 
 void read_timing(const Members& fields, SceneGroup& group) {

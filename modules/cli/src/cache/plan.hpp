@@ -58,7 +58,7 @@ struct ShardRange {
     std::uint64_t first_frame = 0, frames = 0, first_instance = 0, instances = 0;
 };
 
-/// What shards are to be like. 0: as shard_bytes leads to.
+/// What shards are to be like. 0 means as many as `bytes` has room for.
 struct ShardShape {
     std::uint64_t bytes = 0, frames = 0, instances = 0;
 

@@ -49,7 +49,8 @@ struct SceneGroup {
     float weight = 1;
 };
 
-/// A scene's document, understood. The files that it names exist or not: nobody has looked.
+/// A scene's document, understood. Motions have been read, and models as far as the names of their buffers;
+/// whether the other files exist has not been looked at.
 struct Scene {
     std::filesystem::path file;
     double fps = 0;

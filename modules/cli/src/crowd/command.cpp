@@ -117,7 +117,7 @@ void warn_of_regions(Report& report, const CrowdRequest& request, const BoundMod
         used.push_back(radians(std::min(asked, limit)));
         if (!is_beyond(asked, limit) || std::isinf(asked)) continue;
         std::string line = where + region_words(r, targets.size());
-        const std::string then = "it is bent so far at most";
+        const std::string then = "it is bent no further than that";
         if (rest == 0) {
             warn_of_angle(report, line, targets[r].angle, limit, then);
             continue;

@@ -90,8 +90,8 @@ double reach_at_rest(const bend::Body& body) {
     return static_cast<double>(std::max({-box.low.x, -box.low.y, box.high.x, box.high.y}));
 }
 
-/// So that neighbors hardly touch, which bend much the same way; at rest, each bends its own way. In lengths
-/// of a body.
+/// Keeps neighbors from touching: they bend much the same way, except from the rest pose, where each bends
+/// its own way. In lengths of a body.
 double spacing_for(std::span<const BoundModel> models, bool from_rest) {
     double thickest = 0, farthest = 0;
     for (const BoundModel& model : models) {

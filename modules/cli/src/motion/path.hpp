@@ -41,7 +41,7 @@ public:
     [[nodiscard]] double length() const noexcept { return along_.back(); }
     [[nodiscard]] bool closed() const noexcept { return closed_; }
 
-    /// bend::poses_along() with the base end's center `start` behind the beginning: an open path goes
+    /// bend::poses_along() with the base end's center `start` from the beginning: an open path goes
     /// straight on beyond its ends, a closed one goes round. In PathFit::transform the body has the roll of
     /// the frame.
     [[nodiscard]] bend::PathFit lay(const bend::Body& body, double start, std::span<bend::Pose> poses) const;

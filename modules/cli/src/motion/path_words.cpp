@@ -80,7 +80,7 @@ void report_path(Report& report, const Laid& laid, const PathOptions& words) {
                            {"error", error},
                            {"clamped", laid.fit.clamped},
                            {"transform", rows_of(laid.fit.transform)}};
-    report.line("path", words.file.string() + ", " + number(laid.length) + " long, begun at " +
+    report.line("path", words.file.string() + ", " + number(laid.length) + " long, starting at " +
                             number(words.start) + ": the center line is within " +
                             number(error < rounding * laid.body_length ? 0 : error) + " of it");
     constexpr double much_longer = 8;

@@ -44,7 +44,7 @@ struct Laid {
     double length = 0;  ///< of the path, scaled
     double body_length = 0;
     double scale = 1;
-    double beyond = 0;  ///< how much of the body lies behind the path's end, straight on
+    double beyond = 0;  ///< how much of the body lies beyond the path's end, straight on
 };
 
 /// Lays `body` on the path of `words`. Throws InputError.

@@ -86,7 +86,7 @@ struct KeyTimes {
           repeats(fields.flag("repeat")) {
         if (!keys.is_array() || keys.size() < 2)
             throw InputError(fields.place("keys") +
-                             ": are fewer than two keys in an array; give two keys or more");
+                             ": are fewer than two; give an array of two keys or more");
     }
 
     [[nodiscard]] std::string place(std::size_t i) const {
@@ -111,12 +111,12 @@ struct KeyTimes {
             throw InputError(document.place("keys") + ": end within " + number(least_seconds) +
                              " seconds; give them more time");
         if (repeats && times.front() != 0)
-            throw InputError(place(0) + ": is not at the time 0, as it is to be in a motion that repeats");
+            throw InputError(place(0) + ": is not at time 0, where a motion that repeats must begin");
     }
 
     void refuse_round() const {
         throw InputError(place(keys.size() - 1) +
-                         ": is not as the first, as it is to be in a motion that repeats");
+                         ": differs from the first key; a motion that repeats must end as it begins");
     }
 };
 
@@ -150,8 +150,9 @@ std::unique_ptr<const Motion> read_keyed_paths(Fields& fields, const std::string
         const PathWords& first = i == 0 ? path : keys.keys.front();
         if (path.points.size() != first.points.size() || path.bezier != first.bezier ||
             path.closed != first.closed || path.smooth != first.smooth)
-            throw InputError(key.place("path") +
-                             ": is not of as many points and of the same kind as that of the first key");
+            throw InputError(
+                key.place("path") +
+                ": differs in kind or in its number of points from that of the first key; make them alike");
         (void)Path(path, key.place("path"));
         keys.keys.push_back(std::move(path));
     });

@@ -92,13 +92,13 @@ void add_view(CLI::App& app, Action& action) {
     command->add_option("models", options->models,
                         "Models: .glb, .gltf, .obj, .ply, .stl, or body files (default: a bare cylinder); of "
                         "several, one body is the first, and a crowd has all");
-    command->add_option("--crowd", options->crowd, "Show a crowd of so many instances, in motion")
+    command->add_option("--crowd", options->crowd, "Show a crowd of this many instances, in motion")
         ->check(CLI::Range(0, 100'000));
     command->add_flag("--shader", options->shader, "Deform in the vertex shader, not on the processor");
     command->add_option("--size", options->size, "Make the window WIDTHxHEIGHT")->capture_default_str();
     command
         ->add_option("--frames", options->frames,
-                     "Draw so many frames in motion, as fast as can be, say what they took, and end")
+                     "Draw this many frames in motion, as fast as possible, say what they took, and end")
         ->check(CLI::Range(1, 10'000'000));
     add_pose_words(*command, options->pose);
     for (const char* option : {"--angle", "--by", "--angles"})

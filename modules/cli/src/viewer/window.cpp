@@ -66,7 +66,7 @@ void load_font(float scale) {
 }  // namespace
 
 struct Window::Data {
-    /// GLFW, from its start to its end. It does not count: there may be one at a time.
+    /// GLFW, from its start to its end. It does not count its users: only one may exist at a time.
     struct Library {
         Library() {
             leave_out_wayland();

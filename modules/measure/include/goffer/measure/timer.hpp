@@ -24,7 +24,7 @@ template <class Work>
     return now(threads) - start;
 }
 
-/// The smallest of `values` that `share` (0 to 1) of them do not exceed; 0 where there are none.
+/// The smallest value that at least `share` (0 to 1) of `values` do not exceed; 0 where there are none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 /// The quantile of one half.

@@ -141,7 +141,7 @@ void save(const Mesh& mesh, const std::filesystem::path& file, io::AtomicFiles& 
 
 /// A mesh as a deformer wants it: arrays with one position, one normal and one tangent per entry, and
 /// triangles that index these. Entry i of the first Mesh::positions.size() is vertex i of the mesh. A vertex
-/// that occurs with several normals or tangents, as in OBJ, has further entries behind all of these, in the
+/// that occurs with several normals or tangents, as in OBJ, has further entries after all of these, in the
 /// order in which the faces' corners first ask for them. A normal or tangent that the mesh lacks for a vertex
 /// is zero.
 struct VertexArrays {
@@ -160,7 +160,7 @@ struct VertexArrays {
 /// Makes the arrays of `mesh` as an engine draws them: each entry also has one texture coordinate, of set
 /// `set`, so that a vertex on a seam has an entry for each of its coordinates. The order is that of
 /// vertex_arrays(): entry i is vertex i of the mesh with what its first corner has, and further entries are
-/// behind all of these, in the order of use. Equal coordinates under several indices are one. As everywhere
+/// after all of these, in the order of use. Equal coordinates under several indices are one. As everywhere
 /// in a Mesh, v points up; a coordinate that the mesh lacks for a corner is 0, 0. Where the mesh does not
 /// have the set, these are the arrays of vertex_arrays(). with_vertex_arrays() takes either kind back.
 [[nodiscard]] VertexArrays vertex_arrays_with_uvs(const Mesh& mesh, std::size_t set = 0);
@@ -198,7 +198,7 @@ struct TriangleRange {
 /// texture coordinates are not looked at: bending does not change them. Where a vertex has several entries,
 /// the first one's position counts, and its normal and tangent where the mesh has these per vertex. Streams
 /// that the mesh does not have are ignored. Values of attributes with indices keep their places; one that
-/// several entries share and that is no longer the same for all is split, its copies behind the others. Keeps
+/// several entries share and that is no longer the same for all is split, its copies after the others. Keeps
 /// `source`, so that save() gives the file back. Throws Error if `bent` has too few entries.
 [[nodiscard]] Mesh with_vertex_arrays(const Mesh& mesh, const VertexArrays& bent);
 

@@ -38,8 +38,8 @@ struct Subdivision {
 /// of another stand in its place, so that parts, groups and materials go on as before, and triangles() of the
 /// result are the pieces in their order. Without new vertices the mesh comes back unchanged.
 ///
-/// Vertices keep their values and their order. New ones follow behind all others, with two exceptions: in a
-/// glTF scene, which has several vertex arrays, behind those of their own array; in an STL, which has no
+/// Vertices keep their values and their order. New ones follow after all others, with two exceptions: in a
+/// glTF scene, which has several vertex arrays, after those of their own array; in an STL, which has no
 /// shared vertices, where their facets stand. Attributes with an index per corner get new values behind the
 /// others. New normals and tangents have unit length; where only one end has a direction, or the two cancel,
 /// it is that of the one, or of the nearer end. The sign of a tangent is that of the nearer end.
