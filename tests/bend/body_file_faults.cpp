@@ -233,7 +233,8 @@ TEST_CASE("body file: what cannot be read as a file is said to be") {
     };
     CHECK(refused(GOFFER_SOURCE_DIR "/tests/data/none.goffer") ==
           "body file: there is no such file; check its name, and the working folder");
-    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data") == "body file: cannot be opened or read");
+    CHECK(refused(GOFFER_SOURCE_DIR "/tests/data") ==
+          "body file: cannot be opened or read; check its permissions");
     CHECK(refused(GOFFER_SOURCE_DIR "/README.md") == "body file: not a body file; goffer bake makes one");
     Random random(58);
     const std::vector<std::byte> bytes = saved(random_body(random));

@@ -339,7 +339,7 @@ TEST_CASE("a fault's line says where it is, however large the numbers are") {
     CHECK(line({Field::visible, Reason::too_short, 3}).starts_with("batches[3].visible: "));
     CHECK(line({Field::positions, Reason::null}).starts_with("positions: "));
     CHECK(line({Field::normals, Reason::out_of_range}).find("all addresses") != std::string::npos);
-    CHECK(line({Field::transform, Reason::out_of_range}).find("a layout") != std::string::npos);
+    CHECK(line({Field::transform, Reason::out_of_range}).find("no such layout") != std::string::npos);
     bend::Fault overlap{Field::normals, Reason::overlap};
     overlap.other = Field::previous_positions;
     CHECK(line(overlap).find("previous_positions") != std::string::npos);

@@ -84,7 +84,7 @@ std::string words_of(fit::FoldShortage shortage, const fit::Binding& binding, st
             return bare +
                    (even ? "the mesh's rows are too far apart for folds of 2.5 radii,"
                          : "the mesh has vertices for " + folds_of(capacity) + ",") +
-                   would_suit + finer + ", or --folds K to insist";
+                   would_suit + finer + (refined ? "; --folds K insists" : ", or --folds K to insist");
     }
     return {};
 }

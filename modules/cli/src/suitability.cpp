@@ -52,18 +52,15 @@ std::string warning(const fit::Suitability& found, double residual) {
     if (found.side_by_side_share > mostly)
         return std::to_string(found.side_by_side) + " of its " + std::to_string(found.shells) +
                " separate parts lie side by side, and all are bent about one axis between them; cut the "
-               "model "
-               "into its parts and bend each";
+               "model into its parts and bend each";
     if (found.flatness > flat)
         return "it is flat, " + number(found.flatness) +
                " times as wide as thick, and wrinkles are made for a round body; bend it across its thin "
-               "side "
-               "with --direction, or try --amplitude none";
+               "side with --direction, or try --amplitude none; if it is curled, --arcs N follows it";
     if (residual > far_off)
         return "its surface is " + number(residual) +
                " radii (rms) from the base cylinder, where a cylinder has 0; cut it into longish parts and "
-               "bend "
-               "each, or name another axis with --axis";
+               "bend each, or name another axis with --axis; if it is curled, --arcs N follows it";
     return {};
 }
 
