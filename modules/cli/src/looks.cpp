@@ -115,7 +115,8 @@ std::vector<glm::vec4> vertex_colors(const mesh::Mesh& mesh, const mesh::VertexA
     std::vector<glm::vec4> colors = own;
     const std::vector<mesh::TriangleRange> ranges = mesh::triangles_of_parts(mesh);
     for (std::size_t p = 0; p < ranges.size(); ++p) {
-        const auto of_part = std::span(rest.triangles).subspan(3 * ranges[p].first, 3 * ranges[p].count);
+        const auto of_part = std::span(rest.triangles)
+                                 .subspan(std::size_t{3} * ranges[p].first, std::size_t{3} * ranges[p].count);
         paint(own, of_part, material_of(mesh, mesh.parts[p]), mesh.linear_colors, plain, colors);
     }
     std::ranges::transform(colors, colors.begin(), dimmed);
