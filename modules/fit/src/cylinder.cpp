@@ -230,19 +230,16 @@ void check_count(std::size_t arcs, RestPose rest) {
 }
 
 Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {
-    const std::optional<Cylinder> chain = fit_chain_of(body, arcs, axis);
-    if (!chain) {
-        std::size_t more = arcs + 1;
-        while (more <= bend::max_regions && !fit_chain_of(body, more, axis)) ++more;
+    const ChainOf chain = fit_chain_of(body, arcs, axis);
+    if (!chain.cylinder) {
         throw Error("arcs: the body does not follow a chain of " + std::to_string(arcs) +
                     (axis ? " along that axis" : "") +
-                    (more <= bend::max_regions
-                         ? ", but of " + std::to_string(more) +
-                               "; give that, or none to have a straight body or one arc"
-                         : ", nor of more; give none to have a straight body or one arc"));
+                    (chain.fewest > arcs ? ", but of " + std::to_string(chain.fewest) + "; give that, or none"
+                                         : ", nor of more; give none") +
+                    " to have a straight body or one arc");
     }
-    check_size(*chain, body);
-    return *chain;
+    check_size(*chain.cylinder, body);
+    return *chain.cylinder;
 }
 
 }  // namespace

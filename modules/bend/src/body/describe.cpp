@@ -59,8 +59,8 @@ Words words_of(BodyField field) noexcept {
                     "no rows, or at least two of finite numbers, with a max_angle of at least 1e-12"};
         case BodyField::blend:
             return {"regions", ".blend",
-                    "0, or from 1e-5 of the longer region to the room that both have; both wrinkle, both or "
-                    "neither have a rest arc or an onset, and rest arcs leave 2 % of inner lines"};
+                    "0, or from 1e-5 of both lengths to the room in both; both wrinkle, both or neither have "
+                    "an onset, or an arc that leaves 2 % of inner lines"};
         case BodyField::blend_gain:
             return {"regions", ".blend_gain",
                     "0.001 to 1000, and such that wrinkles stay below 1e15 in both regions"};
