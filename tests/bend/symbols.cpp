@@ -90,7 +90,8 @@ TEST_CASE("kernel files define nothing that another file could take for its own"
         const std::vector<std::string> names = shared_names(object);
         CHECK(!names.empty());
         for (const std::string& name : names) {
-            const std::size_t simd = name.find("simd::");  // ours or xsimd's
+            // Ours or xsimd's; nm reads not all names that newer compilers make.
+            const std::size_t simd = name.find(name.starts_with("_Z") ? "4simd" : "simd::");
             const bool tagged = name.find("xsimd::") != std::string::npos ||
                                 (simd != std::string::npos && name.find("Lanes", simd) != std::string::npos);
             const bool everybodys =
