@@ -121,4 +121,8 @@ TEST_CASE("many: material files, the same and others") {
         load_text("a.obj", mesh + lines(20000, "mtllib ", ".mtl\n")).warnings;
     CHECK(warnings.size() == 1001);
     CHECK(warnings.back().find("more than 1000 material files") != std::string::npos);
+    // Nor where one line names them, whether they may be read or not.
+    std::string line = "mtllib";
+    for (int i = 0; i < 20000; ++i) line += " ../" + std::to_string(i) + ".mtl";
+    CHECK(load_text("a.obj", line + "\n" + mesh).warnings.size() == 1001);
 }

@@ -89,7 +89,7 @@ goffer_job goffer_job_defaults(void) {
 
 int goffer_job_validate(const goffer_job* job, goffer_error* error) {
     if (job == nullptr) return say(error, GOFFER_ERROR_ARGUMENT, "job: null"), 0;
-    if (job->body == nullptr) return say(error, GOFFER_ERROR_ARGUMENT, "body: not given"), 0;
+    if (job->body == nullptr) return say_fault(error, bend::validate(job_of(*job)));
     // C++ takes no poses for that of a body of one region.
     if (job->poses == nullptr || job->pose_count == 0)
         return say(error, GOFFER_ERROR_ARGUMENT, "poses: none; give one for each region"), 0;

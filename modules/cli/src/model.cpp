@@ -223,8 +223,7 @@ void add_refine_word(CLI::App& command, BindWords& words, const std::string& usu
         .add_option("--refine", words.refine,
                     "Add vertices along the body until its mesh carries the folds, and about it where it has "
                     "few sides: off, on (also where --refine stands alone), auto (where that takes no more "
-                    "than a million "
-                    "triangles) (default: " +
+                    "than a million triangles) (default: " +
                         usual + ")")
         ->expected(0, 1)
         ->check(refine_word());
@@ -325,7 +324,7 @@ BoundModel bind_mesh(BoundModel model, const BindRequest& request, const std::fi
             return refine(model.mesh, cylinder, request.options, request.words.load.limits, automatic,
                           progress.listener());
         });
-        if (model.growth->triangles_after != model.growth->triangles_before) {
+        if (model.growth->grew()) {
             take_arrays(model, request);
             if (!model.growth->normals.empty()) {
                 for (const std::uint32_t vertex : model.rest.vertex)
@@ -357,7 +356,7 @@ bool warn_of_folds(Report& report, const BindRequest& request, const BoundModel&
     const bool asked = request.words.folds.has_value();
     const std::vector<int> suitable = fit::suitable_folds(model.cylinder, request.options);
     const std::vector<fit::FoldShortage> shortages = fit::fold_shortages(binding, request.options);
-    const bool refined = model.growth && model.growth->triangles_after != model.growth->triangles_before;
+    const bool refined = model.growth && model.growth->grew();
     bool few = false;
     for (std::size_t r = 0; r < angles.size(); ++r) {
         const std::string which = where + region_words(r, angles.size());

@@ -25,6 +25,8 @@ struct Growth {
     std::size_t vertices_before = 0, vertices_after = 0;
     std::size_t triangles_before = 0, triangles_after = 0;
     std::vector<glm::vec3> normals = {};  ///< of its vertices, where it grew and has none of its own
+
+    [[nodiscard]] bool grew() const { return triangles_after != triangles_before; }
 };
 
 /// Cuts `mesh` until it carries the folds of `options` on `cylinder`, region by region, or the number that

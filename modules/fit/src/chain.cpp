@@ -275,34 +275,28 @@ std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std:
     return base && is_bent_tube(body, *base) ? base : std::nullopt;
 }
 
-ChainOf fit_chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {
+std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
+                                     const std::optional<Vector3d>& axis) {
     std::vector<std::uint32_t> triangles;
     const Body cloud = sampled_surface(body, samples, triangles);
     const CenterPoints found = points_along(body, axis);
-    if (found.points.empty()) return {};
+    if (found.points.empty()) return std::nullopt;
     const ChainLimits limits = limits_of(found.radius);
-    ChainOf best;
+    std::optional<Cylinder> best;
     const auto follow = [&](std::size_t count) {
         const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, count);
         if (!through) return;
         const ArcChain chain = finished(body, *through, limits);
-        best.cylinder = base_about(chain, body, cloud, view_about(cloud, chain));
-        if (!best.cylinder) return;
-        const std::size_t own = best.cylinder->arcs.size();
-        best.fewest = best.fewest == 0 ? own : std::min(best.fewest, own);
+        std::optional<Cylinder> base = base_about(chain, body, cloud, view_about(cloud, chain));
+        if (base && (!best || base->arcs.size() < best->arcs.size())) best = std::move(base);
     };
     // Further arcs than those that follow the body would follow its noise. Fewer may be fewer still, since
     // arcs beyond an end are left out; or more, since one of more than a half turn becomes two.
-    const auto few_enough = [&] { return best.cylinder && best.cylinder->arcs.size() <= arcs; };
+    const auto few_enough = [&] { return best && best->arcs.size() <= arcs; };
     follow(0);
     for (std::size_t count = std::min(arcs, max_arcs); count > 0 && !few_enough(); --count) follow(count);
-    for (std::size_t count = arcs + 1; count <= max_arcs && best.fewest == 0; ++count) follow(count);
-    if (few_enough()) {
-        best.cylinder = cut_to(*std::move(best.cylinder), arcs);
-    } else {
-        best.cylinder.reset();
-    }
-    return best;
+    for (std::size_t count = arcs + 1; count <= max_arcs && !best; ++count) follow(count);
+    return few_enough() ? cut_to(*std::move(best), arcs) : best;
 }
 
 }  // namespace goffer::fit

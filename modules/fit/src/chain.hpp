@@ -18,15 +18,11 @@ namespace goffer::fit {
 [[nodiscard]] std::optional<Cylinder> fit_chain(const Body& body, const Line& line,
                                                 const std::optional<Vector3d>& axis);
 
-/// The base of a body along a chain of so many arcs, if it follows one.
-struct ChainOf {
-    std::optional<Cylinder> cylinder;
-    std::size_t fewest = 0;  ///< how many arcs follow the body at least, as far as was looked; 0: none do
-};
-
-/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not; nothing where the
-/// body has none, or is not all around it. Where fewer arcs follow the body as closely as fit_chain() asks
-/// for, the longest ones are halved. `axis` as above.
-[[nodiscard]] ChainOf fit_chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis);
+/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not. Where fewer arcs
+/// follow the body as closely as fit_chain() asks for, the longest ones are halved. Where it takes more, they
+/// are more: as few as were found. Nothing where the body has no chain, or is not all around it. `axis` as
+/// above.
+[[nodiscard]] std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
+                                                   const std::optional<Vector3d>& axis);
 
 }  // namespace goffer::fit

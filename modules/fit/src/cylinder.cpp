@@ -230,16 +230,16 @@ void check_count(std::size_t arcs, RestPose rest) {
 }
 
 Cylinder chain_of(const Body& body, std::size_t arcs, const std::optional<Vector3d>& axis) {
-    const ChainOf chain = fit_chain_of(body, arcs, axis);
-    if (!chain.cylinder) {
+    const std::optional<Cylinder> chain = fit_chain_of(body, arcs, axis);
+    if (!chain || chain->arcs.size() > arcs) {
         throw Error("arcs: the body does not follow a chain of " + std::to_string(arcs) +
                     (axis ? " along that axis" : "") +
-                    (chain.fewest > arcs ? ", but of " + std::to_string(chain.fewest) + "; give that, or none"
-                                         : ", nor of more; give none") +
+                    (chain ? ", but of " + std::to_string(chain->arcs.size()) + "; give that, or none"
+                           : ", nor of more; give none") +
                     " to have a straight body or one arc");
     }
-    check_size(*chain.cylinder, body);
-    return *chain.cylinder;
+    check_size(*chain, body);
+    return *chain;
 }
 
 }  // namespace

@@ -45,9 +45,8 @@ struct Sections {
     Float4 radius[sectors];   // the farthest vertex outward
     Float4 through[sectors];  // the deepest wrinkle inward
     Mask4 none;               // there is no vertex
+    Float4 reach;             // the farthest vertex, whichever way its wrinkle goes
     bool deep;                // some wrinkle is deeper than the radius
-
-    [[nodiscard]] Float4 reach() const noexcept { return max(radius[sectors - 1], through[sectors - 1]); }
 };
 
 Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
@@ -57,6 +56,7 @@ Sections sections_of(const Girth& girth, Float4 amplitude) noexcept {
         sections.through[i] = splat(amplitude[i]) * girth.inward;
     }
     sections.none = girth.rho < splat(0);
+    sections.reach = max(sections.radius[sectors - 1], girth.rho + sections.through[sectors - 1]);
     sections.deep = any(sections.through[sectors - 1] > girth.rho);
     return sections;
 }
@@ -179,14 +179,10 @@ private:
     Float4 high_ = splat(std::numeric_limits<float>::lowest());
 };
 
-/// How far vertices may be from where the bands' drift puts them.
-float shift_of(const Bands& bands, const Coefficients& k, float amplitude) noexcept {
-    if (bands.drift_error == 0) return 0;
-    float widest = 0;
-    for (std::size_t j = 1; j <= Bands::count; ++j)
-        widest = std::max(widest, bands.rho[j] + amplitude * std::max(bands.outward[j], bands.inward[j]));
+/// How far vertices may be from where the bands' drift puts them. `reach`: of vertices, from the center line.
+float shift_of(const Bands& bands, const Coefficients& k, float reach) noexcept {
     const float along = k.curvature * bands.drift_error * k.arc_z[0];
-    return 1.01f * along * (k.one_minus_kappa + k.curvature * widest);
+    return 1.01f * along * (k.one_minus_kappa + k.curvature * reach);
 }
 
 /// The bounds of a region that has vertices. `amplitude`: by sectors.
@@ -202,7 +198,7 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Float4 amplitude) no
     for (std::size_t j = 0; j < edges; j += 4) {
         if (turn > 3) {  // nearly half a turn: all of the circle
             const Sections sections = sections_of(of_bands(bands, j), amplitude);
-            reaches = max(reaches, sections.reach());
+            reaches = max(reaches, sections.reach);
             for (AxisExtent& extent : extents) extent.take_circles(sections, radius);
             continue;
         }
@@ -211,12 +207,12 @@ Bounds bounds_of(const Bands& bands, const Coefficients& k, Float4 amplitude) no
         if (bands.shaped) at = at - splat(k.curvature) * load4(&bands.drift[j]);
         const CenterLine line = center_line(k, at);
         const Sections sections = sections_of(at_edges(bands, j), amplitude);
-        reaches = max(reaches, sections.reach());
+        reaches = max(reaches, sections.reach);
         for (AxisExtent& extent : extents) extent.take_edges(line, j, sections);
     }
-    const float shift = shift_of(bands, k, amplitude[sectors - 1]);
-    // Angles are rounded to steps of 6e-8 of themselves, by which what is far from the center line moves.
     const float reach = std::max({reaches[0], reaches[1], reaches[2], reaches[3]});
+    const float shift = shift_of(bands, k, reach);
+    // Angles are rounded to steps of 6e-8 of themselves, by which what is far from the center line moves.
     const float rounding = 1e-5f * k.arc_z[0] + reach * (1e-6f + 2e-7f * k.curvature * k.arc_z[0]);
     Bounds bounds;
     for (int row = 0; row < 3; ++row) {

@@ -63,7 +63,7 @@ private:
 };
 
 struct Output {
-    bool good = false, in_time = true;
+    bool good = false, in_time = false;
     std::string out, err;
 };
 
