@@ -152,6 +152,23 @@ TEST_CASE("radii: a body that is too thick for its own arc keeps one radius") {
     }
 }
 
+TEST_CASE("radii: a body that is bent at rest as far as it can be is bound") {
+    fit::Cylinder base = test::upright();
+    base.radii = {1.2, 1.1, 1, 0.9, 0.8};
+    const double most = base.length / (2 * 1.2);
+    for (const double share : {0.97, 0.9985, 0.9995, 0.9998}) {
+        CAPTURE(share);
+        base.rest_angle = share * most;
+        const Solid solid = test::surface_of(base);
+        const fit::Binding binding = fit::bind(solid.geometry(), base);
+        const std::vector<glm::vec3> back = bent_to(binding, binding.body.rest_pose());
+        double worst = 0;
+        for (std::size_t i = 0; i < back.size(); ++i)
+            test::take_worst(worst, glm::length(glm::dvec3(back[i]) - glm::dvec3(solid.positions[i])));
+        CHECK(worst < 1e-5 * 10);
+    }
+}
+
 TEST_CASE("radii: a knot in a stalk may be as narrow as radii are apart") {
     std::mt19937 random(5);
     const test::Solid solid = test::cylinder({.columns = 12, .rows = 800}, random);

@@ -139,14 +139,13 @@ Line along(const Line& line, const Eigen::Vector2d& curvature, double distance) 
 
 }  // namespace
 
-void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight) {
+void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight, double radius) {
     const double along = points.empty() ? 0 : points.back().along + (place - points.back().place).norm();
-    points.push_back({place, along, weight});
+    points.push_back({place, along, weight, radius});
 }
 
 CenterPoints center_points(const Body& body) {
     constexpr std::size_t count = 2000;
-    constexpr std::size_t askew = 2;
     const PlaceGraph graph(places_on(body, count));
     const std::size_t base = farthest(graph.distances(0));
     const std::vector<double> from_base = graph.distances(base);
@@ -157,7 +156,7 @@ CenterPoints center_points(const Body& body) {
     const double slices = std::floor(length / (center_step * radius));
     if (!(slices >= fewest_centers)) return {{}, radius};
     const auto bins = static_cast<std::size_t>(std::min(slices, most_centers));
-    std::vector<CenterPoint> sums(bins, {Vector3d::Zero(), 0, 0});
+    std::vector<CenterPoint> sums(bins, {Vector3d::Zero(), 0, 0, 0});
     for (std::size_t i = 0; i < graph.places().size(); ++i) {
         const double share = 0.5 + (from_base[i] - from_tip[i]) / (2 * length);
         const double bin = std::clamp(share * static_cast<double>(bins), 0.0, static_cast<double>(bins) - 1);
@@ -166,12 +165,16 @@ CenterPoints center_points(const Body& body) {
         sum.weight += 1;
     }
     std::vector<CenterPoint> points;
-    // What is equally far from both ends lies askew near them.
-    for (std::size_t i = askew; i + askew < bins; ++i) {
-        constexpr double enough = 6;
+    for (std::size_t i = 0; i < bins; ++i) {
+        constexpr double enough = 6, askew = 1.5;
         const CenterPoint& sum = sums[i];
         if (sum.weight < enough) continue;
-        append(points, sum.place / sum.weight, sum.weight / static_cast<double>(count));
+        const double share = sum.weight / static_cast<double>(count);
+        const double own = share * static_cast<double>(bins) * radius;
+        // What is equally far from both ends lies askew near them.
+        const double from_end = static_cast<double>(std::min(i, bins - 1 - i)) / static_cast<double>(bins);
+        if (from_end * length < askew * own) continue;
+        append(points, sum.place / sum.weight, share, own);
     }
     return {std::move(points), radius};
 }
@@ -203,8 +206,12 @@ Vector3d ArcChain::straightened(const Vector3d& place) const {
     return best;
 }
 
+std::size_t ArcChain::arc_at(double z) const {
+    return stretch_at(std::span(pieces_), z);
+}
+
 Line ArcChain::line_at(double z) const {
-    const std::size_t i = stretch_at(std::span(pieces_), z);
+    const std::size_t i = arc_at(z);
     return along(pieces_[i].line, arcs_[i].curvature, z - pieces_[i].start);
 }
 
@@ -246,22 +253,24 @@ private:
     std::vector<ChainArc> arcs_;
 };
 
-/// How far the chain at each point's height is from the point, and how much too far each arc is bent. Along
-/// the chain it does not count in full: lengths from point to point are not quite those of the chain.
+/// How far the chain at each point's height is from the point, and how much too far each arc is bent, in
+/// radii. Along the chain it does not count in full: lengths from point to point are not quite those of the
+/// chain.
 Eigen::VectorXd residuals(const ArcChain& chain, std::span<const CenterPoint> points, double radius) {
     constexpr double most_bent = 0.8, stiffness = 3, along = 0.3;
     const auto count = static_cast<Eigen::Index>(points.size());
-    Eigen::VectorXd all(3 * count + static_cast<Eigen::Index>(chain.arcs().size()));
+    const std::vector<ChainArc>& arcs = chain.arcs();
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * count + static_cast<Eigen::Index>(arcs.size()));
     for (Eigen::Index i = 0; i < count; ++i) {
         const CenterPoint& point = points[static_cast<std::size_t>(i)];
         const Line line = chain.line_at(point.along);
         Vector3d off = line.frame.transpose() * (point.place - line.point);
         off.z() *= along;
-        all.segment<3>(3 * i) = std::sqrt(point.weight) * off;
-    }
-    for (std::size_t i = 0; i < chain.arcs().size(); ++i) {
-        const double excess = radius * chain.arcs()[i].curvature.norm() - most_bent;
-        all[3 * count + static_cast<Eigen::Index>(i)] = stiffness * radius * std::max(excess, 0.0);
+        all.segment<3>(3 * i) = std::sqrt(point.weight) / point.radius * off;
+        const std::size_t arc = chain.arc_at(point.along);
+        double& excess = all[3 * count + static_cast<Eigen::Index>(arc)];
+        excess = std::max(
+            excess, stiffness * (std::max(point.radius, radius) * arcs[arc].curvature.norm() - most_bent));
     }
     return all;
 }
@@ -334,20 +343,20 @@ std::vector<std::size_t> cut_evenly(std::span<const CenterPoint> points, const B
 }
 
 /// Moves the chain to the points, without another arc, by damped least squares (Levenberg, Marquardt).
-ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, double radius,
-                    double shortest) {
+ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, const ChainLimits& limits) {
     constexpr int max_steps = 12;
     constexpr double settled = 1e-4, step_size = 1e-6;
     ArcChain chain = start;
     double damping = 1e-3;
-    Eigen::VectorXd off = residuals(chain, points, radius);
+    Eigen::VectorXd off = residuals(chain, points, limits.radius);
     for (int step = 0; step < max_steps; ++step) {
         const Unknowns unknowns(chain);
         Eigen::MatrixXd jacobian(off.size(), unknowns.count());
         for (Eigen::Index i = 0; i < unknowns.count(); ++i) {
             Eigen::VectorXd by = Eigen::VectorXd::Zero(unknowns.count());
             by[i] = step_size;
-            jacobian.col(i) = (residuals(unknowns.moved(by, shortest), points, radius) - off) / step_size;
+            jacobian.col(i) =
+                (residuals(unknowns.moved(by, limits.shortest), points, limits.radius) - off) / step_size;
         }
         const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
         const Eigen::VectorXd right = jacobian.transpose() * off;
@@ -356,8 +365,8 @@ ArcChain settled_on(const ArcChain& start, std::span<const CenterPoint> points, 
         for (int attempt = 0; attempt < 5 && !better; ++attempt, damping *= better ? 1 : 8) {
             Eigen::MatrixXd damped = normal;
             damped.diagonal() += damping * (normal.diagonal().array() + 1e-9).matrix();
-            const ArcChain moved = unknowns.moved(-damped.ldlt().solve(right), shortest);
-            const Eigen::VectorXd there = residuals(moved, points, radius);
+            const ArcChain moved = unknowns.moved(-damped.ldlt().solve(right), limits.shortest);
+            const Eigen::VectorXd there = residuals(moved, points, limits.radius);
             if (!(there.squaredNorm() < off.squaredNorm())) continue;
             gain = 1 - there.norm() / off.norm();
             chain = moved;
@@ -382,7 +391,7 @@ std::optional<ArcChain> fit_arcs(std::span<const CenterPoint> points, const Chai
         const double length = points[cuts[i + 1]].along - points[cuts[i]].along;
         arcs.push_back({length, (bends.turned[cuts[i + 1]] - bends.turned[cuts[i]]) / length});
     }
-    return settled_on({points[0].place, bends.frame, arcs}, points, limits.radius, limits.shortest);
+    return settled_on({points[0].place, bends.frame, arcs}, points, limits);
 }
 
 std::optional<ArcChain> fit_fewest_arcs(std::span<const CenterPoint> points, const ChainLimits& limits) {

@@ -19,6 +19,7 @@ struct CenterPoint {
     Vector3d place;
     double along;   ///< length from the first one
     double weight;  ///< share of the surface about it
+    double radius;  ///< of the body there
 };
 
 /// Sections along a body that have a center each: so many radii apart, as far as these are enough of them and
@@ -26,7 +27,7 @@ struct CenterPoint {
 inline constexpr double center_step = 0.75, fewest_centers = 12, most_centers = 96;
 
 /// Adds a point behind the others.
-void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight);
+void append(std::vector<CenterPoint>& points, const Vector3d& place, double weight, double radius);
 
 /// Points along the middle of a body, from one end to the other.
 struct CenterPoints {
@@ -58,6 +59,8 @@ public:
     /// The inverse.
     [[nodiscard]] Vector3d bent(const Vector3d& at) const;
 
+    /// The arc at a height. Beyond their ends it is the first and the last one.
+    [[nodiscard]] std::size_t arc_at(double z) const;
     /// The frame at a height.
     [[nodiscard]] Line line_at(double z) const;
 
@@ -74,12 +77,12 @@ private:
     std::vector<Piece> pieces_;  // one for each
 };
 
-/// Which chains may be fitted.
+/// Which chains may be fitted. An arc that has hardly an inner side, at the largest radius of its points, is
+/// avoided, but the caller has to look.
 struct ChainLimits {
-    /// An arc that has hardly an inner side at this distance is avoided, but the caller has to look.
-    double radius;
+    double radius;     ///< of the body, in the mean
     double shortest;   ///< no arc is shorter
-    double tolerance;  ///< rms distance from the points: of fit_fewest_arcs()
+    double tolerance;  ///< rms distance from the points, in their own radii: of fit_fewest_arcs()
 };
 
 /// Returns the chain of `count` arcs, 1 or more, that is near the points; nothing where so many have no room.

@@ -17,7 +17,7 @@ namespace {
 /// Lengths that a chain is fitted by, for a body of such a radius, in units of the body's size. A joint takes
 /// a stretch of the body.
 ChainLimits limits_of(double radius) {
-    return {.radius = radius, .shortest = 1.5 * radius, .tolerance = 0.08 * radius};
+    return {.radius = radius, .shortest = 1.5 * radius, .tolerance = 0.08};
 }
 
 View view_about(const Body& body, const ArcChain& chain) {
@@ -32,6 +32,7 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
         Vector3d right = Vector3d::Zero();
         double weight = 0, z = 0;
     };
+    constexpr double least_radius = 0.2, askew = 0.7;  // of the body's, and of a section's own
     const View view = view_about(body, chain);
     const auto [low, high] = extent(body, view);
     const double count =
@@ -49,12 +50,16 @@ std::vector<CenterPoint> section_centers(const Body& body, const ArcChain& chain
         all += weight;
     });
     std::vector<CenterPoint> points;
+    const double step = (high - low) / static_cast<double>(sums.size());
     for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
         const Sums& own = sums[i];
         if (!(own.weight > 0.1 * all / static_cast<double>(sums.size()))) continue;
         const Vector3d by = least_squares(own.normal, own.right);
-        if (!(by.tail<2>().norm() < limits.radius)) continue;
-        append(points, chain.bent({by[1], by[2], own.z / own.weight}), own.weight / all);
+        const double from_axis = by.tail<2>().norm(), radius = std::sqrt(by[0] + from_axis * from_axis);
+        if (!(from_axis < limits.radius && radius > 0)) continue;
+        if (static_cast<double>(std::min(i, sums.size() - 1 - i)) * step < askew * radius) continue;
+        append(points, chain.bent({by[1], by[2], own.z / own.weight}), own.weight / all,
+               std::max(radius, least_radius * limits.radius));
     }
     return points;
 }

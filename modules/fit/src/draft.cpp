@@ -64,6 +64,17 @@ Girths girths_of(const RestRegion& rest, paper::Profile profile, const RestMesh&
     return girths;
 }
 
+/// The thickest part of a region or what reaches into it, over the region's radius. Between the heights that
+/// a shape was looked at it may be thicker by a trace, as far as `max_angle` has room for that.
+double max_scale_of(const Plan& plan, double max_angle) {
+    constexpr double trace = 1e-3, nearly = 1 - 1e-5;
+    const RestRegion& rest = plan.rest;
+    if (!rest.shape) return 1;
+    const double thickest = std::max({1.0, rest.shape->max_scale(), plan.scale_beyond});
+    const double room = nearly * rest.length / (2 * rest.shape->radius() * max_angle);
+    return std::max(thickest, std::min((1 + trace) * thickest, room));
+}
+
 bend::RegionInput region_input(const Plan& plan, double onset, std::size_t vertex_count) {
     const RestRegion& rest = plan.rest;
     const Cylinder& cylinder = plan.cylinder;
@@ -77,9 +88,7 @@ bend::RegionInput region_input(const Plan& plan, double onset, std::size_t verte
     region.rest_direction = rest.rest.direction;
     region.max_angle = plan.max_angle(1);
     region.radius = radius;
-    // Between the heights that a shape was looked at it may be thicker by a trace.
-    region.max_scale =
-        rest.shape ? std::max(1.0, 1.001 * std::max(rest.shape->max_scale(), plan.scale_beyond)) : 1;
+    region.max_scale = max_scale_of(plan, region.max_angle);
     region.blend = rest.blend;
     region.blend_gain = plan.blend_gain;
     region.table = make_wrinkle_table(options.profile, options.amplitude, rest.folds, rest.length, radius,
