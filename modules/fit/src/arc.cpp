@@ -131,8 +131,7 @@ Line settle(const Body& body, const Line& start, int steps) {
 bool possible(const Fitted& arc) {
     const double angle = arc.angle(), radius = arc.section.radius;
     const double length = arc.high - arc.low + angle * radius;  // of the outer line
-    constexpr double inside = 1 - 1e-4;                         // leaves something of the inner line
-    return angle < 2 * std::numbers::pi && angle * 2 * radius < inside * length;
+    return angle < 2 * std::numbers::pi && has_inner_line(length, angle, radius);
 }
 
 std::optional<Fitted> arc_from(const Body& body, const Line& start, int steps) {

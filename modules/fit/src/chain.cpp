@@ -134,8 +134,7 @@ std::optional<Cylinder> cylinder_of(const Body& body, const ArcChain& chain) {
         start += arc.length;
         const double length = (i + 1 == chain.arcs().size() ? high : start) - from;
         const double angle = length * arc.curvature.norm();
-        constexpr double inside = 1 - 1e-4;  // leaves something of the inner line
-        if (!(length > 0 && angle * 2 * r < inside * (length + angle * r))) return std::nullopt;
+        if (!(length > 0 && has_inner_line(length + angle * r, angle, r))) return std::nullopt;
         const double direction =
             std::atan2(arc.curvature.y(), arc.curvature.x()) - std::atan2(zero.y(), zero.x());
         const double halves = std::ceil(std::max(angle / std::numbers::pi, 1.0));  // of a turn
@@ -217,10 +216,9 @@ ArcChain finished(const Body& body, const ArcChain& found, const ChainLimits& li
 /// Points along the middle of the body from base to tip; none where it is too stout for a chain, or does not
 /// lie along the axis.
 CenterPoints points_along(const Body& body, const std::optional<Vector3d>& axis) {
-    constexpr double within = 0.7;  // cosine of 45 degrees
     CenterPoints found = center_points(body);
     if (found.points.size() < fewest_points) return {{}, found.radius};
-    if (axis && std::abs(chord_of(found.points).dot(*axis)) < within) return {{}, found.radius};
+    if (axis && !lies_along(chord_of(found.points), *axis)) return {{}, found.radius};
     orient(found.points, axis);
     return found;
 }

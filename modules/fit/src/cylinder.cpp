@@ -80,13 +80,12 @@ Fitted toward(const std::optional<glm::dvec3>& axis, const Fitted& fitted) {
 /// The arc, if there is one and its chord has about the direction of `axis`.
 std::optional<Fitted> arc_instead(const Body& body, const Principal& principal, const Line& straight,
                                   const std::optional<glm::dvec3>& axis) {
-    constexpr double within = 0.7;  // cosine of 45 degrees
     const bool round_about = principal.distinct < long_enough;
     std::optional<Fitted> arc =
         fit_arc(body, axis && round_about ? given_axis(*axis) : principal.axis, straight);
     if (!arc || !axis) return arc;
     const Vector3d chord = moved_along(arc->line, (arc->low + arc->high) / 2).axis();
-    return std::abs(chord.dot(given_axis(*axis))) < within ? std::nullopt : arc;
+    return lies_along(chord, given_axis(*axis)) ? arc : std::nullopt;
 }
 
 /// Whether the arc explains the mesh better than the straight line: one radius does, or sections do by far,

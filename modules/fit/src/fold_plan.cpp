@@ -19,13 +19,6 @@ namespace {
 constexpr double longest = 2.5;  // radii of a fold that is too long for wrinkles
 constexpr double full = 1.5;     // radii of a fold up to which they have their depth
 
-std::size_t knots_of(const Cylinder& cylinder, double length, const WrinkleRange& range) {
-    constexpr double max_knots = 256;
-    const double min_knots = range.whole() ? 4 : 48;  // so that slices' weights need no more: see weighted()
-    const double quarters = std::ceil(4 * length / cylinder.radius);
-    return static_cast<std::size_t>(std::clamp(quarters, min_knots, max_knots)) + 1;
-}
-
 /// Full up to `full` radii, 0 from `longest` on; both a radius beyond what was asked for if that is longer.
 double fade_of(double radii, double asked) {
     const double excess = radii - std::max(asked - full, 0.0);
@@ -120,7 +113,9 @@ double fold_length_at(const Cylinder& cylinder, Profile profile, std::optional<d
 
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
-    const std::size_t knots = knots_of(cylinder, length, options.wrinkle_range);
+    const std::size_t knots = options.wrinkle_range.whole()
+                                  ? knots_along(length, cylinder.radius)
+                                  : knots_along(length, cylinder.radius, slice_knots);
     const std::vector<double> radii = radii_at(cylinder, start, length, knots);
     const std::optional<double> said = asked ? std::nullopt : options.fold_length;
     std::vector<double> wanted(knots);  // lengths of folds

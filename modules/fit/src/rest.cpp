@@ -110,12 +110,17 @@ private:
 
 }  // namespace
 
+std::size_t knots_along(double length, double radius, std::size_t least) {
+    constexpr double most_steps = 256;
+    const double quarters = std::ceil(4 * length / radius);
+    return static_cast<std::size_t>(std::clamp(quarters, static_cast<double>(least - 1), most_steps)) + 1;
+}
+
 std::shared_ptr<const paper::Shape> weighted(const RestRegion& region, double radius,
                                              const std::vector<double>& factors) {
     paper::Shape::Knots knots = region.shape ? region.shape->knots() : paper::Shape::Knots{};
-    constexpr std::size_t least = 49;
     const std::vector<double> own = knots.weight.empty() ? std::vector<double>{1, 1} : knots.weight;
-    const std::size_t count = std::max(own.size(), least);
+    const std::size_t count = std::max(own.size(), slice_knots);
     const paper::Spline before(1, own), by_height(1, factors);
     std::vector<double> weight;
     for (std::size_t i = 0; i < count; ++i) {
@@ -168,11 +173,8 @@ std::vector<double> radii_at(const Cylinder& cylinder, double start, double leng
 }
 
 std::vector<double> radii_of(const Cylinder& cylinder, double start, double length) {
-    constexpr double min_steps = 4, max_steps = 256;
     if (cylinder.radii.empty() || (start == 0 && length == cylinder.length)) return cylinder.radii;
-    const double quarters = std::ceil(4 * length / cylinder.radius);
-    return radii_at(cylinder, start, length,
-                    static_cast<std::size_t>(std::clamp(quarters, min_steps, max_steps)) + 1);
+    return radii_at(cylinder, start, length, knots_along(length, cylinder.radius));
 }
 
 double radius_of(const Cylinder& cylinder, double start, double length) {

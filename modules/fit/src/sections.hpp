@@ -36,6 +36,19 @@ struct Line {
 /// The same line, from the point and the tangent that lie `distance` along it.
 [[nodiscard]] Line moved_along(const Line& line, double distance);
 
+/// Whether a body whose ends lie apart in the direction `chord` lies along `axis`, one way or the other:
+/// within about 45 degrees. Both have unit length.
+[[nodiscard]] inline bool lies_along(const Vector3d& chord, const Vector3d& axis) {
+    constexpr double within = 0.7;  // cosine
+    return !(std::abs(chord.dot(axis)) < within);
+}
+
+/// Whether something is left of the inner line of an arc whose outer line is `length` long. False for NaN.
+[[nodiscard]] inline bool has_inner_line(double length, double angle, double radius) {
+    constexpr double most = 1 - 1e-4;
+    return angle * 2 * radius < most * length;
+}
+
 /// Maps places to coordinates about a line: (x, y) along e1 and e2 as carried along it, z the length along
 /// the line from its point. About a straight line these are the coordinates in its frame; about an arc, those
 /// that are left when it is unbent.
