@@ -175,7 +175,10 @@ TEST_CASE("repeated points are passed over") {
     const glm::vec3 point[] = {a, a, a};
     const glm::vec3 control[] = {a, a, a, a};
     for (const bend::PathFit& still :
-         {bend::poses_along(body, point, poses), bend::poses_along_bezier(body, control, poses)}) {
+         {bend::poses_along(body, point, poses), bend::poses_along(body, point, poses, {.distance = 40}),
+          bend::poses_along_bezier(body, control, poses),
+          bend::poses_along_bezier(body, control, poses, {.distance = 40}),
+          bend::poses_along_bezier(body, control, poses, {.distance = 3e38f})}) {
         CHECK(still.error == 0);
         CHECK(glm::distance(glm::dvec3(still.transform[3]), glm::dvec3(a) - body.origin()) < 1e-6);
         CHECK(same_poses(poses, std::vector<bend::Pose>(4)));
@@ -325,6 +328,42 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
     MESSAGE("off by ", worst, " at most, ", sum / trials, " on the average");
     CHECK(worst < 0.03);
     CHECK(sum / trials < 1e-4);
+}
+
+TEST_CASE("control points that are all but the same count as the same") {
+    Random random(97);
+    double turned = 0, off = 0;
+    const auto compare = [&](const bend::Body& body, const Control& control, const Control& other) {
+        std::vector<bend::Pose> poses(body.region_count()), others = poses;
+        const bend::PathFit fit = bend::poses_along_bezier(body, control, poses);
+        const bend::PathFit same = bend::poses_along_bezier(body, other, others);
+        for (std::size_t r = 0; r < poses.size(); ++r)
+            test::take_worst(turned, std::fabs(static_cast<double>(poses[r].angle - others[r].angle)));
+        test::take_worst(off, std::fabs(static_cast<double>(fit.error - same.error)) /
+                                  (static_cast<double>(same.error) + 0.01));
+    };
+    for (const std::size_t regions : {1u, 2u, 4u, 8u}) {
+        const bend::Body body = body_of_regions(random, regions);
+        for (const float little : {1e-5f, 1e-6f, 1e-9f, 1e-12f, 1e-20f, 1e-30f, 1e-40f}) {
+            for (int trial = 0; trial < 8; ++trial) {
+                Control control, same;
+                set_smooth(random, uniform(random, 0.3, 1.2) * body.length(), control);
+                for (const bool first : {false, true}) {
+                    const std::size_t end = first ? 0 : 3, handle = first ? 1 : 2;
+                    const glm::vec3 shift = control[end];  // what is left of the handle must not be rounded
+                    for (std::size_t i = 0; i < 4; ++i) same[i] = control[i] -= shift;
+                    same[handle] = {};
+                    control[handle] = little * glm::normalize(control[3 - end]);
+                    compare(body, control, same);
+                }
+                for (std::size_t i = 0; i < 4; ++i) control[i] *= little, same[i] *= 1e-4f;
+                compare(body, control, same);  // curves that are all but a point
+            }
+        }
+    }
+    MESSAGE("turned by ", turned, " at most, errors differ by a share of ", off);
+    CHECK(turned < 1e-3);
+    CHECK(off < 0.05);
 }
 
 TEST_CASE(

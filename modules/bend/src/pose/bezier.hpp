@@ -36,8 +36,9 @@ struct Vec3x4 {
 /// length. The parameter runs from 0 to 1 along the region.
 struct BezierStretch {
     Vec3x4 from, linear, square, cubic;
-    Vec3x4 end, onward;          // where the line begins, and its direction; 0 unless it `ends`
-    float begin_pace, end_pace;  // d parameter / d length
+    Vec3x4 end, onward;  // where the line begins, and its direction; 0 unless it `ends`
+    static constexpr double most_pace = 3;
+    float begin_pace, end_pace;  // d parameter / d length, limited
     Float4 least, most;          // the range of parameters on the curve that is searched
     bool ends;                   // the line is near
 
@@ -125,13 +126,13 @@ private:
         return start_ + t * (linear_ + t * (square_ + t * cubic_));
     }
     [[nodiscard]] glm::dvec3 slope(double t) const noexcept {
-        return t > 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
+        return t >= 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
     [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterSamples& samples) const noexcept;
 
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
-    glm::dvec3 onward_;          // slope beyond the end
+    glm::dvec3 onward_;          // slope beyond the end; 0 if the curve is a single point
     double before_[pieces + 1];  // length of the curve up to the beginning of each piece, and of all of it
     double pace_[pieces + 1];    // the pace there
     int piece_ = 0;              // found last by at()
@@ -146,8 +147,13 @@ inline Bezier::Bezier(const glm::vec3 (&control)[4], double start) noexcept : go
     linear_ = 3.0 * (b - a);
     square_ = 3.0 * (a - 2.0 * b + c);
     cubic_ = d - a + 3.0 * (b - c);
-    first_ = b != a ? b - a : c != a ? c - a : d - a;
-    onward_ = 3.0 * (d != c ? d - c : d != b ? d - b : d - a);
+    // What is left of a handle after rounding has a direction that the curve leaves at once.
+    const double least = 1e-5 * (glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, d));
+    const auto apart = [least](const glm::dvec3& p, const glm::dvec3& q) {
+        return glm::distance(p, q) > least;
+    };
+    first_ = apart(a, b) ? b - a : apart(a, c) ? c - a : d - a;
+    onward_ = 3.0 * (apart(d, c) ? d - c : apart(d, b) ? d - b : d - a);
     measure();
     here_ = at(start);
 }
@@ -165,6 +171,9 @@ inline void Bezier::measure() noexcept {
         const double mean = (at[0] + 4 * at[1] + at[2]) / 6;
         before_[i + 1] = before_[i] + mean / pieces;
     }
+    // Beyond the end a parameter that ran far faster than on the curve would leave the range of its powers.
+    const double whole = before_[pieces], slowest = 1e-3 * whole, end = glm::length(onward_);
+    if (end > 0 && end < slowest) onward_ *= slowest / end;
     // Where control points coincide the speed is 0: at() limits paces to far less than this.
     const double least = std::max(1e-12 * before_[pieces], min_square);
     for (std::size_t i = 0; i < std::size(pace_); ++i) pace_[i] = 1 / std::max(speed[2 * i], least);
@@ -174,7 +183,7 @@ inline void Bezier::measure() noexcept {
 /// Paces are limited so that the cubic increases for sure.
 inline Bezier::Place Bezier::at(double length) noexcept {
     if (length >= before_[pieces]) {
-        const double pace = 1 / std::max(glm::length(onward_), min_square);
+        const double speed = glm::length(onward_), pace = speed > 0 ? 1 / speed : 0;
         return {1 + (length - before_[pieces]) * pace, pace};
     }
     while (before_[piece_ + 1] < length) ++piece_;
@@ -191,18 +200,26 @@ inline Bezier::Place Bezier::at(double length) noexcept {
 inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& samples) const noexcept {
     const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / samples.length;
     const double t = std::min(here_.t, 1.0), left = std::max(1 - here_.t, 0.0) * per_span;
+    // The line is searched from two regions behind its current place on.
+    const double behind = std::max(here_.t - 1 - 2 * span, 0.0);
+    const glm::dvec3 end = point(1) + behind * onward_;
+    // A curve that is so far behind, or so much shorter than the region, is a point to it: where the line
+    // begins.
+    const double curved = behind > 0 || span > 1e6 ? 0 : span;
     BezierStretch stretch;
-    stretch.from.set(glm::vec3(unit * (point(t) - samples.begin)));
-    stretch.linear.set(glm::vec3(unit * span * slope(t)));
-    stretch.square.set(glm::vec3(unit * span * span * (square_ + 3.0 * t * cubic_)));
-    stretch.cubic.set(glm::vec3(unit * span * span * span * cubic_));
-    stretch.begin_pace = static_cast<float>(std::min(here_.pace * samples.length * per_span, 3.0));
-    stretch.end_pace = static_cast<float>(std::min(to.pace * samples.length * per_span, 3.0));
+    stretch.from.set(glm::vec3(unit * ((curved == 0 ? end : point(t)) - samples.begin)));
+    stretch.linear.set(glm::vec3(unit * curved * slope(t)));
+    stretch.square.set(glm::vec3(unit * curved * curved * (square_ + 3.0 * t * cubic_)));
+    stretch.cubic.set(glm::vec3(unit * curved * curved * curved * cubic_));
+    stretch.begin_pace =
+        static_cast<float>(std::min(here_.pace * samples.length * per_span, BezierStretch::most_pace));
+    stretch.end_pace =
+        static_cast<float>(std::min(to.pace * samples.length * per_span, BezierStretch::most_pace));
     stretch.least = splat(static_cast<float>(std::max(-t * per_span, -1.0)));
     stretch.most = splat(static_cast<float>(std::min(left, 2.0)));
     stretch.ends = left < 2;
-    // Compilers may square the line's direction before they ask whether the line is near.
-    stretch.end.set(stretch.ends ? glm::vec3(unit * (point(1) - samples.begin)) : glm::vec3(0));
+    // Compilers may square the line's direction before they ask whether it is near.
+    stretch.end.set(stretch.ends ? glm::vec3(unit * (end - samples.begin)) : glm::vec3(0));
     stretch.onward.set(stretch.ends ? glm::vec3(unit * span * onward_) : glm::vec3(0));
     return stretch;
 }
@@ -212,10 +229,8 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
     // Steps this small end the search: the error that remains is about their square.
     constexpr float near = 0.004f;
     constexpr int fours = CenterSamples::fours;
-    gone_ += samples.length;
-    const Place to = at(gone_);
+    const Place from = here_, to = at(gone_ + samples.length);
     const BezierStretch stretch = stretch_to(to, samples);
-    here_ = to;
     Vec3x4 seen[fours];
     Float4 feet[fours], squares[fours], nearest[fours];
     for (int i = 0; i < fours; ++i) {
@@ -224,18 +239,39 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
         feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
         nearest[i] = splat(std::numeric_limits<float>::max());
     }
-    Float4 moved = splat(1);
-    for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
-        moved = splat(0);
-        for (int i = 0; i < fours; ++i) {
-            const Float4 before = feet[i];
-            const BezierStretch::Squares found = stretch.step(seen[i], feet[i]);
-            squares[i] = found.from_feet;
-            nearest[i] = min(nearest[i], found.from_curve);
-            moved = max(moved, abs(feet[i] - before));
+    const auto settles = [&] {
+        Float4 moved = splat(1);
+        for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
+            moved = splat(0);
+            for (int i = 0; i < fours; ++i) {
+                const Float4 before = feet[i];
+                const BezierStretch::Squares found = stretch.step(seen[i], feet[i]);
+                squares[i] = found.from_feet;
+                nearest[i] = min(nearest[i], found.from_curve);
+                moved = max(moved, abs(feet[i] - before));
+            }
         }
+        return largest(moved) <= near;
+    };
+    const auto look_up = [&] {
+        const auto place = [&](int sample) {
+            const double ahead = samples.length * (sample + 1) / CenterSamples::count;
+            return static_cast<float>((at(gone_ + ahead).t - from.t) / std::max(to.t - from.t, 1e-30));
+        };
+        for (int i = 0; i < fours; ++i)
+            feet[i] = {place(4 * i), place(4 * i + 1), place(4 * i + 2), place(4 * i + 3)};
+    };
+    // Where the curve all but stands still, guesses are too rough, and a search may end at that place.
+    const bool uneven = std::max(stretch.begin_pace, stretch.end_pace) >= BezierStretch::most_pace;
+    if (uneven) look_up();
+    bool settled = settles();
+    if (!settled && !uneven) {
+        look_up();
+        settled = settles();
     }
-    if (largest(moved) > near) {  // feet on tangents may be far from the curve, and nearer than it is
+    gone_ += samples.length;
+    here_ = to;
+    if (!settled) {  // feet on tangents may be far from the curve, and nearer than it is
         for (int i = 0; i < fours; ++i)
             squares[i] = min(nearest[i], stretch.step(seen[i], feet[i]).from_curve);
     }

@@ -36,7 +36,7 @@ inline void count(const PoseState& state, CrowdResult& result) noexcept {
 /// tiny_angle in kernel/setup_kernel.hpp.
 [[nodiscard]] inline float usable_weight(float weight) noexcept {
     constexpr float tiny = 1e-12f;
-    return weight >= tiny ? std::min(weight, 1.0f) : 0.0f;
+    return std::isgreaterequal(weight, tiny) ? std::min(weight, 1.0f) : 0.0f;  // NaN traps in no comparison
 }
 
 /// The weight at an element of a column, which may not be given.

@@ -179,8 +179,8 @@ struct CrowdResult {
 /// Deforms all instances that are not skipped, on the calling thread. `job` must validate, except for its
 /// poses, weights and transforms, which may hold any bits: angles are clamped, poses that are not finite are
 /// taken as at rest, weights beyond 0..1 as the nearer of these and NaN as 0, and transforms that are not
-/// finite give positions that are not. Allocates and logs nothing, and locks in the first run of a process
-/// alone; takes up to 64 KB of stack. Thread-safe where outputs do not overlap.
+/// finite give infinities, and NaNs of any bits. Allocates and logs nothing, and locks in the first run of a
+/// process alone; takes up to 64 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone: not on the
 /// split, the number of threads, an instance's neighbors or `stores`.

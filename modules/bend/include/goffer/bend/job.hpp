@@ -93,8 +93,8 @@ struct DeformResult {
 
 /// Deforms all vertices on the calling thread. `job` must validate, except for its poses, weight and
 /// transforms, which may hold any bits: a weight counts as the nearest in 0..1 (a NaN as 0), and transforms
-/// that are not finite give positions that are not. Allocates and logs nothing, and locks in the first run of
-/// a process alone; takes up to 64 KB of stack. Thread-safe where outputs do not overlap.
+/// that are not finite give infinities, and NaNs of any bits. Allocates and logs nothing, and locks in the
+/// first run of a process alone; takes up to 64 KB of stack. Thread-safe where outputs do not overlap.
 ///
 /// On one machine and with one build, the bits of the result depend on `job` and its isa alone. Processors of
 /// different makers may differ in the last bits, unless the isa is scalar: see modules/README.md,

@@ -67,8 +67,10 @@ struct PathFit {
 PathFit poses_along(const Body& body, std::span<const glm::vec3> points, std::span<Pose> poses,
                     const PathStart& start = {}) noexcept;
 
-/// The same along the cubic Bezier curve of four control points, any of which may be equal. Directions are
-/// those of the curve itself. Takes time in proportion to the number of regions.
+/// The same along the cubic Bezier curve of four control points, any of which may be equal. Points nearer to
+/// each other than 1e-5 of the control polygon's length count as equal, so that what rounding leaves of a
+/// collapsed handle does not turn the body. Directions are those of the curve itself. Takes time in
+/// proportion to the number of regions.
 PathFit poses_along_bezier(const Body& body, const glm::vec3 (&control)[4], std::span<Pose> poses,
                            const PathStart& start = {}) noexcept;
 
