@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace goffer::fit {
@@ -193,17 +195,36 @@ bool holds(const Cylinder& cylinder, const Body& body) {
 
 constexpr std::size_t fewest_points = 6;
 
-/// The chain through the middle of the body, of `arcs` or, where that is 0, of as few as follow it.
+/// The chain through the middle of the body, of `arcs` or, where that is 0, of as few as follow it. `noise`:
+/// the tolerance for the first points, which are less exact.
 std::optional<ArcChain> chain_through(const Body& cloud, std::vector<CenterPoint> points,
-                                      const ChainLimits& limits, std::size_t arcs) {
+                                      const ChainLimits& limits, std::size_t arcs, double noise) {
     constexpr int rounds = 3;
     for (int round = 0;; ++round) {
+        const ChainLimits own = {limits.radius, limits.shortest, round == 0 ? noise : limits.tolerance};
         std::optional<ArcChain> chain =
-            arcs == 0 ? fit_fewest_arcs(points, limits) : fit_arcs(points, limits, arcs);
+            arcs == 0 ? fit_fewest_arcs(points, own) : fit_arcs(points, own, arcs);
         if (!chain || round == rounds) return chain;
         points = section_centers(cloud, *chain, limits);
         if (points.size() < fewest_points) return std::nullopt;
     }
+}
+
+/// The chain of as few arcs as follow the body. Points that are less exact than they might be are followed by
+/// needless arcs, and those that are more exact by too few: both are tried.
+std::optional<ArcChain> fewest_arcs_through(const Body& cloud, const std::vector<CenterPoint>& points,
+                                            const ChainLimits& limits) {
+    constexpr double better = 0.8;
+    std::optional<ArcChain> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double noise : {1.5 * limits.tolerance, limits.tolerance}) {
+        std::optional<ArcChain> chain = chain_through(cloud, points, limits, 0, noise);
+        const double rough = chain ? roughness(cloud, view_about(cloud, *chain)) : least;
+        if (!(rough < better * least)) continue;
+        least = rough;
+        best = std::move(chain);
+    }
+    return best;
 }
 
 /// The chain as far as the body reaches, with arcs straight that are nearly so.
@@ -245,35 +266,46 @@ Cylinder cut_to(Cylinder cylinder, std::size_t count) {
     return cylinder;
 }
 
+/// Whether sections about a chain, of the roughness `now`, are circles where those about a line are not.
+bool is_clean(double now, double rough, double radius) {
+    return now < 0.1 * radius && now < 0.45 * rough;
+}
+
+/// Whether they are at least better.
+bool is_better(double now, double rough, double radius) {
+    return (now < 0.2 * radius && now < 0.7 * rough) || (now < 0.25 * radius && now < 0.5 * rough);
+}
+
 constexpr std::size_t samples = 4000;
 
 }  // namespace
 
 std::optional<Cylinder> fit_chain(const Body& body, const Line& line, const std::optional<Vector3d>& axis) {
-    constexpr double rough_enough = 0.12, smooth = 0.2, better = 0.7;
-    constexpr double less_smooth = 0.25, much_better = 0.5;
-    constexpr double least_aside = 1;  // radii: what bends less is a relief
-    constexpr double few_times = 4;    // what a line's radius may be of the slimmest that is possible
+    constexpr double least_rough = 0.08, rough_enough = 0.12;  // of the line's radius
+    constexpr double least_aside = 0.25, far_aside = 1;        // radii
+    constexpr double few_times = 4;  // what a line's radius may be of the slimmest that is possible
     std::vector<std::uint32_t> triangles;
     const Body cloud = sampled_surface(body, samples, triangles);
     const View along_line(cloud, line);
     const double rough = roughness(cloud, along_line);
     const std::optional<Section> before = section_around(cloud, along_line);
-    const bool tube = before && !(rough > rough_enough * before->radius);
-    if (tube && before->radius < few_times * slimmest(body)) return std::nullopt;
+    const bool slim = before && before->radius < few_times * slimmest(body);
+    if (slim && !(rough > least_rough * before->radius)) return std::nullopt;
     const CenterPoints found = points_along(body, axis);
-    if (found.points.empty() || !(aside(found.points, line) > least_aside * found.radius))
-        return std::nullopt;
+    if (found.points.empty()) return std::nullopt;
+    const double bow = aside(found.points, line) / found.radius;
+    if (!(bow > least_aside)) return std::nullopt;
     const ChainLimits limits = limits_of(found.radius);
-    const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, 0);
+    const std::optional<ArcChain> through = fewest_arcs_through(cloud, found.points, limits);
     if (!through) return std::nullopt;
     const ArcChain chain = finished(body, *through, limits);
     if (chain.arcs().size() < 2) return std::nullopt;
     const View view = view_about(cloud, chain);
     const double now = roughness(cloud, view);
-    const bool follows = now < smooth * limits.radius && now < better * rough;
-    const bool far_better = now < less_smooth * limits.radius && now < much_better * rough;
-    if (!follows && !far_better) return std::nullopt;
+    // What bends by less than a radius may be a relief, unless that is a clean tube.
+    const bool far = bow > far_aside && !(slim && !(rough > rough_enough * before->radius));
+    if (!is_clean(now, rough, limits.radius) && !(far && is_better(now, rough, limits.radius)))
+        return std::nullopt;
     const std::optional<Cylinder> base = base_about(chain, body, cloud, view);
     return base && is_bent_tube(body, *base) ? base : std::nullopt;
 }
@@ -287,7 +319,9 @@ std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
     const ChainLimits limits = limits_of(found.radius);
     std::optional<Cylinder> best;
     const auto follow = [&](std::size_t count) {
-        const std::optional<ArcChain> through = chain_through(cloud, found.points, limits, count);
+        const std::optional<ArcChain> through =
+            count == 0 ? fewest_arcs_through(cloud, found.points, limits)
+                       : chain_through(cloud, found.points, limits, count, limits.tolerance);
         if (!through) return;
         const ArcChain chain = finished(body, *through, limits);
         std::optional<Cylinder> base = base_about(chain, body, cloud, view_about(cloud, chain));
