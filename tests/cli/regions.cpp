@@ -145,6 +145,21 @@ TEST_CASE("bend: more than a full turn is said to go through itself") {
     CHECK_FALSE(beyond({"--regions", "0.5,0.5", "--angles", "200,-190"}));
 }
 
+TEST_CASE("bend: a body that runs through itself is said to, though it bends by less than a full turn") {
+    const Folder folder;
+    base(folder, "base.ply", {"--length", "60"});  // radii
+    const auto warnings = [&](const std::string& angles) {
+        const json said = report(
+            folder, {"bend", "base.ply", "-o", "out.ply", "--regions", "0.4,0.2,0.4", "--angles", angles});
+        CHECK(said["runs_through_itself"].get<bool>() == !said["warnings"].empty());
+        return said["warnings"].dump();
+    };
+    CHECK(warnings("0,180,0") == "[]");  // legs lie side by side
+    CHECK(warnings("0,250,0").find("parts of the body go through each other; bend it less") !=
+          std::string::npos);
+    CHECK(warnings("250,0,-250") == "[]");
+}
+
 TEST_CASE("bend: shares that are rounded make a whole") {
     const Folder folder;
     base(folder);

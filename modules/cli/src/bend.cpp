@@ -181,6 +181,14 @@ void warn_of_patches(Report& report, const BoundModel& model, const fit::PatchCh
             (shown ? "" : "; --png with --show area colors where"));
 }
 
+/// What straightens a body less that is bent to and fro at rest, as an S is, where nobody said which way.
+std::string less_stretch(const PoseRequest& request, const bend::Body& body) {
+    const bool said = std::ranges::any_of(request.directions, [](const auto& d) { return d.has_value(); });
+    if (said || request.along_path || !counts_from_rest(request, body) || !is_chain(body)) return {};
+    const double across = std::remainder(std::round(rest_direction(body)) + 90, 360.0);
+    return "; --direction " + number(across) + ", across that, straightens it less";
+}
+
 /// Returns whether it is known why the area may change: it was chosen to, or a warning says so.
 bool report_bend(Report& report, const Request& request, const BoundModel& model,
                  const std::vector<Target>& targets, const Deformed& bent, double area_before) {
@@ -215,7 +223,7 @@ bool report_bend(Report& report, const Request& request, const BoundModel& model
                             ", threads: " + std::to_string(request.threads) + ")");
     const bool few_folds = !model.baked && warn_of_folds(report, request.bind, model, used);
     const double change = area_after / area_before - 1;
-    if (straightened) warn_of_stretch(report, change);
+    if (straightened) warn_of_stretch(report, change, {}, less_stretch(request.pose, binding.body));
     if (straightened || !keeps_area(request, model)) return true;
     return warn_of_area(report, change, few_folds, targets.size() == 1) || few_folds;
 }

@@ -2,6 +2,7 @@
 #include "poses.hpp"
 
 #include "arguments.hpp"
+#include "crossing.hpp"
 #include "model.hpp"
 
 #include <goffer/bend/body_input.hpp>
@@ -493,7 +494,13 @@ bool report_poses(Report& report, const PoseRequest& request, const std::vector<
     report.json["clamped"] = clamped;
     const bool beyond = beyond_full_turn(body, poses_of(targets));
     report.json["beyond_full_turn"] = beyond;
-    if (beyond) report.warn(std::string("this is ") + full_turn_words);
+    const bool through = runs_through_itself(body, poses_of(targets));
+    report.json["runs_through_itself"] = through;
+    if (beyond) {
+        report.warn(std::string("this is ") + full_turn_words);
+    } else if (through) {
+        report.warn("parts of the body go through each other; bend it less, or another way with --direction");
+    }
     return report_rest_pose(report, request, targets, body);
 }
 

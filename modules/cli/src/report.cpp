@@ -68,7 +68,7 @@ std::string number(double value) {
 }
 
 std::string angle_text(double degrees) {
-    constexpr double rounding = 1e-5;  // of floats
+    constexpr double rounding = 1e-3;  // of floats, and of what is fitted to them
     return number(std::fabs(degrees) < rounding ? 0 : degrees);
 }
 

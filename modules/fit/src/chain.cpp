@@ -210,11 +210,15 @@ std::optional<ArcChain> chain_through(const Body& cloud, std::vector<CenterPoint
     }
 }
 
-/// The chain of as few arcs as follow the body. Points that are less exact than they might be are followed by
-/// needless arcs, and those that are more exact by too few: both are tried.
+/// What a further arc has to lower roughness to, so that it does not follow noise.
+constexpr double clearly_better = 0.7;
+
+/// The chain of as few arcs as follow the body, and one more where that does so far better. Points that are
+/// less exact than they might be are followed by needless arcs, and those that are more exact by too few:
+/// both are tried.
 std::optional<ArcChain> fewest_arcs_through(const Body& cloud, const std::vector<CenterPoint>& points,
                                             const ChainLimits& limits) {
-    constexpr double better = 0.8;
+    constexpr double better = 0.8, rough_enough = 0.04;
     std::optional<ArcChain> best;
     double least = std::numeric_limits<double>::infinity();
     for (const double noise : {1.5 * limits.tolerance, limits.tolerance}) {
@@ -223,6 +227,14 @@ std::optional<ArcChain> fewest_arcs_through(const Body& cloud, const std::vector
         if (!(rough < better * least)) continue;
         least = rough;
         best = std::move(chain);
+    }
+    while (best && least > rough_enough * limits.radius && best->arcs().size() < max_arcs) {
+        std::optional<ArcChain> more =
+            chain_through(cloud, points, limits, best->arcs().size() + 1, limits.tolerance);
+        const double rough = more ? roughness(cloud, view_about(cloud, *more)) : least;
+        if (!(rough < clearly_better * least)) break;
+        least = rough;
+        best = std::move(more);
     }
     return best;
 }
@@ -317,23 +329,40 @@ std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
     const CenterPoints found = points_along(body, axis);
     if (found.points.empty()) return std::nullopt;
     const ChainLimits limits = limits_of(found.radius);
-    std::optional<Cylinder> best;
-    const auto follow = [&](std::size_t count) {
+    struct Followed {
+        Cylinder base;
+        double rough;
+    };
+    const auto follow = [&](std::size_t count) -> std::optional<Followed> {
         const std::optional<ArcChain> through =
             count == 0 ? fewest_arcs_through(cloud, found.points, limits)
                        : chain_through(cloud, found.points, limits, count, limits.tolerance);
-        if (!through) return;
+        if (!through) return std::nullopt;
         const ArcChain chain = finished(body, *through, limits);
-        std::optional<Cylinder> base = base_about(chain, body, cloud, view_about(cloud, chain));
-        if (base && (!best || base->arcs.size() < best->arcs.size())) best = std::move(base);
+        const View view = view_about(cloud, chain);
+        std::optional<Cylinder> base = base_about(chain, body, cloud, view);
+        if (!base) return std::nullopt;
+        return Followed{*std::move(base), roughness(cloud, view)};
     };
-    // Further arcs than those that follow the body would follow its noise. Fewer may be fewer still, since
-    // arcs beyond an end are left out; or more, since one of more than a half turn becomes two.
-    const auto few_enough = [&] { return best && best->arcs.size() <= arcs; };
-    follow(0);
-    for (std::size_t count = std::min(arcs, max_arcs); count > 0 && !few_enough(); --count) follow(count);
-    for (std::size_t count = arcs + 1; count <= max_arcs && !best; ++count) follow(count);
-    return few_enough() ? cut_to(*std::move(best), arcs) : best;
+    std::optional<Followed> best = follow(0);
+    const auto take_fewer = [&](std::size_t count) {
+        std::optional<Followed> other = follow(count);
+        if (other && (!best || other->base.arcs.size() < best->base.arcs.size())) best = std::move(other);
+    };
+    // Fewer may be fewer still, since arcs beyond an end are left out; or more, since one of more than a half
+    // turn becomes two.
+    const auto few_enough = [&] { return best && best->base.arcs.size() <= arcs; };
+    for (std::size_t count = std::min(arcs, max_arcs); count > 0 && !few_enough(); --count) take_fewer(count);
+    for (std::size_t count = arcs + 1; count <= max_arcs && !best; ++count) take_fewer(count);
+    if (!best) return std::nullopt;
+    if (best->base.arcs.size() >= arcs) return std::move(best->base);
+    // Further arcs may follow the body's noise: they have to be clearly better than halves of the others.
+    for (std::size_t count = best->base.arcs.size() + 1; count <= std::min(arcs, max_arcs); ++count) {
+        std::optional<Followed> more = follow(count);
+        if (more && more->base.arcs.size() <= arcs && more->rough < clearly_better * best->rough)
+            best = std::move(more);
+    }
+    return cut_to(std::move(best->base), arcs);
 }
 
 }  // namespace goffer::fit

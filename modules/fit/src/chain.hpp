@@ -18,10 +18,10 @@ namespace goffer::fit {
 [[nodiscard]] std::optional<Cylinder> fit_chain(const Body& body, const Line& line,
                                                 const std::optional<Vector3d>& axis);
 
-/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not. Where fewer arcs
-/// follow the body as closely as fit_chain() asks for, the longest ones are halved. Where it takes more, they
-/// are more: as few as were found. Nothing where the body has no chain, or is not all around it. `axis` as
-/// above.
+/// Returns the base of a body along a chain of `arcs`, whether it is clearly better or not. Where fewer
+/// follow the body as closely as fit_chain() asks for, and more would not do so clearly better, the longest
+/// ones are halved. Where it takes more, they are more: as few as were found. Nothing where the body has no
+/// chain, or is not all around it. `axis` as above.
 [[nodiscard]] std::optional<Cylinder> fit_chain_of(const Body& body, std::size_t arcs,
                                                    const std::optional<Vector3d>& axis);
 

@@ -81,18 +81,19 @@ public:
 /// than a thousandth of it across the gap between the ends); and if a given `axis` is within about 45 degrees
 /// of its chord. Otherwise the result is that of RestPose::straight, and rest_angle is exactly 0.
 ///
-/// With RestPose::chain, a body that is rougher than 0.12 of the radius about that arc or line, or much
+/// With RestPose::chain, a body that is rougher than 0.08 of the radius about that arc or line, or much
 /// slenderer than its sections about it, may get a chain of 2 to max_arcs (more where one would turn by more
-/// than half a turn), and its body as many regions: if its sections lie all around the chain, and are circles
-/// about it within 0.2 of the radius and within 0.7 of what they are about the line, or within 0.25 and 0.5;
-/// if the middle of the body is more than a radius from the line somewhere; if all of it lies between the
-/// chain's ends; if it is a tube that was bent along it; and if a given `axis` is within about 45 degrees of
-/// its chord, which is signed as the long axis is otherwise. A mesh without a long axis may get one, too. How
-/// many arcs follow a body best may change with a small change of its mesh.
+/// than half a turn), and its body as many regions: if its sections lie all around the chain; if all of it
+/// lies between the chain's ends; if it is a tube that was bent along it; and if a given `axis` is within
+/// about 45 degrees of its chord, which is signed as the long axis is otherwise. Its sections must be circles
+/// about the chain within 0.1 of the radius and within 0.45 of what they are about the line, and its middle a
+/// quarter of the radius from the line somewhere; or, where it is rougher than 0.12 and its middle more than
+/// the radius from the line, within 0.2 and 0.7 or within 0.25 and 0.5. A mesh without a long axis may get
+/// one, too. How many arcs follow a body best may change with a small change of its mesh.
 ///
 /// `arcs`, 2..bend::max_regions, says how many with RestPose::chain: the result is then a chain of so many,
-/// whatever else would be better, if the body is a tube or not. Where fewer follow the body, the longest ones
-/// are halved. 0: as above.
+/// whatever else would be better, if the body is a tube or not. Where fewer follow the body, and more do not
+/// do so clearly better, the longest ones are halved. 0: as above.
 ///
 /// The result does not depend on how densely parts are tessellated, on duplicated vertices, or on whether the
 /// ends are closed; it follows rotation, translation and uniform scale of the mesh.
