@@ -90,6 +90,23 @@ TEST_CASE("chain: bend leaves it as it is by 0, straightens it to 0, and shares 
           doctest::Approx(20).epsilon(0.01));
 }
 
+TEST_CASE("chain: where bending an S on stretches it, a direction is named that stretches it less") {
+    const Folder folder;
+    const Words words{"bend", pipe(folder), "--by", "90", "-o", "out.glb"};
+    const json in_plane = report(folder, words);
+    REQUIRE(in_plane["warnings"].size() == 1);
+    const std::string said = in_plane["warnings"][0].get<std::string>(), option = "; --direction ";
+    const std::size_t at = said.find(option), end = said.find(", across that", at);
+    REQUIRE(end != said.npos);
+    const std::string direction = said.substr(at + option.size(), end - at - option.size());
+    const json across = report(folder, words + Words{"--direction", direction});
+    const auto change = [](const json& of) {
+        return std::abs(of["area_after"].get<double>() / of["area_before"].get<double>() - 1);
+    };
+    CHECK(across["warnings"].empty());
+    CHECK(change(across) < 0.3 * change(in_plane));
+}
+
 TEST_CASE("chain: what a region has no room for goes to the others") {
     const Folder folder;
     copy_of(folder, "insect_leg.glb");  // its knee hardly bends further
