@@ -129,6 +129,9 @@ private:
         return t >= 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
     [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterSamples& samples) const noexcept;
+    /// Sets `feet` to where the samples of a region of `length` would be if it lay on the curve, from `from`
+    /// to `to`.
+    void look_up(const Place& from, const Place& to, double length, Float4* feet) noexcept;
 
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
@@ -224,6 +227,15 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& sa
     return stretch;
 }
 
+inline void Bezier::look_up(const Place& from, const Place& to, double length, Float4* feet) noexcept {
+    constexpr int count = CenterSamples::count;
+    const double per_span = 1 / std::max(to.t - from.t, 1e-30);
+    float places[count];
+    for (int i = 0; i < count; ++i)
+        places[i] = static_cast<float>((at(gone_ + length * (i + 1) / count).t - from.t) * per_span);
+    for (int i = 0; i < CenterSamples::fours; ++i) feet[i] = simd::load4(places + std::ptrdiff_t{4} * i);
+}
+
 inline double Bezier::advance(const CenterSamples& samples) noexcept {
     constexpr int max_steps = 8;
     // Steps this small end the search: the error that remains is about their square.
@@ -239,7 +251,11 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
         feet[i] = stretch.parameters(splat(0.25f * static_cast<float>(i)) + shares) + splat(drift_);
         nearest[i] = splat(std::numeric_limits<float>::max());
     }
-    const auto settles = [&] {
+    // Where the curve all but stands still, guesses are too rough, and a search may end at that place.
+    bool settled = false;
+    bool looks_up = std::max(stretch.begin_pace, stretch.end_pace) >= BezierStretch::most_pace;
+    for (int attempt = looks_up ? 1 : 0; attempt < 2 && !settled; ++attempt, looks_up = true) {
+        if (looks_up) look_up(from, to, samples.length, feet);
         Float4 moved = splat(1);
         for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
             moved = splat(0);
@@ -251,23 +267,7 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
                 moved = max(moved, abs(feet[i] - before));
             }
         }
-        return largest(moved) <= near;
-    };
-    const auto look_up = [&] {
-        const auto place = [&](int sample) {
-            const double ahead = samples.length * (sample + 1) / CenterSamples::count;
-            return static_cast<float>((at(gone_ + ahead).t - from.t) / std::max(to.t - from.t, 1e-30));
-        };
-        for (int i = 0; i < fours; ++i)
-            feet[i] = {place(4 * i), place(4 * i + 1), place(4 * i + 2), place(4 * i + 3)};
-    };
-    // Where the curve all but stands still, guesses are too rough, and a search may end at that place.
-    const bool uneven = std::max(stretch.begin_pace, stretch.end_pace) >= BezierStretch::most_pace;
-    if (uneven) look_up();
-    bool settled = settles();
-    if (!settled && !uneven) {
-        look_up();
-        settled = settles();
+        settled = largest(moved) <= near;
     }
     gone_ += samples.length;
     here_ = to;
