@@ -96,7 +96,10 @@ TEST_CASE("suitability: a flat body") {
     CHECK(squashed(2).find("flat") == std::string::npos);
     const std::string said = squashed(6);
     CHECK(said.find("it is flat, ") != said.npos);
-    CHECK(said.find("--direction") != said.npos);
+    CHECK(said.find("--direction 90, ") != said.npos);
+    mesh::Mesh turned = rods(folder, {{0, 0, 0}});
+    for (glm::vec3& p : turned.positions) p = {0.6f * p.x + 0.13f * p.y, 0.8f * p.x - 0.1f * p.y, p.z};
+    CHECK(warning(folder, turned).find("--direction 143, ") != std::string::npos);  // across (0.6, 0.8)
 }
 
 TEST_CASE("suitability: a body far from any cylinder") {

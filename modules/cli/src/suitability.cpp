@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "suitability.hpp"
 
+#include "arguments.hpp"
+
 #include <goffer/fit/cylinder.hpp>
 #include <goffer/fit/suitability.hpp>
 
@@ -56,7 +58,9 @@ std::string warning(const fit::Suitability& found, double residual) {
     if (found.flatness > flat)
         return "it is flat, " + number(found.flatness) +
                " times as wide as thick, and wrinkles are made for a round body; bend it across its thin "
-               "side with --direction, or try --amplitude none; if it is curled, --arcs N follows it";
+               "side with --direction " +
+               number(std::round(degrees(found.thin_direction))) +
+               ", or try --amplitude none; if it is curled, --arcs N follows it";
     if (residual > far_off)
         return "its surface is " + number(residual) +
                " radii (rms) from the base cylinder, where a cylinder has 0; cut it into longish parts and "

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <vector>
 
 namespace goffer::fit {
@@ -89,8 +90,12 @@ std::vector<Shell> shells_of(const Geometry& geometry, const Straightening& stra
     return result;
 }
 
-/// Larger over smaller spread of the sections, each about its own middle.
-double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straightening& straightening) {
+/// The spread of the sections, each about its own middle.
+struct Spread {
+    double larger_over_smaller, smaller_direction;
+};
+
+Spread spread_of(const Geometry& geometry, const Cylinder& cylinder, const Straightening& straightening) {
     constexpr std::size_t samples = 8192, slices = 24;
     std::vector<std::uint32_t> triangles;
     const Body body = sampled_surface(body_of(geometry), samples, triangles);
@@ -117,8 +122,9 @@ double flatness(const Geometry& geometry, const Cylinder& cylinder, const Straig
         spread += section.squares - glm::outerProduct(section.sum, section.sum) / section.count;
     }
     const double middle = (spread[0][0] + spread[1][1]) / 2;
-    const double off = std::hypot((spread[0][0] - spread[1][1]) / 2, spread[0][1]);
-    return std::sqrt((middle + off) / std::max(middle - off, 1e-6 * middle));
+    const double x = (spread[0][0] - spread[1][1]) / 2, y = spread[0][1], off = std::hypot(x, y);
+    return {std::sqrt((middle + off) / std::max(middle - off, 1e-6 * middle)),
+            (std::atan2(y, x) + std::numbers::pi) / 2};
 }
 
 FoldShortage shortage_of(const Binding& binding, std::size_t region, const BindOptions& options, bool asked,
@@ -156,7 +162,9 @@ Suitability suitability_of(const Geometry& geometry, const Cylinder& cylinder) {
         ++found.side_by_side;
     }
     if (whole > 0) found.side_by_side_share = side_by_side / whole;
-    found.flatness = flatness(geometry, cylinder, straightening);
+    const Spread spread = spread_of(geometry, cylinder, straightening);
+    found.flatness = spread.larger_over_smaller;
+    found.thin_direction = spread.smaller_direction;
     return found;
 }
 
