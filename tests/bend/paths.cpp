@@ -330,6 +330,20 @@ TEST_CASE("the error is right, too, along curves with crowded control points tha
     CHECK(sum / trials < 1e-4);
 }
 
+TEST_CASE("a curve is as long as it is where its handles are collapsed") {
+    Random random(98);
+    const bend::Body body = body_of_regions(random, 2);
+    std::vector<bend::Pose> poses(2);
+    const Control control{{0, 0, 0}, {0, 0, 0}, {8, 0, 0}, {8, 0, 0}};
+    for (const float distance : {0.5f, 2.0f, 4.0f, 7.0f, 7.9f, 8.0f, 8.5f, 20.0f}) {
+        CAPTURE(distance);
+        const bend::PathFit fit = bend::poses_along_bezier(body, control, poses, {.distance = distance});
+        const glm::vec3 base = fit.transform * glm::vec4(glm::vec3(body.origin()), 1);
+        CHECK(glm::distance(base, {distance, 0, 0}) < 0.01f);
+        CHECK(fit.error < 1e-5f);
+    }
+}
+
 TEST_CASE("control points that are all but the same count as the same") {
     Random random(97);
     double turned = 0, off = 0;

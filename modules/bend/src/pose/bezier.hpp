@@ -107,7 +107,7 @@ public:
     /// It is zero if the curve is a single point, and at the tip of a cusp.
     [[nodiscard]] glm::dvec3 heading(double ahead) noexcept {
         const double t = at(gone_ + ahead).t;
-        return t > 0 ? slope(t) : first_;
+        return t >= 1 ? onward_ : t > 0 ? slope(t) : first_;
     }
     /// Moves on by the length of a region. Returns the largest squared distance of its samples from the path,
     /// which is searched along the region and for about its length before and behind it.
@@ -126,7 +126,7 @@ private:
         return start_ + t * (linear_ + t * (square_ + t * cubic_));
     }
     [[nodiscard]] glm::dvec3 slope(double t) const noexcept {
-        return t >= 1 ? onward_ : linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
+        return linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
     [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterSamples& samples) const noexcept;
     /// Sets `feet` to where the samples of a region of `length` would be if it lay on the curve, from `from`
