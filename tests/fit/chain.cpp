@@ -336,8 +336,11 @@ TEST_CASE("chains: a ring gets none, nor does a wavy relief") {
                                       [&](glm::dvec3 p) { return ring.position(paper::to_cylindrical(p)); });
     CHECK_THROWS_AS((void)chain_of(closed), fit::AxisError);
     Solid wavy = test::cylinder({.rows = 200, .length = 30}, random);
+    Solid winding = wavy;
     for (glm::vec3& p : wavy.positions) p.x += 0.1f * std::sin(0.6f * p.z);
+    for (glm::vec3& p : winding.positions) p.x += 0.6f * std::sin(0.6f * p.z);
     CHECK(chain_of(wavy).arcs.empty());
+    CHECK(chain_of(winding).arcs.size() == 6);  // the halves of three waves: a clean tube
 }
 
 TEST_CASE("chains: bodies that are straight, or bent along one arc, get no chain") {

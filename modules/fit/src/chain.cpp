@@ -221,20 +221,21 @@ std::optional<ArcChain> fewest_arcs_through(const Body& cloud, const std::vector
     constexpr double better = 0.8, rough_enough = 0.04;
     std::optional<ArcChain> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const double noise : {1.5 * limits.tolerance, limits.tolerance}) {
-        std::optional<ArcChain> chain = chain_through(cloud, points, limits, 0, noise);
+    const auto takes = [&](std::optional<ArcChain> chain, double share) {
         const double rough = chain ? roughness(cloud, view_about(cloud, *chain)) : least;
-        if (!(rough < better * least)) continue;
+        if (!(rough < share * least)) return false;
         least = rough;
         best = std::move(chain);
-    }
-    while (best && least > rough_enough * limits.radius && best->arcs().size() < max_arcs) {
-        std::optional<ArcChain> more =
-            chain_through(cloud, points, limits, best->arcs().size() + 1, limits.tolerance);
-        const double rough = more ? roughness(cloud, view_about(cloud, *more)) : least;
-        if (!(rough < clearly_better * least)) break;
-        least = rough;
-        best = std::move(more);
+        return true;
+    };
+    for (const double noise : {1.5 * limits.tolerance, limits.tolerance})
+        takes(chain_through(cloud, points, limits, 0, noise), better);
+    const auto takes_one_more = [&] {
+        const std::size_t arcs = best->arcs().size() + 1;
+        return arcs <= max_arcs &&
+               takes(chain_through(cloud, points, limits, arcs, limits.tolerance), clearly_better);
+    };
+    while (best && least > rough_enough * limits.radius && takes_one_more()) {
     }
     return best;
 }

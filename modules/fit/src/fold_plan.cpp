@@ -113,9 +113,8 @@ double fold_length_at(const Cylinder& cylinder, Profile profile, std::optional<d
 
 FoldPlan plan_folds(const Cylinder& cylinder, const Rows& rows, const BindOptions& options, double start,
                     double length, std::optional<int> asked) {
-    const std::size_t knots = options.wrinkle_range.whole()
-                                  ? knots_along(length, cylinder.radius)
-                                  : knots_along(length, cylinder.radius, slice_knots);
+    const std::size_t least = options.wrinkle_range.whole() ? fewest_knots : slice_knots;
+    const std::size_t knots = knots_along(length, cylinder.radius, least);
     const std::vector<double> radii = radii_at(cylinder, start, length, knots);
     const std::optional<double> said = asked ? std::nullopt : options.fold_length;
     std::vector<double> wanted(knots);  // lengths of folds

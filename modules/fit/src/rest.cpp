@@ -174,7 +174,7 @@ std::vector<double> radii_at(const Cylinder& cylinder, double start, double leng
 
 std::vector<double> radii_of(const Cylinder& cylinder, double start, double length) {
     if (cylinder.radii.empty() || (start == 0 && length == cylinder.length)) return cylinder.radii;
-    return radii_at(cylinder, start, length, knots_along(length, cylinder.radius));
+    return radii_at(cylinder, start, length, knots_along(length, cylinder.radius, fewest_knots));
 }
 
 double radius_of(const Cylinder& cylinder, double start, double length) {

@@ -46,11 +46,11 @@ void join_folds(std::vector<RestRegion>& regions, double radius, double onset);
 /// Returns the regions that `binding` was made with.
 [[nodiscard]] std::vector<RestRegion> rest_regions(const Binding& binding);
 
-/// Knots that the weights of slices need.
-inline constexpr std::size_t slice_knots = 49;
+/// Knots that a shape has, and that the weights of slices need.
+inline constexpr std::size_t fewest_knots = 5, slice_knots = 49;
 
 /// Returns how many knots a stretch has that lie a quarter of the radius apart, if these are `least` or more.
-[[nodiscard]] std::size_t knots_along(double length, double radius, std::size_t least = 5);
+[[nodiscard]] std::size_t knots_along(double length, double radius, std::size_t least);
 
 /// Returns the shape of a region with its wrinkles times `factors`, control values at equal steps. `radius`:
 /// of the base.

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace goffer::bend {
 
@@ -129,9 +130,11 @@ private:
         return linear_ + t * (2.0 * square_ + 3.0 * t * cubic_);
     }
     [[nodiscard]] BezierStretch stretch_to(const Place& to, const CenterSamples& samples) const noexcept;
-    /// Sets `feet` to where the samples of a region of `length` would be if it lay on the curve, from `from`
-    /// to `to`.
-    void look_up(const Place& from, const Place& to, double length, Float4* feet) noexcept;
+    /// The parameter from the current place to `to`.
+    [[nodiscard]] double span_to(const Place& to) const noexcept { return std::max(to.t - here_.t, 1e-30); }
+    /// Sets `feet` to where the samples of a region of `length` would be if it lay on the curve, from the
+    /// current place to `to`.
+    void look_up(const Place& to, double length, Float4* feet) noexcept;
 
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
@@ -158,6 +161,9 @@ inline Bezier::Bezier(const glm::vec3 (&control)[4], double start) noexcept : go
     first_ = apart(a, b) ? b - a : apart(a, c) ? c - a : d - a;
     onward_ = 3.0 * (apart(d, c) ? d - c : apart(d, b) ? d - b : d - a);
     measure();
+    // Beyond the end a parameter that ran far faster than on the curve would leave the range of its powers.
+    const double slowest = 1e-3 * before_[pieces], speed = glm::length(onward_);
+    if (speed > 0 && speed < slowest) onward_ *= slowest / speed;
     here_ = at(start);
 }
 
@@ -174,9 +180,6 @@ inline void Bezier::measure() noexcept {
         const double mean = (at[0] + 4 * at[1] + at[2]) / 6;
         before_[i + 1] = before_[i] + mean / pieces;
     }
-    // Beyond the end a parameter that ran far faster than on the curve would leave the range of its powers.
-    const double whole = before_[pieces], slowest = 1e-3 * whole, end = glm::length(onward_);
-    if (end > 0 && end < slowest) onward_ *= slowest / end;
     // Where control points coincide the speed is 0: at() limits paces to far less than this.
     const double least = std::max(1e-12 * before_[pieces], min_square);
     for (std::size_t i = 0; i < std::size(pace_); ++i) pace_[i] = 1 / std::max(speed[2 * i], least);
@@ -201,7 +204,7 @@ inline Bezier::Place Bezier::at(double length) noexcept {
 }
 
 inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& samples) const noexcept {
-    const double span = std::max(to.t - here_.t, 1e-30), per_span = 1 / span, unit = 1 / samples.length;
+    const double span = span_to(to), per_span = 1 / span, unit = 1 / samples.length;
     const double t = std::min(here_.t, 1.0), left = std::max(1 - here_.t, 0.0) * per_span;
     // The line is searched from two regions behind its current place on.
     const double behind = std::max(here_.t - 1 - 2 * span, 0.0);
@@ -227,12 +230,12 @@ inline BezierStretch Bezier::stretch_to(const Place& to, const CenterSamples& sa
     return stretch;
 }
 
-inline void Bezier::look_up(const Place& from, const Place& to, double length, Float4* feet) noexcept {
+inline void Bezier::look_up(const Place& to, double length, Float4* feet) noexcept {
     constexpr int count = CenterSamples::count;
-    const double per_span = 1 / std::max(to.t - from.t, 1e-30);
+    const double per_span = 1 / span_to(to);
     float places[count];
     for (int i = 0; i < count; ++i)
-        places[i] = static_cast<float>((at(gone_ + length * (i + 1) / count).t - from.t) * per_span);
+        places[i] = static_cast<float>((at(gone_ + length * (i + 1) / count).t - here_.t) * per_span);
     for (int i = 0; i < CenterSamples::fours; ++i) feet[i] = simd::load4(places + std::ptrdiff_t{4} * i);
 }
 
@@ -241,7 +244,7 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
     // Steps this small end the search: the error that remains is about their square.
     constexpr float near = 0.004f;
     constexpr int fours = CenterSamples::fours;
-    const Place from = here_, to = at(gone_ + samples.length);
+    const Place to = at(gone_ + samples.length);
     const BezierStretch stretch = stretch_to(to, samples);
     Vec3x4 seen[fours];
     Float4 feet[fours], squares[fours], nearest[fours];
@@ -253,9 +256,9 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
     }
     // Where the curve all but stands still, guesses are too rough, and a search may end at that place.
     bool settled = false;
-    bool looks_up = std::max(stretch.begin_pace, stretch.end_pace) >= BezierStretch::most_pace;
-    for (int attempt = looks_up ? 1 : 0; attempt < 2 && !settled; ++attempt, looks_up = true) {
-        if (looks_up) look_up(from, to, samples.length, feet);
+    bool guesses = std::max(stretch.begin_pace, stretch.end_pace) < BezierStretch::most_pace;
+    for (bool again = true; again && !settled; again = std::exchange(guesses, false)) {
+        if (!guesses) look_up(to, samples.length, feet);
         Float4 moved = splat(1);
         for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
             moved = splat(0);

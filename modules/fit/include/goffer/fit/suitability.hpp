@@ -27,7 +27,8 @@ struct Suitability {
     /// The spread of the sections along the direction in which they spread most, over that across: 1 for
     /// round ones. Each section is taken about its own middle, so that a body may wind.
     double flatness = 1;
-    double thin_direction = 0;  ///< that across, in radians about the axis, 0..pi; of round ones it may be any
+    /// The direction across that, in radians about the axis, 0..pi. That of a round body may be any.
+    double thin_direction = 0;
 };
 
 /// Returns the shape of a body about `cylinder`, in its straightened coordinates. Throws Error as
