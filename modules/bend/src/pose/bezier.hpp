@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 namespace goffer::bend {
 
@@ -139,6 +138,7 @@ private:
     glm::dvec3 start_, linear_, square_, cubic_;
     glm::dvec3 first_;           // direction at the start
     glm::dvec3 onward_;          // slope beyond the end; 0 if the curve is a single point
+    double onward_pace_ = 0;     // the pace there
     double before_[pieces + 1];  // length of the curve up to the beginning of each piece, and of all of it
     double pace_[pieces + 1];    // the pace there
     int piece_ = 0;              // found last by at()
@@ -162,8 +162,11 @@ inline Bezier::Bezier(const glm::vec3 (&control)[4], double start) noexcept : go
     onward_ = 3.0 * (apart(d, c) ? d - c : apart(d, b) ? d - b : d - a);
     measure();
     // Beyond the end a parameter that ran far faster than on the curve would leave the range of its powers.
-    const double slowest = 1e-3 * before_[pieces], speed = glm::length(onward_);
-    if (speed > 0 && speed < slowest) onward_ *= slowest / speed;
+    const double own = glm::length(onward_), speed = own > 0 ? std::max(own, 1e-3 * before_[pieces]) : 0;
+    if (speed > 0) {
+        onward_ *= speed / own;
+        onward_pace_ = 1 / speed;
+    }
     here_ = at(start);
 }
 
@@ -189,8 +192,7 @@ inline void Bezier::measure() noexcept {
 /// Paces are limited so that the cubic increases for sure.
 inline Bezier::Place Bezier::at(double length) noexcept {
     if (length >= before_[pieces]) {
-        const double speed = glm::length(onward_), pace = speed > 0 ? 1 / speed : 0;
-        return {1 + (length - before_[pieces]) * pace, pace};
+        return {1 + (length - before_[pieces]) * onward_pace_, onward_pace_};
     }
     while (before_[piece_ + 1] < length) ++piece_;
     while (before_[piece_] > length) --piece_;
@@ -256,9 +258,9 @@ inline double Bezier::advance(const CenterSamples& samples) noexcept {
     }
     // Where the curve all but stands still, guesses are too rough, and a search may end at that place.
     bool settled = false;
-    bool guesses = std::max(stretch.begin_pace, stretch.end_pace) < BezierStretch::most_pace;
-    for (bool again = true; again && !settled; again = std::exchange(guesses, false)) {
-        if (!guesses) look_up(to, samples.length, feet);
+    bool looks_up = std::max(stretch.begin_pace, stretch.end_pace) >= BezierStretch::most_pace;
+    for (int attempt = looks_up ? 1 : 0; attempt < 2 && !settled; ++attempt, looks_up = true) {
+        if (looks_up) look_up(to, samples.length, feet);
         Float4 moved = splat(1);
         for (int step = 0; step < max_steps && largest(moved) > near; ++step) {
             moved = splat(0);
